@@ -139,6 +139,17 @@ class RowDay:
             return 0.0
         return self.foot.value if self.foot else None
 
+    @property
+    def bands(self) -> Mapping[str, Band]:
+        """Forces of net and members by their names; empty without any."""
+        if not self.foot or not self.head:
+            return {}
+        return {"net foot": self.foot, "net head": self.head, **self.member_forces}
+
+    def reopen(self) -> RowDay:
+        """The day before it was solved, with the layers that its solve had."""
+        return replace(self, ending="open", foot=None, head=None, member_forces={})
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DaySolver:

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.edge import progress as progress_module
 from netdesign.edge.progress import Phase, RunProgress, show_phases

@@ -15,6 +15,7 @@ from netdesign.winter.fit import FitTask, fit_season, list_swings
 from netdesign.winter.fit_parameters import (
     PARAMETER_NAMES,
     PRIOR_DEVIATIONS,
+    list_parameters,
     vary_day,
     vary_row,
 )
@@ -57,8 +58,9 @@ def solve_truth(task, truth):
     row = vary_row(task.row, truth)
     days = [vary_day(day, task.row, truth) for day in task.days.values()]
     return {
-        day.index: {member: day.member_forces[member].value for member in MEMBERS}
+        day.index: {name: day.member_forces[name].value for name in MEMBERS}
         for day in replace(task.solver, row=row).solve(days)
+        if day.ending == "solved"
     }
 
 
@@ -92,11 +94,16 @@ def name_design(task):
 
 
 def draw_truth(task, rng):
-    """Parameters by their priors, none beyond two deviations."""
-    return {
-        name: mean + PRIOR_DEVIATIONS[name] * float(np.clip(rng.normal(), -1.99, 1.99))
-        for name, mean in name_design(task).items()
-    }
+    """Parameters by the priors of the fit: drawn again where they leave its ends."""
+    thickest = max(day.thickness for day in task.days.values())
+    truth = {}
+    for one in list_parameters(task.row, task.known, thickest):
+        low, high = one.ends
+        value = math.nan
+        while not low <= value <= high:
+            value = one.mean + one.deviation * float(rng.normal())
+        truth[one.name] = value
+    return truth
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -169,14 +176,17 @@ def stand_in(task):
     return replace(task, solver=solver)
 
 
-def fit_seeds(task, places, count):
+def fit_seeds(task, places, count, first=7000):
     """Fits of so many seasons: truth by the priors, noise by its covariance.
 
-    Yields of each the fit, and the true force of each member on the governing day.
+    Yields of each the fit, and the true force of each member on the governing day. A
+    truth that the chain has no forces for is drawn again: no season has it.
     """
-    for seed in range(count):
-        rng = np.random.default_rng(7000 + seed)
-        forces = solve_truth(task, draw_truth(task, rng))
+    for seed in range(first, first + count):
+        rng = np.random.default_rng(seed)
+        forces = {}
+        while any(len(forces.get(k, ())) < len(MEMBERS) for k in task.days):
+            forces = solve_truth(task, draw_truth(task, rng))
         exact = read_forces(task, forces, places)
         noise = build_covariance(exact.readings, task.noise, list_swings(task))
         errors = rng.multivariate_normal(np.zeros(len(exact.readings)), noise)
@@ -184,13 +194,12 @@ def fit_seeds(task, places, count):
         yield fitted, forces[GOVERNING]
 
 
-def count_inside(task, places, count):
-    """Seasons fitted, and of these those whose foot's force is inside its band."""
-    fitted = inside = 0
-    for fit, truth in fit_seeds(task, places, count):
-        if not fit.is_fitted:
-            continue
-        (force,) = (one for one in fit.forces if one.member == "foot_anchor")
-        fitted += 1
-        inside += force.after.low <= truth["foot_anchor"] <= force.after.high
-    return fitted, inside
+def measure_errors(task, places, count, first=7000):
+    """Error of the foot's force in each season that was fitted, by its deviation."""
+    found = []
+    for fit, truth in fit_seeds(task, places, count, first):
+        if fit.is_fitted:
+            (force,) = (one for one in fit.forces if one.member == "foot_anchor")
+            away = math.log(truth["foot_anchor"] / force.after.value)
+            found.append(away / force.deviation_after)
+    return np.array(found)

@@ -17,7 +17,7 @@ from netdesign.winter.fit_readings import Noise
 from netdesign.winter.gauss_newton import FAR
 from tests.winter.made_up_readings import (
     a_task,
-    count_inside,
+    measure_errors,
     name_design,
     read_forces,
     solve_truth,
@@ -27,6 +27,7 @@ from tests.winter.made_up_readings import (
 SPRING = (139, 146, 153, 161, 169)
 SEASON = (90, 100, 113, 127, 161)
 WINTER = (92, 99, 106, 113, 120, 127, 134, 141, 148, 155, 162, 169, 176)
+NINETY = 1.6449  # deviations within which 90 % of a normal distribution lie
 SURVEYED = ("height_factor", "slack", "friction_angle")
 
 
@@ -95,24 +96,35 @@ def replaced():
     return stand_in(a_task(SPRING, layered=False, noise=Noise()))
 
 
+def hold_as_often_as_they_say(errors):
+    """Errors over their deviations are those of a normal distribution.
+
+    Of 200 the share has a standard error of 2 %, the root mean square one of 5 %.
+    """
+    assert errors.size >= 185
+    assert 0.85 <= np.mean(np.abs(errors) <= NINETY) <= 0.95
+    assert 0.85 <= math.sqrt(np.mean(errors**2)) <= 1.15
+
+
 def test_bands_hold_the_force_as_often_as_they_say(replaced):
     """200 seasons of a stand-in for the chain: truth by the priors, default noise.
 
     The stand-in has the chain's own forces as designed and one deviation of the prior
     to each side, of each parameter for itself. The chain itself is below, slow.
     """
-    fitted, inside = count_inside(replaced, SPRING, 200)
-    assert fitted >= 190
-    assert 0.85 <= inside / fitted <= 0.95
+    hold_as_often_as_they_say(measure_errors(replaced, SPRING, 200))
 
 
 @pytest.mark.slow
 def test_bands_of_the_chain_itself_hold_the_force_as_often_as_they_say():
-    """200 seasons by full solves; ``pytest -m slow tests/winter/test_fit.py``."""
+    """200 seasons by full solves: ``pytest -m slow -k of_the_chain tests/winter``.
+
+    2 to 3 minutes of processor. Seen: 179 of 196 (91 %), error over deviation 0.96;
+    of 600 seasons of three ranges of seeds SIXHUNDRED. Fewer tell little: of the
+    first 77 fits, 75 hold.
+    """
     task = a_task(SPRING, layered=False, noise=Noise())
-    fitted, inside = count_inside(task, SPRING, 200)
-    assert fitted >= 180
-    assert 0.85 <= inside / fitted <= 0.95
+    hold_as_often_as_they_say(measure_errors(task, SPRING, 200))
 
 
 def test_the_force_is_known_and_its_parameters_are_not(replaced):
