@@ -48,7 +48,6 @@ COMMANDS = {
     "verify": "verify",
     "doctor": "doctor",
     "help": "--help",
-    "help of check": "check --help",
     "completion": "completion bash",
     "no command": "chek",
 }
