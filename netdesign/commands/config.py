@@ -59,15 +59,14 @@ class ConfiguredCommand(click.Command):
         return super().parse_args(ctx, args)
 
 
-def accept_variables(group: click.Group, above: str = "") -> None:
-    """Let every option of a group's commands be given as a variable of its name."""
-    for name, command in group.commands.items():
-        path = f"{above}{name}"
-        for param in command.params:
-            if isinstance(param, click.Option) and param.envvar is None:
-                param.envvar = _name_variables(path, param)
-        if isinstance(command, click.Group):
-            accept_variables(command, f"{path}_")
+def accept_variables(name: str, command: click.Command) -> None:
+    """Let every option of a command, and of those below, be a variable of its name."""
+    for param in command.params:
+        if isinstance(param, click.Option) and param.envvar is None:
+            param.envvar = _name_variables(name, param)
+    if isinstance(command, click.Group):
+        for below, one in command.commands.items():
+            accept_variables(f"{name}_{below}", one)
 
 
 def _name_variables(path: str, option: click.Option) -> list[str]:

@@ -49,7 +49,7 @@ class ToldContext(click.Context):
     def make_formatter(self) -> click.HelpFormatter:
         """Formatter of the help; that of click for English."""
         root = self.find_root().command
-        if not isinstance(root, click.Group):  # a command alone, without the program
+        if not isinstance(root, click.Group):  # one command by itself, as tests run it
             return super().make_formatter()
         told = load_help(find_language(root, sys.argv[1:]))
         if told is None:

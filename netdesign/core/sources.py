@@ -26,7 +26,7 @@ SWITCHED_OFF = "numpy"
 
 
 def read_switch() -> str:
-    """What the environment says of the core; nothing where it is silent."""
+    """Word of the environment on the core, in small letters; empty if there is none."""
     return os.environ.get(SWITCH, "").strip().lower()
 
 

@@ -24,7 +24,7 @@ from netdesign.core.arguments import (
     to_array,
     to_floats,
 )
-from netdesign.core.library import SINGULAR, find_core, require_sound
+from netdesign.core.library import SINGULAR, require_sound
 from netdesign.core.plan import Words
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.compiled_mesh import number_template, plan_template
@@ -323,28 +323,39 @@ def _describe_law(
     return law, (bulk, fluidity)
 
 
-def _describe_rules(problem: FlowProblem, lifts: Mask) -> RulesArgument:
+def _describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
     return RulesArgument(
         problem.friction,
         problem.net_contact == "one-sided",
         problem.ground_contact == "one-sided",
         problem.ground == "no-slip",
-        locate(lifts),
+        lifts,
     )
 
 
-def can_compile(problem: FlowProblem) -> bool:
-    """There is a core, and it has the problem's element."""
-    return find_core() is not None and problem.element == "velocity"
+class _Described(NamedTuple):
+    """A template as the core takes it."""
+
+    plan: Words
+    kept: tuple[np.ndarray[Any, Any], ...]  # C has their addresses
+    counts: tuple[int, int, int, int]  # of nodes, triangles, net, edges
+    numbers: tuple[int, ...]
+    lifts: int
 
 
 def prepare_flow(
-    problem: FlowProblem, material: Material, mesh: PlacedMesh, load: Floats
+    library: ctypes.PyDLL,
+    problem: FlowProblem,
+    material: Material,
+    mesh: PlacedMesh,
+    load: Floats,
 ) -> CompiledFlow | None:
-    """The core on a mesh; None where there is none, or the mesh is too large for it.
+    """The core on a mesh; None where the mesh is too large for it.
 
     Parameters
     ----------
+    library : PyDLL
+        The core.
     problem, material : FlowProblem, Material
         Creep, ground and friction.
     mesh : PlacedMesh
@@ -352,29 +363,36 @@ def prepare_flow(
     load : ndarray, shape (n_dofs,)
         Of gravity, node axes [rho g d^2].
     """
-    library = find_core()
-    plan = None if library is None else plan_template(library, mesh.template)
-    if library is None or plan is None:
+    described = _describe_template(library, mesh.template)
+    if described is None:
         return None
-    template, base = mesh.template, mesh.base
-    numbers, lifts = number_template(template), _may_lift(template)
+    base = mesh.base
     arrays = (mesh.gradients, mesh.weights, mesh.axes, base.weights, base.shape, load)
     kept = tuple(np.ascontiguousarray(one, dtype=np.float64) for one in arrays)
-    argument = MeshArgument(
-        *(mesh.nodes.shape[1], template.triangles.shape[1]),
-        *(template.net.size, len(numbers.edges)),
-        *locate_all(*numbers, *kept),
-    )
+    argument = MeshArgument(*described.counts, *described.numbers, *locate_all(*kept))
     law, more = _describe_law(problem, material, mesh.weights.shape)
     return CompiledFlow(
         library=library,
         mesh=mesh,
-        given=(argument, law, _describe_rules(problem, lifts)),
-        plan=plan,
-        kept=(*numbers, lifts, *kept, *more),  # C has their addresses
+        given=(argument, law, _describe_rules(problem, described.lifts)),
+        plan=described.plan,
+        kept=(*described.kept, *kept, *more),
     )
 
 
 @lru_cache(maxsize=256)
-def _may_lift(template: MeshTemplate) -> Mask:
-    return np.ascontiguousarray(may_lift(template))
+def _describe_template(
+    library: ctypes.PyDLL, template: MeshTemplate
+) -> _Described | None:
+    plan = plan_template(library, template)
+    if plan is None:
+        return None
+    numbers, lifts = number_template(template), np.ascontiguousarray(may_lift(template))
+    counts = (template.nodes.shape[1], len(numbers.triangles))
+    return _Described(
+        plan=plan,
+        kept=(*numbers, lifts),
+        counts=(*counts, numbers.net.size, len(numbers.edges)),
+        numbers=tuple(locate_all(*numbers)),
+        lifts=locate(lifts),
+    )

@@ -127,7 +127,6 @@ def number_template(template: MeshTemplate) -> Numbers:
     )
 
 
-@lru_cache(maxsize=256)
 def plan_template(library: ctypes.PyDLL, template: MeshTemplate) -> Words | None:
     """Plan of a template, of shape (n_words,); None where it is too large."""
     numbers = number_template(template)

@@ -6,16 +6,18 @@ snow/THEORY.md, sections 2 and 5.
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import reduce
+from functools import lru_cache, reduce
 from operator import add
 from typing import NamedTuple
 
 import numpy as np
 
+from netdesign.core.library import find_core
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.snow.compiled import CompiledFlow, can_compile, prepare_flow
+from netdesign.snow.compiled import CompiledFlow, prepare_flow
 from netdesign.snow.contact import (
     Contact,
     free_unknowns,
@@ -70,10 +72,19 @@ def compile_flow(problem: FlowProblem, mesh: PlacedMesh) -> CompiledFlow | None:
     mesh : PlacedMesh
         Mesh against the net's curve.
     """
-    if mesh.folded is not None or not can_compile(problem):
+    library = find_core()
+    if library is None or mesh.folded is not None or problem.element != "velocity":
         return None
+    return _compile(library, problem, mesh)
+
+
+@lru_cache(maxsize=2)  # a round asks for the same one again
+def _compile(
+    library: ctypes.PyDLL, problem: FlowProblem, mesh: PlacedMesh
+) -> CompiledFlow | None:
     material = sample_material(problem, mesh.template)
-    return prepare_flow(problem, material, mesh, _gravity_load(problem, material, mesh))
+    load = _gravity_load(problem, material, mesh)
+    return prepare_flow(library, problem, material, mesh, load)
 
 
 def take_step(
@@ -303,9 +314,8 @@ def _find_bearing(contact: Contact) -> Mask:
 
 def _gravity_load(problem: FlowProblem, material: Material, mesh: PlacedMesh) -> Floats:
     if isinstance(material.density, float):
-        load = mesh.to_node_axes(
-            np.outer(problem.gravity, mesh.load * material.density)
-        )
+        mass = mesh.load * material.density
+        load = mesh.to_node_axes(tuple(mass * one for one in problem.gravity))
     else:
         body_force = np.multiply.outer(np.array(problem.gravity), material.density)
         load = assemble_body_force(mesh, body_force)

@@ -272,7 +272,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
         are parabolas through their three nodes, all others are straight.
     """
     distance, height = template.nodes
-    follow = np.maximum(0.0, 1.0 - distance / min(NET_FOLLOWED, template.aspect))
+    follow = _follow(template)
     fractions = template.net_fractions
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])
@@ -281,6 +281,13 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
     placed[:, template.n_vertices :] = (placed[:, start] + placed[:, end]) / 2.0
     placed[:, template.net] = net_curve
     return placed
+
+
+@lru_cache(maxsize=256)
+def _follow(template: MeshTemplate) -> Floats:
+    """Share of the net's displacement that each node takes, shape (n_nodes,)."""
+    reach = min(NET_FOLLOWED, template.aspect)
+    return _frozen(np.maximum(0.0, 1.0 - template.nodes[0] / reach))
 
 
 def edge_triples(chain: Ints) -> tuple[Ints, Ints, Ints]:

@@ -17,7 +17,7 @@ import re
 import string
 import tomllib
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from types import MappingProxyType
 from typing import Any
@@ -29,6 +29,7 @@ from netdesign.words.numerals import set_marks, write_day
 
 _CLAUSE, _DATE, _ONE_OR_MANY = "clause", "date", "|"
 _GAP = re.compile(r"(\{[^{}]*\})")
+_TABLE = re.compile(r"^\[([\w-]+)", re.MULTILINE)  # first name in its heading
 _BEFORE_SIGN = re.compile(r" (?=[:;?!%»])|(?<=«) ")  # French sets these apart
 
 
@@ -86,17 +87,55 @@ class _Gaps(string.Formatter):
         return (one if is_one else many).replace("#", self.format_field(count, ""))
 
 
-@lru_cache(maxsize=len(LANGUAGES))
 def load_texts(language: Language) -> Mapping[str, str]:
     """All texts of a language by key."""
+    return _Texts(language)
+
+
+class _Texts(Mapping[str, str]):
+    """Texts of a language; a file is parsed when one of its tables is asked for."""
+
+    def __init__(self, language: Language) -> None:
+        self._language = language
+
+    def __getitem__(self, key: str) -> str:
+        return _load_table(self._language, key.partition(".")[0])[key]
+
+    def __iter__(self) -> Iterator[str]:
+        for table in _find_tables(self._language):
+            yield from _load_table(self._language, table)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+@lru_cache
+def _find_tables(language: Language) -> Mapping[str, tuple[str, ...]]:
+    """Contents of the files in which a table stands, by its first name."""
     folder = files(__package__) / language
-    texts: dict[str, str] = {}
+    found: dict[str, tuple[str, ...]] = {}
     for file in sorted(folder.iterdir(), key=lambda one: one.name):
-        for key, text in _list_texts(tomllib.loads(file.read_text(encoding="utf-8"))):
+        content = file.read_text(encoding="utf-8")
+        for table in dict.fromkeys(_TABLE.findall(content)):
+            found[table] = (*found.get(table, ()), content)
+    return MappingProxyType(found)
+
+
+@cache
+def _load_table(language: Language, table: str) -> Mapping[str, str]:
+    """Texts of one table by their whole keys."""
+    texts: dict[str, str] = {}
+    for content in _find_tables(language)[table]:
+        for key, text in _list_texts(_parse(content)[table], table):
             if key in texts:
                 raise ValueError(f"two texts have the key {key} in {language}")
             texts[key] = keep_together(text) if language == "fr" else text
     return MappingProxyType(texts)
+
+
+@cache
+def _parse(content: str) -> Mapping[str, Any]:
+    return MappingProxyType(tomllib.loads(content))
 
 
 def keep_together(text: str) -> str:
@@ -112,9 +151,9 @@ def _set_apart(joint: str) -> str:
     return re.sub(r" ?;", "\u00a0;", joint)
 
 
-def _list_texts(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:
+def _list_texts(table: Mapping[str, Any], above: str) -> Iterator[tuple[str, str]]:
     for name, value in table.items():
-        key = f"{above}.{name}" if above else name
+        key = f"{above}.{name}"
         if isinstance(value, str):
             yield key, value
         else:

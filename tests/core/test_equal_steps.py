@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.core.library import find_core
-from netdesign.snow import compiled, flow
+from netdesign.snow import flow, flow_step
 from netdesign.snow.contact import net_components
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import (
@@ -109,5 +109,5 @@ def test_a_mesh_that_is_too_large_for_the_core_is_solved_in_numpy(
 ):
     case = draw_case(0)
     expected = in_numpy(solve, *case)
-    monkeypatch.setattr(compiled, "plan_template", lambda *_: None)
+    monkeypatch.setattr(flow_step, "prepare_flow", lambda *_: None)
     np.testing.assert_array_equal(solve(*case).state.stress, expected.state.stress)
