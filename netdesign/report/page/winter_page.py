@@ -101,7 +101,7 @@ def _view_row(
         ),
         "summary": _tabulate_winters(row, words),
         "unproven": [
-            f"{one['name']}: {show_text(one['why'])}"
+            words("show.label", label=one["name"], text=show_text(one["why"]))
             for one in row["winters"]
             if not one["is_proven"]
         ],
@@ -118,7 +118,9 @@ def _view_row(
         "figures": [
             {
                 "svg": mark_safe(draw_winter(winter, air, words)),
-                "caption": f"{winter['name']}: {show_text(winter['why'])}",
+                "caption": words(
+                    "show.label", label=winter["name"], text=show_text(winter["why"])
+                ),
                 "failed": _list_failed(winter, words),
             }
             for winter in shown
@@ -295,7 +297,7 @@ def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
     return [
         words(
             "winter_page.failed_day",
-            day=", ".join(dates),
+            day=tuple(dates),
             outcome=words(f"day_outcome.{outcome}"),
             reason=show_text(reason or MISSING),
         )
