@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.snowpack.pack import DayPack
 from netdesign.checks.result import Band
+from netdesign.snowpack.pack import DayPack
 from netdesign.winter.day import DaySolver, RowDay
 from netdesign.winter.maxima import (
     AnnualMaximum,
@@ -68,8 +68,8 @@ class Season:
 
     @property
     def failed(self) -> tuple[RowDay, ...]:
-        """Days of the curve without a force, each with its reason."""
-        return tuple(day for day in self.curve if day.ending == "failed")
+        """Days of the curve without a force, failed or overtopped."""
+        return tuple(day for day in self.curve if day.pull is None)
 
     @property
     def high_days(self) -> int:

@@ -14,7 +14,7 @@ def test_the_doctor_names_versions_and_finds_the_program_sound(call):
     assert document["sound"] is True
     assert shown["netdesign"]["shows"] == __version__
     assert {"numpy", "OMP_NUM_THREADS", "BLAS", "solver"} <= set(shown)
-    assert shown["site workbook"]["shows"].endswith("7 net rows")
+    assert shown["site workbook"]["shows"].endswith("net rows: 7")
 
 
 @pytest.mark.parametrize("broken", ["_solve_small_scene", "_round_trip_example"])

@@ -161,7 +161,7 @@ def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
     lines = result.stderr.splitlines()
     assert re.fullmatch(
         r"search: \d+ solved, about \d+ to go; "
-        r"gap [\d.e+-]+ %, 1 rows open; about \d+ s left",
+        r"gap [\d.e+-]+ %, open rows: 1; about \d+ s left",
         lines[-2],
     )
     assert re.fullmatch(r"outputs: \d+ solved; about 0 s left", lines[-1])
