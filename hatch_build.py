@@ -14,14 +14,12 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-# No fused arithmetic, no freedom with sums: results are equal between processors.
-FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno")
 SHARED = ("-fPIC", "-shared", "-fvisibility=hidden")
 
 
-def find_compiler() -> str | None:
+def find_compiler(sources: Any) -> str | None:
     """``CC``, or the first compiler found; None where ``NETDESIGN_CORE=numpy``."""
-    if os.environ.get("NETDESIGN_CORE") == "numpy":
+    if sources.read_switch() == sources.SWITCHED_OFF:
         return None
     names = (os.environ.get("CC", ""), "cc", "gcc", "clang")
     return next((path for name in names if name and (path := shutil.which(name))), None)
@@ -46,7 +44,16 @@ def compile_core(
     version = f'-DND_VERSION="{sources.digest_sources()}"'
     made = library.with_suffix(".tmp")
     files = [str(sources.ROOM / name) for name in sources.SOURCES]
-    command = [compiler, *FLAGS, *SHARED, *more, version, *files, "-o", str(made)]
+    command = [
+        compiler,
+        *sources.FLAGS,
+        *SHARED,
+        *more,
+        version,
+        *files,
+        "-o",
+        str(made),
+    ]
     try:
         subprocess.run(
             [*command, "-lm"],
@@ -69,13 +76,14 @@ class CoreBuildHook(BuildHookInterface):  # type: ignore[type-arg]
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Compile; without a compiler, or where it fails, all works on NumPy."""
         root = Path(self.root)
-        library: Path = load_sources(root).LIBRARY
+        sources = load_sources(root)
+        library: Path = sources.LIBRARY
         is_editable = version == "editable"
         if is_editable:
             # of another text, or another machine; one in use is told by its digest
             with contextlib.suppress(OSError):
                 library.unlink(missing_ok=True)
-        compiler = find_compiler()
+        compiler = find_compiler(sources)
         if compiler is None:
             self.app.display_info("no C compiler: the program computes in NumPy")
             return

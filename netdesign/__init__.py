@@ -1,18 +1,18 @@
 """Checks the anchors of snow nets by a coupled snowpack-net calculation."""
 
 import os
-from importlib.metadata import version
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from netdesign.public import *
 
+    __version__: str
+
 # The linear problems are small: threads of the BLAS make them 3 to 10 times slower
 # (measured). Works if NumPy is not loaded yet; a value that is set already is kept.
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
-
-__version__ = version("netdesign")
 
 # Names for use from Python. ``public.py`` says where each one lives.
 __all__ = [
@@ -41,10 +41,20 @@ __all__ = [
     "solve_transient",
 ]
 
+
+@lru_cache
+def _read_version() -> str:
+    from importlib.metadata import version  # slow to import
+
+    return version("netdesign")
+
+
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
         """Public name, loaded when it is first asked for: help needs no solver."""
+        if name == "__version__":
+            return _read_version()
         if name not in __all__:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         from netdesign import public

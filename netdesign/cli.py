@@ -12,34 +12,17 @@ import sys
 from typing import TYPE_CHECKING, NoReturn
 
 import click
+from click.core import ParameterSource
 
-from netdesign import __version__
-from netdesign.commands.bench import bench
-from netdesign.commands.check import check
-from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, completion
-from netdesign.commands.config import (
-    ENVIRONMENT_PREFIX,
-    accept_variables,
-    require_known_variables,
-)
-from netdesign.commands.diff import diff
-from netdesign.commands.doctor import doctor
-from netdesign.commands.envelope import envelope
+from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell
+from netdesign.commands.config import ENVIRONMENT_PREFIX, require_known_variables
 from netdesign.commands.faults import tell_faults
-from netdesign.commands.glide import glide
-from netdesign.commands.init import init
+from netdesign.commands.help import ToldContext
 from netdesign.commands.language import find_language, tell
-from netdesign.commands.map import map_headings
-from netdesign.commands.paper import paper
-from netdesign.commands.report import report
+from netdesign.commands.options import language_option
 from netdesign.commands.running import EXIT_CODES, own_command
-from netdesign.commands.snowpack import snowpack
-from netdesign.commands.solve import solve
-from netdesign.commands.standards import standards
-from netdesign.commands.usage import ToldGroup, describe_refusal
-from netdesign.commands.validate import validate
-from netdesign.commands.verify import verify
-from netdesign.commands.winter import winter
+from netdesign.commands.table import CommandTable
+from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import guard_streams
@@ -59,6 +42,13 @@ if TYPE_CHECKING:
 _OBJECTS = 100_000
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
 
+_NAMES = (
+    *("bench", "check", "completion", "diff", "doctor", "envelope", "glide", "init"),
+    *("paper", "report", "snowpack", "solve", "standards", "validate", "verify"),
+    "winter",
+)
+_COMMANDS = CommandTable({**{name: name for name in _NAMES}, "map": "map_headings"})
+
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 5 internal error, 6 declared (nothing fails, but some checks rest on a declaration), \
 130 interrupted. A reader of the output who stops early changes \
@@ -67,12 +57,14 @@ none of them; a standard output that cannot be written to ends with 2."
 
 @click.group(
     cls=ToldGroup,
+    commands=_COMMANDS,
     epilog=_EPILOG,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-@click.version_option(__version__)
+@click.version_option(package_name="netdesign")
+@language_option("Of this help; behind a command, of what it tells and writes.")
 @click.pass_context
-def cli(context: click.Context) -> None:
+def cli(context: click.Context, language: Language) -> None:
     """Check the anchors of snow nets.
 
     \b
@@ -83,29 +75,14 @@ def cli(context: click.Context) -> None:
     netdesign diff old.json new.json   what changed between two studies
     """
     name = context.invoked_subcommand or ""
+    if context.get_parameter_source("language") is ParameterSource.COMMANDLINE:
+        # an option of all commands would be weaker than the variable of one of them
+        refused = say("usage.language_later", command=name, language=language)
+        raise UsageRefusal(refused, context)
     require_known_variables(name, cli.commands[name])
 
 
-cli.add_command(bench)
-cli.add_command(check)
-cli.add_command(completion)
-cli.add_command(diff)
-cli.add_command(doctor)
-cli.add_command(envelope)
-cli.add_command(glide)
-cli.add_command(init)
-cli.add_command(map_headings)
-cli.add_command(paper)
-cli.add_command(report)
-cli.add_command(snowpack)
-cli.add_command(solve)
-cli.add_command(standards)
-cli.add_command(validate)
-cli.add_command(verify)
-cli.add_command(winter)
-
-
-accept_variables(cli)
+cli.context_class = ToldContext  # its commands get theirs when they are imported
 
 
 def main() -> NoReturn:
@@ -133,6 +110,8 @@ def _run() -> NoReturn:
     if instruction := os.environ.get(COMPLETE_VARIABLE):
         sys.exit(answer_shell(cli, instruction))
     _unset_empty("SOURCE_DATE_EPOCH")
+    # nobody's plugin of pydantic belongs in a check; it would look for one for long
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
         # not cli.main(): click has exit codes of its own
         with cli.make_context(

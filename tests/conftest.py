@@ -26,6 +26,7 @@ from pathlib import Path  # noqa: E402
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
+from hypothesis import settings  # noqa: E402
 
 from netdesign import cli  # noqa: E402
 from netdesign.cable.net import Net  # noqa: E402
@@ -38,6 +39,10 @@ from netdesign.snow.law import FlowLayer, FlowProblem  # noqa: E402
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes  # noqa: E402
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh  # noqa: E402
 from netdesign.snow.snowpack import GravityMode, Snowpack  # noqa: E402
+
+# Drawn values are the same in every run, and a slow machine is no failure.
+settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
+settings.load_profile("fixed")
 
 ICE = 917.0  # [kg/m3]
 

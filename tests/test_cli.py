@@ -353,7 +353,7 @@ def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
 def test_dry_run_counts_and_writes_nothing(home, checked, tmp_path):
     result = run("check", home / "site.xlsx", "--dry-run", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
-    assert "net rows: 1, cases: 3" in result.stdout
+    assert "1 net rows, 3 cases" in result.stdout
     assert "nothing was written" in result.stdout
     assert listing(tmp_path) == set()
 
@@ -620,7 +620,7 @@ def test_init_example_reads_back_as_the_example(tmp_path):
     ]
     counted = run("check", "site.xlsx", "--dry-run", cwd=tmp_path)
     assert counted.returncode == 0
-    assert "site.xlsx: net rows: 7, cases: about 385" in counted.stdout
+    assert "site.xlsx: 7 net rows, about 385 cases" in counted.stdout
 
 
 def test_init_gives_a_form_that_is_refused_until_filled_in(tmp_path):

@@ -11,19 +11,34 @@ HEAVY = (
     *("jinja2", "pydantic", "rich"),
 )
 
+# Of a plain steady scene: 96 today, of more than 500.
+MOST_OWN_MODULES = 105
+
 PROBE = """
 import json, sys
 from netdesign.cli import main
 try:
     main()
 finally:
-    tops = sorted({name.split(".")[0] for name in sys.modules})
-    print(json.dumps(tops), file=sys.stderr)
+    print(json.dumps(sorted(sys.modules)), file=sys.stderr)
 """
 
 
-def imported(*arguments, cwd):
-    """Top-level packages that are loaded when the program ends."""
+SCENE = """
+[slope]
+angle_deg = 37.3
+[snow]
+thickness_m = 2.9
+upslope_length_m = 11.7
+density_kg_m3 = 321.9
+[net]
+stiffness_kN_per_m = 17600
+friction_deg = 28.4
+"""
+
+
+def imported(*arguments, cwd, whole=False):
+    """Top-level packages that are loaded when the program ends; or whole names."""
     result = subprocess.run(
         [sys.executable, "-c", PROBE, *arguments],
         cwd=cwd,
@@ -32,7 +47,8 @@ def imported(*arguments, cwd):
         check=False,
     )
     assert result.returncode == 0, result.stderr
-    return set(json.loads(result.stderr.splitlines()[-1]))
+    names = json.loads(result.stderr.splitlines()[-1])
+    return set(names) if whole else {name.split(".")[0] for name in names}
 
 
 @pytest.mark.parametrize(
@@ -58,6 +74,22 @@ def test_help_imports_nothing_heavy(tmp_path, arguments):
 
 def test_the_probe_sees_what_is_imported(tmp_path):
     assert "pydantic" in imported("standards", "list", cwd=tmp_path)
+
+
+def test_a_plain_steady_scene_needs_little_beside_its_solver(tmp_path):
+    """Each of these takes longer to import than the scene to solve."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE, encoding="utf-8")
+    modules = imported("solve", str(scene), cwd=tmp_path, whole=True)
+    unused = {"skfem", "rich", "jinja2", "openpyxl", "sqlite3", "multiprocessing"}
+    rooms = ("commands.check", "checks", "envelope", "report", "search", "site")
+    unused |= {
+        f"netdesign.{room}" for room in (*rooms, "study", "coupling.history.run")
+    }
+    assert "netdesign.coupling.steady.solve" in modules
+    assert not modules & unused
+    own = [name for name in modules if name.startswith("netdesign")]
+    assert len(own) <= MOST_OWN_MODULES
 
 
 def test_profiles_are_listed_without_a_solver(tmp_path):

@@ -1,21 +1,27 @@
-"""``netdesign bench``: run time against error, stability, honesty, envelopes.
-
-It speaks English only: it is for whoever develops or examines the program.
-"""
+"""``netdesign bench``: run time against error, stability, honesty, envelopes."""
 
 from __future__ import annotations
 
 import json
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.options import accuracy_option, jobs_option, json_option
+from netdesign.commands.options import (
+    accuracy_option,
+    jobs_option,
+    json_option,
+    language_option,
+)
+from netdesign.commands.usage import UsageRefusal
+from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from netdesign.evidence.benchmark.rows import Row
     from netdesign.study.records import Study
@@ -23,7 +29,25 @@ if TYPE_CHECKING:
 Kind = Literal["stress", "errors", "lines"]
 
 _EXIT_FAIL = 1
-_REACHED = {True: "reached", False: "NOT reached"}
+
+
+@dataclass(frozen=True, slots=True)
+class _Telling:
+    """Form of a result: a table in a language, or JSON."""
+
+    language: Language
+    as_json: bool
+
+    def tell(self, document: dict[str, Any], show: Callable[..., None]) -> None:
+        """Print a document, or what a function shows of it."""
+        if self.as_json:
+            click.echo(json.dumps(document, indent=1, allow_nan=False))
+            return
+        from rich.console import Console
+
+        from netdesign.report.words import Words
+
+        show(document, Console(), Words(self.language))
 
 
 @click.command()
@@ -56,6 +80,12 @@ _REACHED = {True: "reached", False: "NOT reached"}
     help="Measure what a panel adds to the searches of the example's rows instead.",
 )
 @click.option(
+    "--against",
+    type=click.Path(path_type=Path),
+    metavar="WHEEL_OR_VENV",
+    help="Time this version beside another one instead: both in turns, in one run.",
+)
+@click.option(
     "--missed",
     type=click.IntRange(1),
     default=5,
@@ -81,6 +111,7 @@ _REACHED = {True: "reached", False: "NOT reached"}
 )
 @click.option("--force", is_flag=True, help="Overwrite an existing plot.")
 @json_option("result")
+@language_option()
 def bench(
     *,
     stress: int | None,
@@ -88,6 +119,7 @@ def bench(
     lines: int | None,
     envelope: bool,
     panel: bool,
+    against: Path | None,
     missed: int,
     seed: int,
     accuracy: float,
@@ -97,6 +129,7 @@ def bench(
     plot: Path | None,
     force: bool,
     as_json: bool,
+    language: Language,
 ) -> None:
     """Measure the program itself: run time against error, stability, honesty.
 
@@ -108,32 +141,45 @@ def bench(
     netdesign bench --envelope --json
     netdesign bench --envelope --missed 200
     netdesign bench --panel
+    netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
-    random: dict[Kind, int | None] = {
-        "stress": stress,
-        "errors": errors,
-        "lines": lines,
+    wanted = {
+        "--stress": stress,
+        "--errors": errors,
+        "--lines": lines,
+        "--envelope": envelope or None,
+        "--panel": panel or None,
+        "--against": against,
     }
-    wanted = {kind: count for kind, count in random.items() if count is not None}
-    if len(wanted) + envelope + panel > 1:
-        kinds = "--stress, --errors, --lines, --envelope, --panel"
-        raise click.UsageError(f"give one of {kinds}")
-    if (wanted or envelope or panel) and (scenes or plot):
-        raise click.UsageError("--scenes and --plot are for named scenes only")
-    if wanted and quick:
-        raise click.UsageError("--quick: not with random scenes")
-    for kind, count in wanted.items():
-        sys.exit(_run_random(kind, count, seed, accuracy, jobs, as_json=as_json))
+    given = [name for name, value in wanted.items() if value is not None]
+    _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
+    telling = _Telling(language, as_json)
+    kinds: dict[Kind, int | None] = {"stress": stress, "errors": errors, "lines": lines}
+    for kind, count in kinds.items():
+        if count is not None:
+            sys.exit(_run_random(kind, count, seed, accuracy, jobs, telling))
     if envelope:
-        sys.exit(_run_envelope(missed, quick=quick, as_json=as_json))
+        sys.exit(_run_envelope(missed, telling, quick=quick))
     if panel:
-        sys.exit(_run_panel(quick=quick, as_json=as_json))
+        sys.exit(_run_panel(telling, quick=quick))
+    if against is not None:
+        sys.exit(_run_against(against, telling, quick=quick))
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
-    _run_named(names, plot, quick=quick, force=force, as_json=as_json)
+    _run_named(names, plot, telling, quick=quick, force=force)
+
+
+def _refuse_mixtures(given: Sequence[str], *, quick: bool, named: bool) -> None:
+    """Refuse options that do not go together."""
+    if len(given) > 1:
+        raise UsageRefusal(say("bench.one_of", given=tuple(given)))
+    if given and named:
+        raise UsageRefusal(say("bench.named_only"))
+    if quick and set(given) & {"--stress", "--errors", "--lines"}:
+        raise UsageRefusal(say("bench.not_quick"))
 
 
 def _run_random(
-    kind: Kind, count: int, seed: int, accuracy: float, jobs: int, *, as_json: bool
+    kind: Kind, count: int, seed: int, accuracy: float, jobs: int, telling: _Telling
 ) -> int:
     """Exit code of a run over random scenes."""
     from netdesign.edge.progress import show_progress
@@ -153,93 +199,106 @@ def _run_random(
     }
     study, write, show = known[kind]
     what = "lines" if kind == "lines" else "scenes"
-    with show_progress(count, what, quiet=False) as on_done:
+    shown = telling.language
+    with show_progress(count, what, quiet=False, language=shown) as on_done:
         found = study(count, seed, accuracy=accuracy, jobs=jobs, on_done=on_done)
-        document = write(found, seed, accuracy)
-    if as_json:
-        _print_json(document)
-    else:
-        from rich.console import Console
-
-        show(document, Console())
+    language: Language = "en" if telling.as_json else shown
+    document = write(found, seed, accuracy, language)
+    telling.tell(document, show)
     return 0 if document["pass"] else _EXIT_FAIL
 
 
-def _run_envelope(missed: int, *, quick: bool, as_json: bool) -> int:
+def _run_envelope(missed: int, telling: _Telling, *, quick: bool) -> int:
     """Exit code: a quick look reaches nothing and so fails at nothing."""
     from netdesign.evidence.benchmark.envelope import (
         QUICK,
         BenchSize,
         run_envelope_bench,
     )
+    from netdesign.evidence.benchmark.figure_table import print_figure
     from netdesign.report.files import render_files
+    from netdesign.report.words import Words
 
     def render(study: Study) -> object:
         files = ("study.json", "report.html", "report.xlsx")
         return render_files([study], [[Path(name) for name in files]])
 
+    def show(row: dict[str, Any]) -> None:
+        if not telling.as_json:
+            print_figure(row, click.echo, Words(telling.language))
+
     size = QUICK if quick else BenchSize(missed_scenes=missed)
-    show = _ignore if as_json else _show_row
     document = run_envelope_bench(render, size, show)
-    if as_json:
-        _print_json(document)
+    if telling.as_json:
+        telling.tell(document, show)
     return 0 if quick or document["pass"] else _EXIT_FAIL
 
 
-def _run_panel(*, quick: bool, as_json: bool) -> int:
+def _run_panel(telling: _Telling, *, quick: bool) -> int:
     """Exit code: a quick look reaches nothing and so fails at nothing."""
+    from netdesign.evidence.benchmark.figure_table import print_figure
     from netdesign.evidence.benchmark.panel_cost import ROWS, measure_panel_cost
 
-    document = measure_panel_cost(repeats=1 if quick else 7, rows=1 if quick else ROWS)
-    if as_json:
-        _print_json(document)
-    else:
-        _show_row(document)
-    return 0 if quick or document["reached"] else _EXIT_FAIL
+    found = measure_panel_cost(repeats=1 if quick else 7, rows=1 if quick else ROWS)
+    telling.tell(
+        {**found, **{name: str(found[name]) for name in ("what", "reach")}},
+        lambda _, __, words: print_figure(found, click.echo, words),
+    )
+    return 0 if quick or found["reached"] else _EXIT_FAIL
 
 
-def _ignore(_: object) -> None:
-    """Wait for the whole document."""
+def _run_against(path: Path, telling: _Telling, *, quick: bool) -> int:
+    """Exit code: a quick look reaches nothing and so fails at nothing."""
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.benchmark.versions.compare import (
+        compare_versions,
+        count_runs,
+    )
+    from netdesign.evidence.benchmark.versions.measures import QUICK, Size
+    from netdesign.evidence.benchmark.versions.other import open_version, read_version
+    from netdesign.evidence.benchmark.versions.table import print_versions
 
-
-def _show_row(row: dict[str, Any]) -> None:
-    click.echo(f"{row['what']}\n  {row['reach']}: {_REACHED[row['reached']]}")
-    for name, value in row.items():
-        if name not in ("what", "reach", "reached"):
-            for one in value if isinstance(value, list) else [value]:
-                click.echo(f"  {name:20} {one}")
+    size, shown = QUICK if quick else Size(), telling.language
+    with open_version(path) as python:
+        read_version(python)  # refused before the first run
+        runs = count_runs(size)
+        with show_progress(runs, "runs", quiet=False, language=shown) as on_done:
+            document = compare_versions(python, size, on_done)
+    telling.tell(document, print_versions)
+    return 0 if quick or document["pass"] else _EXIT_FAIL
 
 
 def _run_named(
     names: tuple[str, ...],
     plot: Path | None,
+    telling: _Telling,
     *,
     quick: bool,
     force: bool,
-    as_json: bool,
 ) -> None:
+    from netdesign.commands.language import tell
     from netdesign.edge.output import require_free, write_files
+    from netdesign.evidence.benchmark.bench_table import print_rows
     from netdesign.evidence.benchmark.precision import write_bench
 
     if plot is not None:
         require_free([plot], overwrite=force)
-    rows = _measure(names, quick=quick)
+    rows = _measure(names, telling.language, quick=quick)
     if plot is not None:
         from netdesign.evidence.benchmark.bench_figure import draw_work_precision
+        from netdesign.report.words import Words
 
-        write_files({plot: draw_work_precision(rows).encode()}, overwrite=force)
-        click.echo(f"wrote {plot}", err=True)
-    if as_json:
-        _print_json(write_bench(rows))
-    else:
-        from rich.console import Console
-
-        from netdesign.evidence.benchmark.bench_table import print_rows
-
-        print_rows(rows, Console())
+        drawn = draw_work_precision(rows, Words(telling.language))
+        write_files({plot: drawn.encode()}, overwrite=force)
+        tell(say("cli.wrote", path=str(plot)), telling.language, err=True)
+    telling.tell(
+        write_bench(rows), lambda _, console, words: print_rows(rows, console, words)
+    )
 
 
-def _measure(names: tuple[str, ...], *, quick: bool) -> Sequence[Row]:
+def _measure(
+    names: tuple[str, ...], language: Language, *, quick: bool
+) -> Sequence[Row]:
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.benchmark.precision import (
         FULL,
@@ -251,7 +310,9 @@ def _measure(names: tuple[str, ...], *, quick: bool) -> Sequence[Row]:
 
     chosen = load_scenes(names)
     rows: list[Row] = []
-    with show_progress(len(chosen), "scenes", quiet=False) as on_done:
+    with show_progress(
+        len(chosen), "scenes", quiet=False, language=language
+    ) as on_done:
         for name, scene in chosen.items():
             rows += measure_steady(name, scene, QUICK if quick else FULL)
             if name in HISTORY_SCENES and not quick:
@@ -259,7 +320,3 @@ def _measure(names: tuple[str, ...], *, quick: bool) -> Sequence[Row]:
             if on_done is not None:
                 on_done(name)
     return rows
-
-
-def _print_json(document: dict[str, Any]) -> None:
-    click.echo(json.dumps(document, indent=1, allow_nan=False))

@@ -11,7 +11,8 @@ table for each command that reads it, with the long names of its options as keys
 
 An environment variable is named after the command and the option as it is typed:
 ``NETDESIGN_CHECK_STANDARD``. One that begins so and names no option is refused, as a
-key of the file is: a profile that was meant must not end as the default.
+key of the file is: a profile that was meant must not end as the default. The language
+alone has a variable for all commands, too: ``NETDESIGN_LANGUAGE``.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ from netdesign.words.message import Message, say
 
 CONFIG_NAME = "netdesign.toml"
 ENVIRONMENT_PREFIX = "NETDESIGN"
+LANGUAGE_VARIABLE = "NETDESIGN_LANGUAGE"
 
 
 class ConfiguredCommand(click.Command):
@@ -57,16 +59,21 @@ class ConfiguredCommand(click.Command):
         return super().parse_args(ctx, args)
 
 
-def accept_variables(group: click.Group) -> None:
-    """Let every option of a group's commands be given as a variable of its name."""
-    for name, command in group.commands.items():
-        for param in command.params:
-            if isinstance(param, click.Option) and param.envvar is None:
-                param.envvar = [
-                    _name_variable(name, opt)
-                    for opt in param.opts
-                    if opt.startswith("--")
-                ]
+def accept_variables(name: str, command: click.Command) -> None:
+    """Let every option of a command, and of those below, be a variable of its name."""
+    for param in command.params:
+        if isinstance(param, click.Option) and param.envvar is None:
+            param.envvar = _name_variables(name, param)
+    if isinstance(command, click.Group):
+        for below, one in command.commands.items():
+            accept_variables(f"{name}_{below}", one)
+
+
+def _name_variables(path: str, option: click.Option) -> list[str]:
+    """Variables of an option, the strongest first."""
+    names = [one for one in option.opts if one.startswith("--")]
+    of_all = [LANGUAGE_VARIABLE] if "--language" in names else []
+    return [*(_name_variable(path, one) for one in names), *of_all]
 
 
 def require_known_variables(name: str, command: click.Command) -> None:

@@ -96,12 +96,11 @@ def _list_threads() -> list[Probe]:
 def _run_tests() -> list[Probe]:
     tests: tuple[tuple[Message | str, Callable[[], Message | str]], ...] = (
         ("BLAS", _name_blas),
-        (say("doctor.core"), _name_core),
         (say("doctor.profiles"), _load_profiles),
         (say("doctor.workbook"), _round_trip_example),
         (say("doctor.solver"), _solve_small_scene),
     )
-    return [_try(what, test) for what, test in tests]
+    return [_look_at_core(), *(_try(what, test) for what, test in tests)]
 
 
 def _try(what: Message | str, test: Callable[[], Message | str]) -> Probe:
@@ -120,11 +119,19 @@ def _name_blas() -> str:
     return f"{blas.get('name', 'unknown')} {blas.get('version', '')}".strip()
 
 
-def _name_core() -> str:
-    """Core that solves here."""
-    from netdesign.core.library import name_core
+def _look_at_core() -> Probe:
+    """Core that solves here; why it is not the compiled one; a switch that is none."""
+    from netdesign.core.library import find_core, is_switched_off, name_core
+    from netdesign.core.sources import SWITCH, SWITCHED_OFF, read_switch
 
-    return name_core()
+    what, word = say("doctor.core"), read_switch()
+    if word not in ("", SWITCHED_OFF):
+        told = say("doctor.switch", name=SWITCH, word=word, off=SWITCHED_OFF)
+        return Probe(what=what, shows=told, is_sound=False)
+    if find_core() is not None:
+        return Probe(what=what, shows=name_core())
+    why = "doctor.switched_off" if is_switched_off() else "doctor.not_compiled"
+    return Probe(what=what, shows=say(why))
 
 
 def _load_profiles() -> str:

@@ -1,6 +1,8 @@
 """In which language a command speaks: decided here, also where it cannot be parsed.
 
-Option > environment variable > ``netdesign.toml`` > English, as all other options.
+Option > environment variable > ``netdesign.toml`` > English, as all other options. Of
+the variables, that of one command (``NETDESIGN_CHECK_LANGUAGE``) stands above that of
+all of them (``NETDESIGN_LANGUAGE``).
 """
 
 from __future__ import annotations
@@ -11,7 +13,11 @@ from itertools import zip_longest
 
 import click
 
-from netdesign.commands.config import ENVIRONMENT_PREFIX, read_default
+from netdesign.commands.config import (
+    ENVIRONMENT_PREFIX,
+    LANGUAGE_VARIABLE,
+    read_default,
+)
 from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import Message
 
@@ -21,7 +27,9 @@ _OPTION = "--language"
 def find_language(group: click.Group, words: Sequence[str]) -> Language:
     """Language of a command line; what is no language is refused elsewhere."""
     path, command = _find_command(group, words)
-    found = _find_option(words) or os.environ.get(_name_variable(path))
+    variables = (_name_variable(path), LANGUAGE_VARIABLE)
+    told = next(filter(None, map(os.environ.get, variables)), None)
+    found = _find_option(words) or told
     if not found and command is not None:
         found = read_default(group, command, list(words[len(path) :]), "language")
     return next((one for one in LANGUAGES if one == found), LANGUAGES[0])

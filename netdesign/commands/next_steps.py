@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from netdesign.words.catalogue import Language
 
 TUTORIAL = Path(__file__).resolve().parent.parent / "TUTORIAL.md"
-_COMPARE = "netdesign diff OLD/study.json NEW/study.json"
 
 
 def tell_next_steps(
@@ -42,5 +41,5 @@ def list_next_steps(
     told = [say("next.heading"), say("next.inputs")]
     told += [say("next.open")] if is_open else []
     told += [say("next.size", command=size)] if fails and not is_sized else []
-    told.append(say("next.again", command=_COMPARE))
+    told.append(say("next.again"))
     return [*told, say("next.more", file=str(TUTORIAL))]

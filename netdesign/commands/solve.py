@@ -202,11 +202,11 @@ def _describe_support(
     support: dict[str, Any] | None, language: Language
 ) -> Iterator[Message]:
     """Forces of both sets, ropes and row end, a line each."""
+    if support is None:
+        return
     from netdesign.report.view.solved_support import find_force
     from netdesign.structure.members import REPORTED_MEMBERS
 
-    if support is None:
-        return
     if "reason" in support:
         yield say("solve.support_lack", reason=support["reason"])
     for member in REPORTED_MEMBERS:

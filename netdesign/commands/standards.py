@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.group(cls=ToldGroup)
+@language_option("Of this help.", expose_value=False)
 def standards() -> None:
     """Show the limit profiles, and start one of your own.
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from netdesign.commands.help_texts import load_help
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -58,24 +59,34 @@ def _refuse_command(word: str, group: click.Group) -> Message:
 
 def describe_refusal(error: click.ClickException, language: Language) -> str:
     """Text of a refusal with the line on usage above it, as click has them."""
-    if language == "en":
+    if language == "en" or isinstance(error, click.exceptions.NoArgsIsHelpError):
         error.show(shown := io.StringIO())
         return shown.getvalue()
-    told = [say("usage.error", reason=explain_usage(error))]
+    reason = render(explain_usage(error), language)
+    if isinstance(error, click.MissingParameter):
+        reason = _tell_signs(reason, language)
+    told = [say("usage.error", reason=reason)]
     context = getattr(error, "ctx", None)
     if context is not None:
-        told = [*_describe_usage(context), *told]
+        told = [*_describe_usage(context, language), *told]
     return "".join(f"{render(one, language)}\n" for one in told)
 
 
-def _describe_usage(context: click.Context) -> list[Message]:
+def _describe_usage(context: click.Context, language: Language) -> list[Message]:
     command = context.command
-    pieces = [context.command_path, *command.collect_usage_pieces(context)]
-    lines = [say("usage.usage", line=" ".join(pieces))]
+    pieces = " ".join(command.collect_usage_pieces(context))
+    line = f"{context.command_path} {_tell_signs(pieces, language)}"
+    lines = [say("usage.usage", line=line)]
     if command.get_help_option(context) is not None:
         option = context.help_option_names[-1]
         lines.append(say("usage.try", command=context.command_path, option=option))
     return lines
+
+
+def _tell_signs(text: str, language: Language) -> str:
+    """Names of arguments as the help of the language has them."""
+    told = load_help(language)
+    return told.tell_signs(text) if told else text
 
 
 def explain_usage(error: click.ClickException) -> Message | str:

@@ -50,15 +50,31 @@ class StepArgument(ctypes.Structure):
     """``Step`` of element.h: where a step starts, and where its results go."""
 
     _fields_ = [
-        *((name, _POINTER) for name in ("stress", "shear", "before")),
+        *((name, _POINTER) for name in ("stress", "shear")),
         *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
         *((name, _POINTER) for name in ("unknowns", "reaction", "new_stress")),
-        *((name, _POINTER) for name in ("new_shear", "change")),
-        *(
-            (f"wanted_{name}", _POINTER)
-            for name in ("sign", "pressed", "open", "lifted")
-        ),
-        ("root", _POINTER),
+        *((name, _POINTER) for name in ("new_shear", "root")),
+    ]
+
+
+class StateArgument(ctypes.Structure):
+    """``State`` of flow.c: an iterate of the flow, start and end."""
+
+    _fields_ = [
+        ("numbers", _POINTER),
+        *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
+        ("slides", _INT),
+    ]
+
+
+class EffortArgument(ctypes.Structure):
+    """``Effort`` of flow.c: what is asked of a flow, and what it took."""
+
+    _fields_ = [
+        *((name, _REAL) for name in ("tolerance", "linear_part")),
+        *((name, _REAL) for name in ("square_factor", "field_weight")),
+        *((name, _INT) for name in ("most_steps", "patience", "steps")),
+        ("change", _REAL),
     ]
 
 

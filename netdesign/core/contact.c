@@ -103,3 +103,45 @@ void update_contact(const Mesh *mesh, const Rules *rules, const Contact *from,
                 && let_go(from->is_lifted[i], reaction[up], -velocity[up]);
     }
 }
+
+/* The same at every node; pressure alone does not count. */
+int is_same(const Mesh *mesh, const Contact *one, const Contact *other) {
+    size_t net = (size_t)mesh->n_net - 1;
+    return !memcmp(one->sign, other->sign, net * sizeof *one->sign)
+           && !memcmp(one->is_open, other->is_open, net)
+           && !memcmp(one->is_lifted, other->is_lifted, 2 * (size_t)mesh->n_edges);
+}
+
+/* Leaves the first mark, or the first half of each row of marks. */
+static void choose(uint8_t *marks, int32_t count, int only_first) {
+    int has_first = 0;
+    for (int32_t i = 0, end; i < count; i = end + 1) {
+        for (end = i; end < count && marks[end]; end++) continue;
+        int32_t stay = only_first ? !has_first : (end - i + 1) / 2;
+        has_first = has_first || end > i;
+        for (int32_t k = i + stay; k < end; k++) marks[k] = 0;
+    }
+}
+
+/* Takes back some of the changes that are wanted: those of the nodes that are not chosen,
+ * friction of slipping nodes included. ``marks`` is room for as many nodes. */
+void change_some(const Mesh *mesh, const Contact *now, const Contact *wanted,
+                 uint8_t *marks, int only_first) {
+    int32_t net = mesh->n_net - 1, ground = 2 * mesh->n_edges;
+    for (int32_t i = 0; i < net; i++) {
+        int slips = now->sign[i] != 0 && wanted->sign[i] != 0;
+        marks[i] = now->sign[i] != wanted->sign[i] || now->is_open[i] != wanted->is_open[i]
+                   || (slips && now->is_pressed[i] != wanted->is_pressed[i]);
+    }
+    choose(marks, net, only_first);
+    for (int32_t i = 0; i < net; i++) {
+        if (marks[i]) continue;
+        wanted->sign[i] = now->sign[i];
+        wanted->is_open[i] = now->is_open[i];
+        wanted->is_pressed[i] = now->is_pressed[i];
+    }
+    for (int32_t i = 0; i < ground; i++) marks[i] = now->is_lifted[i] != wanted->is_lifted[i];
+    choose(marks, ground, only_first);
+    for (int32_t i = 0; i < ground; i++)
+        if (!marks[i]) wanted->is_lifted[i] = now->is_lifted[i];
+}

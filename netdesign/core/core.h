@@ -21,7 +21,7 @@
 #define WIDE
 #endif
 
-enum { FINE = 0, NO_MEMORY = -1, BAD_INPUT = -2, SINGULAR = -3, TOO_SMALL = -4 };
+enum { FINE = 0, NO_MEMORY = -1, BAD_INPUT = -2, SINGULAR = -3, TOO_LARGE = -4 };
 enum { TRIANGLE = 6, UNKNOWNS = 12, POINTS = 3 }; /* nodes, velocities, points */
 
 /* Words at the head of a plan, and of the record of each of its fronts. */

@@ -45,11 +45,8 @@ typedef struct {
 typedef struct {
     const double *stress;     /* (n_triangles, 3, 3) */
     const double *shear;      /* (n_edges, 4), or NULL where the ground does not slide */
-    const double *before;     /* (2 n_nodes,): reactions before the step, or NULL */
     Contact contact;          /* under which the step is taken */
     double *unknowns, *reaction, *new_stress, *new_shear;
-    double *change;           /* (2,): (N16), of forces and stress */
-    Contact wanted;           /* that follows */
     double *root;             /* (2 n_net, 2 n_net), or NULL where nobody asks */
 } Step;
 
@@ -59,6 +56,14 @@ typedef struct {
     double *intercept;   /* (n_triangles, 3, 3) */
     double *base_moduli, *base_intercept; /* (n_edges, 4) */
 } Tangents;
+
+/* Memory of a step, taken at once. */
+typedef struct {
+    Tangents tangents;
+    double *blocks, *factor, *stack, *work, *load, *shares, *root;
+    uint8_t *is_free, *bears;
+    void *memory;
+} Room;
 
 double squared_invariant(const double *stress, double bulk);
 void linearise(const Mesh *mesh, const Law *law, const Step *step,
@@ -71,5 +76,11 @@ int list_support(const Mesh *mesh, const Rules *rules, const Contact *contact,
                  uint8_t *is_free, double *shares, uint8_t *bears);
 void update_contact(const Mesh *mesh, const Rules *rules, const Contact *from,
                     const double *velocity, const double *reaction, const Contact *to);
+void change_some(const Mesh *mesh, const Contact *now, const Contact *wanted,
+                 uint8_t *marks, int only_first);
+int is_same(const Mesh *mesh, const Contact *one, const Contact *other);
+int open_room(const Mesh *mesh, const int32_t *plan, Room *room);
+int take_step(const Mesh *mesh, const Law *law, const Rules *rules, const Step *step,
+              const int32_t *plan, int keeps, const Room *room);
 
 #endif

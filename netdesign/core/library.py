@@ -6,17 +6,23 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from functools import lru_cache
 from pathlib import Path
 
-from netdesign.core.sources import LIBRARY, digest_sources
+from netdesign.core.sources import (
+    LIBRARY,
+    SWITCHED_OFF,
+    digest_sources,
+    read_switch,
+)
 
-SWITCH = "NETDESIGN_CORE"
-SWITCHED_OFF = "numpy"
+_FUNCTIONS = (
+    *("nd_plan", "nd_step", "nd_flow", "nd_residual"),
+    *("nd_place", "nd_hang", "nd_part"),
+)
 
 # What functions give back, as in core.h.
-_NO_MEMORY, SINGULAR = -1, -3
+_NO_MEMORY, SINGULAR, TOO_LARGE = -1, -3, -4
 
 
 def find_core() -> ctypes.PyDLL | None:
@@ -24,9 +30,12 @@ def find_core() -> ctypes.PyDLL | None:
 
     Functions of a ``PyDLL`` keep the interpreter's lock: they are short.
     """
-    if os.environ.get(SWITCH) == SWITCHED_OFF:
-        return None
-    return _load(LIBRARY)
+    return None if is_switched_off() else _load(LIBRARY)
+
+
+def is_switched_off() -> bool:
+    """True where ``NETDESIGN_CORE`` switches the core off, in any case."""
+    return read_switch() == SWITCHED_OFF
 
 
 def name_core() -> str:
@@ -43,7 +52,7 @@ def _load(path: Path) -> ctypes.PyDLL | None:
             return None
     except (OSError, AttributeError):  # not built, or for another machine
         return None
-    for name in ("nd_plan", "nd_step", "nd_residual", "nd_place", "nd_hang", "nd_part"):
+    for name in _FUNCTIONS:
         getattr(library, name).restype = ctypes.c_int32
     return library
 

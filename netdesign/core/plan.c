@@ -24,7 +24,7 @@ typedef struct {
     int32_t n_words, capacity;
     int32_t *record;  /* (2^(depth + 1),) where the record of each part's front is */
     int32_t n_fronts, widest, stamp;
-    int64_t factor, stack, highest;
+    int64_t factor, stack, highest, most;
 } Plan;
 
 typedef struct {
@@ -147,6 +147,7 @@ static int find_owners(Plan *to) {
 }
 
 static int write_words(Plan *to, const int32_t *words, int32_t count) {
+    if (to->n_words > INT32_MAX / 2 - count) return TOO_LARGE;
     if (to->n_words + count > to->capacity) {
         int32_t capacity = 2 * (to->n_words + count);
         int32_t *grown = realloc(to->words, (size_t)capacity * sizeof *grown);
@@ -211,19 +212,21 @@ static int write_triangles(Plan *to, int32_t part) {
         words[0] = to->order[i];
         for (int k = 0; k < TRIANGLE; k++)
             words[1 + k] = to->where[to->triangles[TRIANGLE * to->order[i] + k]];
-        if (write_words(to, words, 1 + TRIANGLE)) return NO_MEMORY;
+        int fault = write_words(to, words, 1 + TRIANGLE);
+        if (fault) return fault;
     }
     return FINE;
 }
 
-/* Room that the factor takes, and that updates take while they wait. */
+/* Room that the factor takes, and that updates take while they wait; TOO_LARGE where it
+ * is more than asked for. */
 static int count_room(Plan *to, int32_t pivots, int32_t size, int64_t given) {
     int64_t left = 2 * (int64_t)(size - pivots);
     to->factor += 4 * (int64_t)pivots * size;
     if (to->stack + left * left > to->highest) to->highest = to->stack + left * left;
     to->stack += left * left - given;
     if (2 * size > to->widest) to->widest = 2 * size;
-    return to->factor > INT32_MAX || to->highest > INT32_MAX ? NO_MEMORY : FINE;
+    return to->factor > to->most || to->highest > to->most ? TOO_LARGE : FINE;
 }
 
 static int64_t room_of(const Plan *to, int32_t part) {
@@ -247,10 +250,12 @@ static int write_front(Plan *to, int32_t part, int32_t at, Sorted *list) {
     for (int32_t i = 0; i < size; i++) {
         to->where[list[i].item] = i;
         pivots += to->owner[list[i].item] == part;
-        if (write_words(to, &list[i].item, 1)) return NO_MEMORY;
+        int fault = write_words(to, &list[i].item, 1);
+        if (fault) return fault;
     }
-    if (write_words(to, NULL, size - pivots)) return NO_MEMORY;
-    if (is_leaf && write_triangles(to, part)) return NO_MEMORY;
+    int fault = write_words(to, NULL, size - pivots);
+    if (!fault && is_leaf) fault = write_triangles(to, part);
+    if (fault) return fault;
     int32_t *front = to->words + at;
     front[PIVOTS] = pivots;
     front[SIZE] = size;
@@ -330,13 +335,14 @@ static int reserve(Plan *to, int32_t **memory) {
 /* Plan of a template; its number of words, or what is wrong.
  *
  * triangles (n_triangles, 6), nodes (2, n_nodes) in reference coordinates, net (n_net,);
- * leaf is how many triangles a smallest part may have. Where ``room`` is too small
- * nothing is written. */
+ * leaf is how many triangles a smallest part may have, most how many numbers the factor,
+ * at most INT32_MAX. Where ``room`` is too small nothing is written. */
 EXPORT int32_t nd_plan(int32_t n_nodes, int32_t n_triangles, int32_t n_net,
                        const int32_t *triangles, const double *nodes,
-                       const int32_t *net, int32_t leaf, int32_t *plan, int32_t room) {
+                       const int32_t *net, int32_t leaf, int32_t most, int32_t *plan,
+                       int32_t room) {
     Plan to = {.n_nodes = n_nodes, .n_triangles = n_triangles, .n_net = n_net,
-               .triangles = triangles, .nodes = nodes, .net = net};
+               .triangles = triangles, .nodes = nodes, .net = net, .most = most};
     if (leaf < 1 || !is_sound(&to)) return BAD_INPUT;
     while (n_triangles >> to.depth > leaf && to.depth < DEEPEST) to.depth++;
     int32_t *memory = NULL;

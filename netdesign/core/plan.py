@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.core.arguments import locate
-from netdesign.core.library import require_sound
+from netdesign.core.library import TOO_LARGE, require_sound
 from netdesign.numerics.arrays import Floats
 
 Words = NDArray[np.int32]
@@ -19,13 +19,14 @@ Words = NDArray[np.int32]
 # Triangles of a smallest part: fewer make more fronts than they save work (measured at
 # 63 to 700 triangles).
 LEAF = 6
+_MOST_NUMBERS = 2**31 - 1  # of a factor: places in it are int32
 _WORDS_PER_TRIANGLE = 40  # room for most plans; others are asked for again
 
 
 def build_plan(
     library: ctypes.PyDLL, triangles: Words, nodes: Floats, net: Words
-) -> Words:
-    """Plan of a template.
+) -> Words | None:
+    """Plan of a template; None where its factor would be too large for the core.
 
     Parameters
     ----------
@@ -46,17 +47,18 @@ def build_plan(
     room = _WORDS_PER_TRIANGLE * len(triangles)
     while True:
         plan = np.zeros(room, dtype=np.int32)
-        count = require_sound(
-            library.nd_plan(
-                nodes.shape[1],
-                len(triangles),
-                net.size,
-                *(ctypes.c_void_p(locate(one)) for one in (triangles, nodes, net)),
-                LEAF,
-                ctypes.c_void_p(locate(plan)),
-                room,
-            )
+        code = library.nd_plan(
+            nodes.shape[1],
+            len(triangles),
+            net.size,
+            *(ctypes.c_void_p(locate(one)) for one in (triangles, nodes, net)),
+            *(LEAF, _MOST_NUMBERS),
+            ctypes.c_void_p(locate(plan)),
+            room,
         )
+        if code == TOO_LARGE:
+            return None
+        count = require_sound(code)
         if count <= room:
             plan = plan[:count].copy()
             plan.setflags(write=False)

@@ -1,4 +1,4 @@
-/* One Newton step of the flow of snow, eq. (N10), and what it leaves, eq. (N16). */
+/* One Newton step of the flow of snow, eq. (N10), or a correction, eq. (N17). */
 #include "element.h"
 
 #include <math.h>
@@ -8,17 +8,16 @@
 /* Digest of the text that this library was built from. */
 EXPORT const char *nd_version(void) { return ND_VERSION; }
 
-/* Memory of one step, taken at once. */
-typedef struct {
-    Tangents tangents;
-    double *blocks, *factor, *stack, *work, *load, *shares, *root;
-    uint8_t *is_free, *bears;
-    void *memory;
-} Room;
-
 static size_t largest(size_t one, size_t other) { return one > other ? one : other; }
 
-static int take_room(const Mesh *mesh, const int32_t *plan, Room *room) {
+static int is_sound(const Mesh *mesh, const int32_t *plan) {
+    return plan[MAGIC] == PLAN_MAGIC && plan[N_NODES] == mesh->n_nodes
+           && plan[N_TRIANGLES] == mesh->n_triangles && plan[N_NET] == mesh->n_net;
+}
+
+/* Memory for steps on a mesh; whoever asks frees ``room->memory``. */
+int open_room(const Mesh *mesh, const int32_t *plan, Room *room) {
+    if (!is_sound(mesh, plan)) return BAD_INPUT;
     size_t points = (size_t)POINTS * (size_t)mesh->n_triangles;
     size_t edges = (size_t)mesh->n_edges, edge_points = EDGE_POINTS * edges;
     size_t blocks = (size_t)UNKNOWNS * UNKNOWNS * (size_t)mesh->n_triangles;
@@ -46,11 +45,6 @@ static int take_room(const Mesh *mesh, const int32_t *plan, Room *room) {
     return FINE;
 }
 
-static int is_sound(const Mesh *mesh, const int32_t *plan) {
-    return plan[MAGIC] == PLAN_MAGIC && plan[N_NODES] == mesh->n_nodes
-           && plan[N_TRIANGLES] == mesh->n_triangles && plan[N_NET] == mesh->n_net;
-}
-
 /* Blocks, and the forces that are missing to balance, of the laws about a state. */
 static void set_up(const Mesh *mesh, const Law *law, const Step *step, int keeps,
                    const Room *room) {
@@ -64,9 +58,10 @@ static void set_up(const Mesh *mesh, const Law *law, const Step *step, int keeps
         room->load[i] = mesh->load[i] - room->load[i];
 }
 
-static int solve_step(const Mesh *mesh, const Law *law, const Rules *rules,
-                      const Step *step, const int32_t *plan, int keeps,
-                      const Room *room) {
+/* Newton step; with ``keeps`` a correction of the stresses as they are. With room for the
+ * root only that is found. Nothing is written where it fails. */
+int take_step(const Mesh *mesh, const Law *law, const Rules *rules, const Step *step,
+              const int32_t *plan, int keeps, const Room *room) {
     size_t count = 2 * (size_t)mesh->n_nodes;
     Factor to = {.plan = plan, .is_free = room->is_free, .factor = room->factor,
                  .load = room->load, .root = step->root ? step->root : room->root};
@@ -85,54 +80,15 @@ static int solve_step(const Mesh *mesh, const Law *law, const Rules *rules,
     return FINE;
 }
 
-/* Largest change of the sums of the net's forces from the foot on, over the largest
- * sum. */
-static double compare_sums(const Mesh *mesh, const double *now, const double *before) {
-    double sum[2] = {0.0, 0.0}, last[2] = {0.0, 0.0}, size = 0.0, moved = 0.0;
-    for (int32_t i = 0; i < mesh->n_net; i++) {
-        int32_t node = mesh->net[i];
-        double c = mesh->axes[node], s = mesh->axes[mesh->n_nodes + node];
-        sum[0] += c * now[2 * node] - s * now[2 * node + 1];
-        sum[1] += s * now[2 * node] + c * now[2 * node + 1];
-        last[0] += c * before[2 * node] - s * before[2 * node + 1];
-        last[1] += s * before[2 * node] + c * before[2 * node + 1];
-        double step = hypot(sum[0] - last[0], sum[1] - last[1]);
-        double whole = hypot(sum[0], sum[1]);
-        if (step > moved || isnan(step)) moved = step; /* what is no number stays */
-        if (whole > size || isnan(whole)) size = whole;
-    }
-    return moved / size;
-}
-
-/* Changes in a step, relative: of the net's forces and of the stress, (N16). */
-static void compare(const Mesh *mesh, const Law *law, const Step *step) {
-    double size = 0.0, moved = 0.0;
-    for (int32_t i = 0; i < POINTS * mesh->n_triangles; i++) {
-        const double *now = step->new_stress + PLANE * i, *last = step->stress + PLANE * i;
-        double change[PLANE], bulk = law->bulk[i * law->stride];
-        for (int k = 0; k < PLANE; k++) change[k] = now[k] - last[k];
-        size += mesh->weights[i] * squared_invariant(now, bulk);
-        moved += mesh->weights[i] * squared_invariant(change, bulk);
-    }
-    step->change[0] = compare_sums(mesh, step->reaction, step->before);
-    step->change[1] = sqrt(moved) / sqrt(size);
-}
-
-/* Newton step of the flow, what it changes, and the contact that follows. With
- * ``keeps`` a correction of the stresses as they are, (N17). With room for the root only
- * that is found. */
+/* One step, as ``take_step``. */
 EXPORT int32_t nd_step(const Mesh *mesh, const Law *law, const Rules *rules,
                        const Step *step, const int32_t *plan, int32_t keeps) {
     Room room;
-    if (!is_sound(mesh, plan)) return BAD_INPUT;
-    if (take_room(mesh, plan, &room)) return NO_MEMORY;
-    int32_t fault = solve_step(mesh, law, rules, step, plan, keeps, &room);
+    int32_t fault = open_room(mesh, plan, &room);
+    if (fault) return fault;
+    fault = take_step(mesh, law, rules, step, plan, keeps, &room);
     free(room.memory);
-    if (fault || !step->before) return fault;
-    compare(mesh, law, step);
-    update_contact(mesh, rules, &step->contact, step->unknowns, step->reaction,
-                   &step->wanted);
-    return FINE;
+    return fault;
 }
 
 /* Internal less external nodal forces (2 n_nodes,) of stresses, and of shear on the

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign.checks.result import Band
-from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.rows import Confirmation, RowEnvelope, build_point_task

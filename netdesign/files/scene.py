@@ -10,8 +10,11 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from netdesign.cable.net import Net
-from netdesign.coupling.history.staggered import LONGEST_EXCHANGE, StaggeredSettings
-from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.history.settings import (
+    LONGEST_EXCHANGE,
+    StaggeredSettings,
+    TransientSettings,
+)
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_toml

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from netdesign import __version__
 from netdesign.core.library import name_core
-from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
@@ -19,8 +19,6 @@ from netdesign.coupling.solution import (
     Solution,
     WallSolution,
 )
-from netdesign.coupling.steady.bound import PullBound
-from netdesign.files.solved_support import SolvedSupport, write_support
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.fluidity import FLUIDITY_EXPONENT
 from netdesign.solving.solve import Settings
@@ -32,6 +30,10 @@ from netdesign.units import (
 )
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
+
+if TYPE_CHECKING:
+    from netdesign.coupling.steady.bound import PullBound
+    from netdesign.files.solved_support import SolvedSupport
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
 _NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
@@ -67,7 +69,7 @@ def write_solution_document(
         "outcome": solution.outcome.value,
         "method": solution.method if isinstance(solution, Solution) else "steady",
         **held,
-        **({} if support is None else {"support": write_support(support, language)}),
+        **_write_support(support, language),
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
         **_write_history(solution, language),
@@ -82,6 +84,14 @@ def write_solution_document(
             "settings": _write_settings(settings),
         },
     }
+
+
+def _write_support(support: SolvedSupport | None, language: Language) -> dict[str, Any]:
+    if support is None:
+        return {}
+    from netdesign.files.solved_support import write_support
+
+    return {"support": write_support(support, language)}
 
 
 def _write_bound(bound: PullBound) -> dict[str, float]:

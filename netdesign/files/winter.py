@@ -100,6 +100,7 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
         "accuracy": run.accuracy,
         "days_between": run.step,
         "check_density_kg_m3": [density.low, density.high],
+        "ranges_sheet": run.site.ranges_sheet,
         "notes": [render(note, language) for note in station.notes],
         "air_temperatures_C": _write_temperatures(station),
         "rows": [

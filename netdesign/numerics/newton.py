@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import lapack
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
@@ -68,6 +67,8 @@ def minimise_convex(
     Minimum
         Never raises for a failed iteration; see its outcome.
     """
+    from scipy.linalg import lapack  # here: the compiled core does without
+
     point = np.asarray(start, dtype=float)
     gradient, hessian = evaluate(point)
     for iteration in range(max_iterations):

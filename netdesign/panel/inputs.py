@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -13,6 +14,8 @@ CUTS: tuple[Cut, ...] = get_args(Cut)
 
 # A parabola of this sag is 22 % longer than its span: no border rope hangs so low.
 LARGEST_SAG = 0.3
+# A steeper end guy holds next to nothing along the row.
+LARGEST_GUY_ANGLE = math.radians(80.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,13 +9,11 @@ import math
 from dataclasses import dataclass
 
 from netdesign.guards import require_within
+from netdesign.panel.inputs import LARGEST_GUY_ANGLE
 from netdesign.panel.solution import PanelSolution
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportPoints
-
-# A steeper end guy holds next to nothing along the row.
-LARGEST_GUY_ANGLE = math.radians(80.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -428,6 +428,12 @@ class Site:
     catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not
     what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
 
+    @property
+    def ranges_sheet(self) -> str:
+        """Sheet of the ranges, by the name that the workbook has for it."""
+        cells = (one.cell for one in self.range_inputs if "!" in one.cell)
+        return next(cells, "Ranges").rpartition("!")[0] or "Ranges"
+
     def find_declaration(
         self, row: NetRow, member: str, mode: str, position: str = ""
     ) -> Declaration | None:

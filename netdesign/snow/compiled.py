@@ -6,107 +6,55 @@ Only the velocity element; the mixed one is taken in NumPy. Theory: core/THEORY.
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from netdesign.core.arguments import (
+    EffortArgument,
     LawArgument,
     MeshArgument,
     RulesArgument,
+    StateArgument,
     StepArgument,
     locate,
     locate_all,
     to_array,
     to_floats,
 )
-from netdesign.core.library import SINGULAR, find_core, require_sound
+from netdesign.core.library import SINGULAR, require_sound
 from netdesign.core.plan import Words
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.compiled_mesh import number_template, plan_template
 from netdesign.snow.contact import Contact, may_lift
-from netdesign.snow.law import FlowProblem, Material
+from netdesign.snow.flow_state import FlowState
+from netdesign.snow.law import FlowProblem, Material, sample_material
 from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
 
 
-class Advanced(NamedTuple):
-    """Result of a step.
+class Solved(NamedTuple):
+    """End of a flow, as ``FlowResult``.
 
     Attributes
     ----------
-    unknowns, reaction : ndarray, shape (n_dofs,)
-        Velocities, and forces of net and ground on the snow, node axes.
-    stress : ndarray, shape (n_triangles, n_points, 3)
-        (xx, yy, xy) [rho g d].
-    base_shear : ndarray, shape (n_edges, n_points), or None
-        On a sliding ground [rho g d].
-    changes : tuple of float
-        Relative, of the net's forces and of the stress, as (N16) takes them [-]; no
-        numbers where the step before has no reactions.
-    wanted : Contact
-        That follows.
+    ending : int
+        0 converged, 1 not in so many steps, 2 no numbers.
+    state : FlowState
+        After the last step.
+    linear_solves : int
+        Taken.
+    change : float
+        Relative error that the last step left, (N16) [-].
     """
 
-    unknowns: Floats
-    reaction: Floats
-    stress: Floats
-    base_shear: Floats | None
-    changes: tuple[float, float]
-    wanted: Contact
-
-
-class _Room(NamedTuple):
-    """Memory for the results of a step, each of its shape, and its places."""
-
-    advanced: Advanced
-    change: Floats
-    places: tuple[int, ...]
-
-    def read(self, contact: Contact, *, is_compared: bool) -> Advanced:
-        """Results; without a comparison the contact is as it was."""
-        if not is_compared:
-            return self.advanced._replace(wanted=contact)
-        changes = (float(self.change[0]), float(self.change[1]))
-        return self.advanced._replace(changes=changes)
-
-
-def _make_room(
-    n_dofs: int, stress: Floats, base_shear: Floats | None, contact: Contact
-) -> _Room:
-    """Room for all numbers in one piece: each address costs."""
-    n_shear = 0 if base_shear is None else base_shear.size
-    shear_at = 2 * n_dofs + stress.size
-    out = np.empty(shear_at + n_shear + 2)
-    n_net, n_ground = contact.sign.size, contact.is_lifted.size
-    sign = np.empty(n_net, dtype=np.int64)
-    marks = np.empty(2 * n_net + n_ground, dtype=bool)
-    first, mark = locate(out), locate(marks)
-    starts = (0, n_dofs, 2 * n_dofs, shear_at, shear_at + n_shear)
-    places = [first + 8 * start for start in starts]
-    if base_shear is None:
-        places[3] = 0
-    advanced = Advanced(
-        unknowns=out[:n_dofs],
-        reaction=out[n_dofs : 2 * n_dofs],
-        stress=out[2 * n_dofs : shear_at].reshape(stress.shape),
-        base_shear=None,
-        changes=(np.nan, np.nan),
-        wanted=Contact(
-            sign=sign,
-            is_pressed=marks[:n_net],
-            is_open=marks[n_net : 2 * n_net],
-            is_lifted=marks[2 * n_net :],
-        ),
-    )
-    if base_shear is not None:
-        shear = out[shear_at : shear_at + n_shear].reshape(base_shear.shape)
-        advanced = advanced._replace(base_shear=shear)
-    wanted = (locate(sign), mark, mark + n_net, mark + 2 * n_net)
-    return _Room(advanced, out[-2:], (*places, *wanted, 0))
+    ending: int
+    state: FlowState
+    linear_solves: int
+    change: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -133,56 +81,66 @@ class CompiledFlow:
     plan: Words
     kept: tuple[np.ndarray[Any, Any], ...]
 
-    def with_law(self, problem: FlowProblem, material: Material) -> CompiledFlow:
-        """The same mesh and load under other laws.
-
-        Parameters
-        ----------
-        problem, material : FlowProblem, Material
-            Laws of creep and ground.
-        """
-        law, kept = _describe_law(problem, material, self.mesh.weights.shape)
-        mesh, _, rules = self.given
-        return replace(self, given=(mesh, law, rules), kept=(*self.kept, *kept))
-
-    def advance(
+    def solve(
         self,
-        stress: Floats,
-        base_shear: Floats | None,
-        contact: Contact,
-        before: Floats | None = None,
-        *,
-        keeps: bool = False,
-    ) -> Advanced:
-        """One step from stresses: Newton's (N10), or a correction (N17).
+        start: FlowState,
+        first: FlowProblem | None,
+        effort: EffortArgument,
+    ) -> Solved:
+        """Newton's steps from a state, as ``solve_flow`` takes them.
 
         Parameters
         ----------
-        stress : ndarray, shape (n_triangles, n_points, 3)
-            To start from [rho g d].
-        base_shear : ndarray, shape (n_edges, n_points), or None
-            To start from, where the ground slides [rho g d].
-        contact : Contact
-            Under which the step is taken.
-        before : ndarray, shape (n_dofs,), optional
-            Reactions before it [rho g d^2]; without them nothing is compared.
-        keeps : bool
-            The stresses are kept and corrected; the unknowns are then the correction.
+        start : FlowState
+            Where they start.
+        first : FlowProblem or None
+            Laws of one step before them.
+        effort : EffortArgument
+            What is asked; it tells then what was needed.
+
+        Raises
+        ------
+        SingularError
+            If nothing holds the snow in the first step by other laws.
+        """
+        template = self.mesh.template
+        state, places = self._copy(start)
+        law, kept = None, None
+        if first is not None:
+            material = sample_material(first, template)
+            law, kept = _describe_law(first, material, self.mesh.weights.shape)
+        argument = StateArgument(*places, start.base_shear is not None)
+        mesh, own, rules = map(ctypes.byref, self.given)
+        code = self.library.nd_flow(
+            *(mesh, own, law and ctypes.byref(law), rules),
+            ctypes.c_void_p(locate(self.plan)),
+            *(ctypes.byref(argument), ctypes.byref(effort)),
+        )
+        del kept  # C had its addresses
+        return Solved(_require_held(code), state, effort.steps, effort.change)
+
+    def correct(self, state: FlowState) -> FlowState:
+        """A state whose stresses balance better, (N17).
+
+        Parameters
+        ----------
+        state : FlowState
+            A converged state.
 
         Raises
         ------
         SingularError
             If nothing holds the snow.
         """
-        room = _make_room(self.mesh.n_dofs, stress, base_shear, contact)
-        self._call(stress, base_shear, contact, before, room.places, keeps)
-        return room.read(contact, is_compared=before is not None)
+        mended, _ = self._copy(state)
+        arrays = (mended.unknowns, mended.reaction, mended.stress, mended.base_shear)
+        self._step(state, (*locate_all(*arrays), 0), keeps=True)
+        mended.unknowns[:] += state.unknowns
+        return mended
 
     def respond(
         self,
-        stress: Floats,
-        base_shear: Floats | None,
-        contact: Contact,
+        state: FlowState,
         free: Mask,
         shares: Floats | None,
     ) -> tuple[Floats, Floats]:
@@ -190,12 +148,8 @@ class CompiledFlow:
 
         Parameters
         ----------
-        stress : ndarray, shape (n_triangles, n_points, 3)
-            About which the flow is linearised [rho g d].
-        base_shear : ndarray, shape (n_edges, n_points), or None
-            Where the ground slides [rho g d].
-        contact : Contact
-            It does not change.
+        state : FlowState
+            About which the flow is linearised; its contact does not change.
         free : ndarray of bool, shape (n_dofs,)
             Unknowns that nothing holds.
         shares : ndarray, shape (n_dofs,), or None
@@ -213,9 +167,9 @@ class CompiledFlow:
         """
         net = self.mesh.template.net
         root = np.empty((2 * net.size, 2 * net.size))
-        self._call(stress, base_shear, contact, None, (*(0,) * 9, locate(root)), False)
+        self._step(state, (0, 0, 0, 0, locate(root)), keeps=False)
         places = np.column_stack([2 * net, 2 * net + 1]).ravel()
-        held = np.flatnonzero(~contact.is_open)
+        held = np.flatnonzero(~state.contact.is_open)
         moved = np.zeros((places.size, net.size - 1))
         moved[2 + 2 * held, held] = 1.0
         shares = None if shares is None else shares[places]
@@ -252,34 +206,73 @@ class CompiledFlow:
         require_sound(self.library.nd_residual(ctypes.byref(self.given[0]), *places))
         return forces
 
-    def _call(
-        self,
-        stress: Floats,
-        base_shear: Floats | None,
-        contact: Contact,
-        before: Floats | None,
-        results: tuple[int, ...],
-        keeps: bool,
-    ) -> None:
+    def _copy(self, state: FlowState) -> tuple[FlowState, tuple[int, ...]]:
+        """A state of this mesh for C to change, and where it is.
+
+        Its numbers are one array, its marks another: each address costs.
+        """
         mesh = self.mesh
-        stress = to_floats(stress, (*mesh.weights.shape, 3))
-        shear = None
-        if base_shear is not None:
-            shear = to_floats(base_shear, mesh.base.weights.shape)
-        if before is not None:
-            before = to_floats(before, (mesh.n_dofs,))
+        n_dofs, shape = mesh.n_dofs, (*mesh.weights.shape, 3)
+        shear_at = 2 * n_dofs + 3 * mesh.weights.size
+        slides = state.base_shear is not None
+        numbers = np.empty(shear_at + (mesh.base.weights.size if slides else 0))
+        copied = FlowState(
+            unknowns=numbers[:n_dofs],
+            reaction=numbers[n_dofs : 2 * n_dofs],
+            stress=numbers[2 * n_dofs : shear_at].reshape(shape),
+            base_shear=(
+                numbers[shear_at:].reshape(mesh.base.weights.shape) if slides else None
+            ),
+            contact=_copy_contact(state.contact, mesh.template),
+        )
+        for name in ("unknowns", "reaction", "stress", "base_shear"):
+            if (own := getattr(copied, name)) is not None:
+                own[...] = getattr(state, name)
+        contact = copied.contact
+        marks, count = locate(contact.is_pressed), contact.sign.size
+        held = (locate(contact.sign), marks, marks + count, marks + 2 * count)
+        return copied, (locate(numbers), *held)
+
+    def _step(self, state: FlowState, results: tuple[int, ...], *, keeps: bool) -> None:
+        mesh, shear = self.mesh, None
+        stress = to_floats(state.stress, (*mesh.weights.shape, 3))
+        if state.base_shear is not None:
+            shear = to_floats(state.base_shear, mesh.base.weights.shape)
         template = mesh.template
-        held = _to_arrays(contact, template.net.size - 1, template.ground.size - 1)
-        given = (stress, shear, before, *held)
-        step = StepArgument(*locate_all(*given), *results)
+        held = _to_arrays(
+            state.contact, template.net.size - 1, template.ground.size - 1
+        )
+        step = StepArgument(*locate_all(stress, shear, *held), *results)
         code = self.library.nd_step(
             *map(ctypes.byref, (*self.given, step)),
             ctypes.c_void_p(locate(self.plan)),
             int(keeps),
         )
-        if code == SINGULAR:
-            raise SingularError("singular")
-        require_sound(code)
+        _require_held(code)
+
+
+def _copy_contact(contact: Contact, template: MeshTemplate) -> Contact:
+    """The same in two arrays: of signs, and of marks side by side."""
+    n_net, n_ground = template.net.size - 1, template.ground.size - 1
+    sign = np.empty(n_net, dtype=np.int64)
+    marks = np.empty(2 * n_net + n_ground, dtype=np.bool_)
+    sign[:] = contact.sign
+    marks[:n_net] = contact.is_pressed
+    marks[n_net : 2 * n_net] = contact.is_open
+    marks[2 * n_net :] = contact.is_lifted
+    return Contact(
+        sign=sign,
+        is_pressed=marks[:n_net],
+        is_open=marks[n_net : 2 * n_net],
+        is_lifted=marks[2 * n_net :],
+    )
+
+
+def _require_held(code: int) -> int:
+    """The code of a function that could hold the snow."""
+    if code == SINGULAR:
+        raise SingularError("singular")
+    return require_sound(code)
 
 
 def _solve_root(
@@ -330,28 +323,39 @@ def _describe_law(
     return law, (bulk, fluidity)
 
 
-def _describe_rules(problem: FlowProblem, lifts: Mask) -> RulesArgument:
+def _describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
     return RulesArgument(
         problem.friction,
         problem.net_contact == "one-sided",
         problem.ground_contact == "one-sided",
         problem.ground == "no-slip",
-        locate(lifts),
+        lifts,
     )
 
 
-def can_compile(problem: FlowProblem) -> bool:
-    """There is a core, and it has the problem's element."""
-    return find_core() is not None and problem.element == "velocity"
+class _Described(NamedTuple):
+    """A template as the core takes it."""
+
+    plan: Words
+    kept: tuple[np.ndarray[Any, Any], ...]  # C has their addresses
+    counts: tuple[int, int, int, int]  # of nodes, triangles, net, edges
+    numbers: tuple[int, ...]
+    lifts: int
 
 
 def prepare_flow(
-    problem: FlowProblem, material: Material, mesh: PlacedMesh, load: Floats
+    library: ctypes.PyDLL,
+    problem: FlowProblem,
+    material: Material,
+    mesh: PlacedMesh,
+    load: Floats,
 ) -> CompiledFlow | None:
-    """The core on a mesh; None where there is none.
+    """The core on a mesh; None where the mesh is too large for it.
 
     Parameters
     ----------
+    library : PyDLL
+        The core.
     problem, material : FlowProblem, Material
         Creep, ground and friction.
     mesh : PlacedMesh
@@ -359,28 +363,36 @@ def prepare_flow(
     load : ndarray, shape (n_dofs,)
         Of gravity, node axes [rho g d^2].
     """
-    library = find_core()
-    if library is None:
+    described = _describe_template(library, mesh.template)
+    if described is None:
         return None
-    template, base = mesh.template, mesh.base
-    numbers, lifts = number_template(template), _may_lift(template)
+    base = mesh.base
     arrays = (mesh.gradients, mesh.weights, mesh.axes, base.weights, base.shape, load)
     kept = tuple(np.ascontiguousarray(one, dtype=np.float64) for one in arrays)
-    argument = MeshArgument(
-        *(mesh.nodes.shape[1], template.triangles.shape[1]),
-        *(template.net.size, len(numbers.edges)),
-        *locate_all(*numbers, *kept),
-    )
+    argument = MeshArgument(*described.counts, *described.numbers, *locate_all(*kept))
     law, more = _describe_law(problem, material, mesh.weights.shape)
     return CompiledFlow(
         library=library,
         mesh=mesh,
-        given=(argument, law, _describe_rules(problem, lifts)),
-        plan=plan_template(library, template),
-        kept=(*numbers, lifts, *kept, *more),  # C has their addresses
+        given=(argument, law, _describe_rules(problem, described.lifts)),
+        plan=described.plan,
+        kept=(*described.kept, *kept, *more),
     )
 
 
 @lru_cache(maxsize=256)
-def _may_lift(template: MeshTemplate) -> Mask:
-    return np.ascontiguousarray(may_lift(template))
+def _describe_template(
+    library: ctypes.PyDLL, template: MeshTemplate
+) -> _Described | None:
+    plan = plan_template(library, template)
+    if plan is None:
+        return None
+    numbers, lifts = number_template(template), np.ascontiguousarray(may_lift(template))
+    counts = (template.nodes.shape[1], len(numbers.triangles))
+    return _Described(
+        plan=plan,
+        kept=(*numbers, lifts),
+        counts=(*counts, numbers.net.size, len(numbers.edges)),
+        numbers=tuple(locate_all(*numbers)),
+        lifts=locate(lifts),
+    )

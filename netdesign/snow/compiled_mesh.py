@@ -127,9 +127,8 @@ def number_template(template: MeshTemplate) -> Numbers:
     )
 
 
-@lru_cache(maxsize=256)
-def plan_template(library: ctypes.PyDLL, template: MeshTemplate) -> Words:
-    """Plan of a template, of shape (n_words,)."""
+def plan_template(library: ctypes.PyDLL, template: MeshTemplate) -> Words | None:
+    """Plan of a template, of shape (n_words,); None where it is too large."""
     numbers = number_template(template)
     nodes = np.ascontiguousarray(template.nodes, dtype=np.float64)
     return build_plan(library, numbers.triangles, nodes, numbers.net)

@@ -12,11 +12,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from netdesign.core.arguments import EffortArgument
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.compiled import CompiledFlow
-from netdesign.snow.contact import change_some, start_contact, update_contact
-from netdesign.snow.flow_step import FlowState, Step, Taken, compile_flow, take_step
+from netdesign.snow.contact import change_some, update_contact
+from netdesign.snow.flow_state import FlowState, rest
+from netdesign.snow.flow_step import Step, compile_flow, take_step
 from netdesign.snow.law import (
     FlowProblem,
     Material,
@@ -31,6 +33,8 @@ from netdesign.snow.placed_mesh import PlacedMesh
 _LINEAR_PART, _SQUARE_FACTOR = 0.05, 50.0
 # After so many steps only some contacts change, after twice as many one at a time.
 _PATIENCE = 12
+# How the compiled core says that a flow ended, as in flow.c.
+_OUTCOMES = (Outcome.CONVERGED, Outcome.MAX_ITERATIONS, Outcome.NONFINITE)
 # Weight of an error of the stress that the forces on the net do not feel: it sits in
 # the few small triangles at the net's ends.
 _FIELD_WEIGHT = 0.05
@@ -96,11 +100,12 @@ def solve_flow(
     tests/snow/test_flow.py, tests/verification/test_slab.py
     """
     core = None if step else compile_flow(problem, mesh)
+    if core is not None:
+        return _solve_compiled(core, problem, mesh, start, tolerance, max_iterations)
+    take = step or take_step
     material = sample_material(problem, mesh.template)
-    state = start
-    if state is None:
-        state = _solve_linear_creep(problem, mesh, core, step)
-    solves = 0 if start is not None else 1
+    state = _solve_linear_creep(problem, mesh, take) if start is None else start
+    solves = 1 if start is None else 0
     outcome, change = Outcome.MAX_ITERATIONS, np.inf
     contact = state.contact
     if state.unknowns.any():
@@ -108,19 +113,16 @@ def solve_flow(
     for iteration in range(max_iterations):
         before = state
         try:
-            taken = take_step(core, step, problem, material, mesh, before, contact)
+            state = take(problem, material, mesh, before, contact)
         except SingularError:
             outcome = Outcome.NONFINITE
             break
         solves += 1
-        state = taken.state
-        change = _estimate_left(problem, material, mesh, before, taken, tolerance)
+        change = _estimate_left(problem, material, mesh, before, state, tolerance)
         if not np.isfinite(change):
             outcome = Outcome.NONFINITE
             break
-        contact = taken.wanted or update_contact(
-            problem, mesh, contact, state.unknowns, state.reaction
-        )
+        contact = update_contact(problem, mesh, contact, state.unknowns, state.reaction)
         if change < tolerance and contact.equals(state.contact):
             outcome = Outcome.CONVERGED
             break
@@ -129,6 +131,34 @@ def solve_flow(
                 state.contact, contact, only_first=iteration >= 2 * _PATIENCE
             )
     return FlowResult(outcome=outcome, state=state, linear_solves=solves, change=change)
+
+
+def _solve_compiled(
+    core: CompiledFlow,
+    problem: FlowProblem,
+    mesh: PlacedMesh,
+    start: FlowState | None,
+    tolerance: float,
+    max_iterations: int,
+) -> FlowResult:
+    """The same by the compiled core."""
+    linear = _make_linear(problem) if start is None else None
+    state = rest(problem, mesh) if start is None else start
+    effort = EffortArgument(
+        tolerance=tolerance,
+        linear_part=_LINEAR_PART,
+        square_factor=_SQUARE_FACTOR,
+        field_weight=_FIELD_WEIGHT,
+        most_steps=max_iterations,
+        patience=_PATIENCE,
+    )
+    found = core.solve(state, linear, effort)
+    return FlowResult(
+        outcome=_OUTCOMES[found.ending],
+        state=found.state,
+        linear_solves=found.linear_solves,
+        change=found.change,
+    )
 
 
 def compute_weight(problem: FlowProblem, mesh: PlacedMesh) -> Floats:
@@ -156,14 +186,10 @@ def _estimate_left(
     material: Material,
     mesh: PlacedMesh,
     before: FlowState,
-    taken: Taken,
+    state: FlowState,
     tolerance: float,
 ) -> float:
     """Relative error that a step leaves, eq. (N16); of the forces alone if too much."""
-    if taken.changes is not None:
-        force, field = map(_left, taken.changes)
-        return float(np.maximum(force, _FIELD_WEIGHT * field))
-    state = taken.state
     sums = _sum_along_net(mesh, state.reaction)
     moved = sums - _sum_along_net(mesh, before.reaction)
     force = _left(float(np.hypot(*moved).max() / np.hypot(*sums).max()))
@@ -185,27 +211,12 @@ def _sum_along_net(mesh: PlacedMesh, reaction: Floats) -> Floats:
 
 
 def _solve_linear_creep(
-    problem: FlowProblem,
-    mesh: PlacedMesh,
-    core: CompiledFlow | None,
-    step: Step | None,
+    problem: FlowProblem, mesh: PlacedMesh, step: Step
 ) -> FlowState:
     """Linear creep of snow held everywhere: a start that needs no guess."""
-    at_rest = FlowState(
-        unknowns=np.zeros(mesh.n_dofs),
-        reaction=np.zeros(mesh.n_dofs),
-        stress=np.zeros((*mesh.weights.shape, 4 if mesh.is_mixed else 3)),
-        base_shear=(
-            np.zeros_like(mesh.base.weights) if problem.ground == "sliding" else None
-        ),
-        contact=start_contact(mesh),
-    )
-    linear = _make_linear(problem)
+    at_rest, linear = rest(problem, mesh), _make_linear(problem)
     material = sample_material(linear, mesh.template)
-    if core is not None:
-        core = core.with_law(linear, material)
-    contact = at_rest.contact
-    return take_step(core, step, linear, material, mesh, at_rest, contact).state
+    return step(linear, material, mesh, at_rest, at_rest.contact)
 
 
 def _make_linear(problem: FlowProblem) -> FlowProblem:

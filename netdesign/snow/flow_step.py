@@ -6,27 +6,25 @@ snow/THEORY.md, sections 2 and 5.
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import reduce
+from dataclasses import replace
+from functools import lru_cache, reduce
 from operator import add
 from typing import NamedTuple
 
 import numpy as np
 
+from netdesign.core.library import find_core
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.snow.compiled import (
-    Advanced,
-    CompiledFlow,
-    can_compile,
-    prepare_flow,
-)
+from netdesign.snow.compiled import CompiledFlow, prepare_flow
 from netdesign.snow.contact import (
     Contact,
     free_unknowns,
     friction_shares,
     net_components,
 )
+from netdesign.snow.flow_state import FlowState
 from netdesign.snow.kernel import (
     assemble_base_force,
     assemble_body_force,
@@ -52,69 +50,12 @@ from netdesign.snow.ordering import Blocks, build_ordering
 from netdesign.snow.placed_mesh import PlacedMesh
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class FlowState:
-    """One iterate, or the solution, of the flow problem.
-
-    Attributes
-    ----------
-    unknowns, reaction : ndarray, shape (n_dofs,)
-        Velocities (and pressures), and forces that net and ground exert on the
-        snow, node axes.
-    stress : ndarray, shape (n_triangles, n_points, 3 or 4)
-        (xx, yy, xy); in the mixed element of the deviator, then the pressure.
-    base_shear : ndarray, shape (n_edges, n_points) or None
-        Shear stress on a sliding ground.
-    contact : Contact
-        Stick, slip and loss of contact on net and ground.
-    """
-
-    unknowns: Floats
-    reaction: Floats
-    stress: Floats
-    base_shear: Floats | None
-    contact: Contact
-
-    def largest_velocity(self, mesh: PlacedMesh) -> float:
-        """Largest velocity of all nodes.
-
-        Parameters
-        ----------
-        mesh : PlacedMesh
-            Of the state.
-
-        Returns
-        -------
-        float
-            [velocity scale].
-        """
-        return float(np.hypot(*mesh.to_slope_axes(self.unknowns)).max())
-
-
 class _Linear(NamedTuple):
     """Laws linearised about a state, and the blocks of their matrix."""
 
     creep: Tangent
     base: Tangent | None  # None where the ground does not slide by a law
     blocks: list[Blocks]
-
-
-class Taken(NamedTuple):
-    """A step that was taken.
-
-    Attributes
-    ----------
-    state : FlowState
-        After it.
-    changes : tuple of float, or None
-        Relative, of the net's forces and of the stress [-]; None if not known yet.
-    wanted : Contact or None
-        That follows; None if not known yet.
-    """
-
-    state: FlowState
-    changes: tuple[float, float] | None
-    wanted: Contact | None
 
 
 # A Newton step to the next state.
@@ -131,30 +72,33 @@ def compile_flow(problem: FlowProblem, mesh: PlacedMesh) -> CompiledFlow | None:
     mesh : PlacedMesh
         Mesh against the net's curve.
     """
-    if mesh.folded is not None or not can_compile(problem):
+    library = find_core()
+    if library is None or mesh.folded is not None or problem.element != "velocity":
         return None
+    return _compile(library, problem, mesh)
+
+
+@lru_cache(maxsize=2)  # a round asks for the same one again
+def _compile(
+    library: ctypes.PyDLL, problem: FlowProblem, mesh: PlacedMesh
+) -> CompiledFlow | None:
     material = sample_material(problem, mesh.template)
-    return prepare_flow(problem, material, mesh, _gravity_load(problem, material, mesh))
+    load = _gravity_load(problem, material, mesh)
+    return prepare_flow(library, problem, material, mesh, load)
 
 
 def take_step(
-    core: CompiledFlow | None,
-    step: Step | None,
     problem: FlowProblem,
     material: Material,
     mesh: PlacedMesh,
     state: FlowState,
     contact: Contact,
-) -> Taken:
-    """Newton's step from a state under a contact, (N10).
+) -> FlowState:
+    """Newton's step from a state under a contact, (N10), in NumPy.
 
     Parameters
     ----------
-    core : CompiledFlow or None
-        Takes it, if there is one.
-    step : callable, optional
-        Takes it in another way than in NumPy.
-    problem, material, mesh
+    problem, material, mesh : FlowProblem, Material, PlacedMesh
         Creep, ground and friction on the mesh.
     state : FlowState
         Before the step.
@@ -166,19 +110,23 @@ def take_step(
     SingularError
         If nothing holds the snow.
     """
-    if core is None:
-        after = (step or _advance)(problem, material, mesh, state, contact)
-        return Taken(after, None, None)
-    found = core.advance(state.stress, state.base_shear, contact, state.reaction)
-    return Taken(_read_state(found, contact), found.changes, found.wanted)
-
-
-def _read_state(found: Advanced, contact: Contact) -> FlowState:
+    creep, base, blocks = _linearise(problem, material, mesh, state, contact)
+    force = assemble_stress(mesh, creep.intercept) - _gravity_load(
+        problem, material, mesh
+    )
+    if base is not None:
+        force += assemble_base_force(mesh, base.intercept)
+    unknowns = _solve_step(problem, mesh, contact, blocks, force)
+    base_shear = None
+    if base is not None:
+        base_shear = base.intercept + base.modulus * compute_base_velocity(
+            mesh, unknowns
+        )
     return FlowState(
-        unknowns=found.unknowns,
-        reaction=found.reaction,
-        stress=found.stress,
-        base_shear=found.base_shear,
+        unknowns=unknowns,
+        reaction=force + sum(block.multiply(unknowns) for block in blocks),
+        stress=advance_stress(problem, creep, compute_strain(mesh, unknowns)),
+        base_shear=base_shear,
         contact=contact,
     )
 
@@ -213,9 +161,7 @@ def linearise_reaction(
         first, second = _respond(problem, mesh, state)
     else:
         first, second = core.respond(
-            state.stress,
-            state.base_shear,
-            state.contact,
+            state,
             free_unknowns(problem, mesh, state.contact),
             friction_shares(problem, mesh, state.contact),
         )
@@ -264,9 +210,7 @@ def remove_rounding(
     """
     core = compile_flow(problem, mesh)
     if core is not None:
-        found = core.advance(state.stress, state.base_shear, state.contact, keeps=True)
-        mended = _read_state(found, state.contact)
-        return replace(mended, unknowns=state.unknowns + found.unknowns)
+        return core.correct(state)
     material = sample_material(problem, mesh.template)
     linear = _linearise(problem, material, mesh, state, state.contact)
     residual = compute_residual(problem, mesh, state)
@@ -314,35 +258,6 @@ def compute_residual(
     if state.base_shear is not None:
         force += assemble_base_force(mesh, state.base_shear)
     return force
-
-
-def _advance(
-    problem: FlowProblem,
-    material: Material,
-    mesh: PlacedMesh,
-    state: FlowState,
-    contact: Contact,
-) -> FlowState:
-    """One Newton step on the stress, eq. (N10)."""
-    creep, base, blocks = _linearise(problem, material, mesh, state, contact)
-    force = assemble_stress(mesh, creep.intercept) - _gravity_load(
-        problem, material, mesh
-    )
-    if base is not None:
-        force += assemble_base_force(mesh, base.intercept)
-    unknowns = _solve_step(problem, mesh, contact, blocks, force)
-    base_shear = None
-    if base is not None:
-        base_shear = base.intercept + base.modulus * compute_base_velocity(
-            mesh, unknowns
-        )
-    return FlowState(
-        unknowns=unknowns,
-        reaction=force + sum(block.multiply(unknowns) for block in blocks),
-        stress=advance_stress(problem, creep, compute_strain(mesh, unknowns)),
-        base_shear=base_shear,
-        contact=contact,
-    )
 
 
 def _solve_step(
@@ -399,9 +314,8 @@ def _find_bearing(contact: Contact) -> Mask:
 
 def _gravity_load(problem: FlowProblem, material: Material, mesh: PlacedMesh) -> Floats:
     if isinstance(material.density, float):
-        load = mesh.to_node_axes(
-            np.outer(problem.gravity, mesh.load * material.density)
-        )
+        mass = mesh.load * material.density
+        load = mesh.to_node_axes(tuple(mass * one for one in problem.gravity))
     else:
         body_force = np.multiply.outer(np.array(problem.gravity), material.density)
         load = assemble_body_force(mesh, body_force)

@@ -8,6 +8,7 @@ snow/THEORY.md, section 2.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -151,6 +152,7 @@ class Tangent(NamedTuple):
     intercept: Floats
 
 
+@lru_cache(maxsize=8)
 def sample_material(problem: FlowProblem, template: MeshTemplate) -> Material:
     """Properties at the quadrature points.
 
@@ -172,12 +174,15 @@ def sample_material(problem: FlowProblem, template: MeshTemplate) -> Material:
     tops = np.array([layer.top for layer in problem.layers[:-1]])
     index = np.searchsorted(tops, point_heights(template))
     fields = ("bulk_ratio", "fluidity_ratio", "density")
-    return Material(
+    sampled = Material(
         *(
             np.array([getattr(layer, name) for layer in problem.layers])[index]
             for name in fields
         )
     )
+    for values in sampled:
+        np.asarray(values).setflags(write=False)  # many states share them
+    return sampled
 
 
 def linearise_creep(

@@ -3,7 +3,7 @@
 Each problem goes straight into LAPACK's banded storage, its unknowns in the order of
 ``ordering``: Cholesky where the matrix is symmetric and positive definite, LU where
 friction or pressures are in it. Wide meshes go to SuperLU. Theory: snow/THEORY.md,
-section 5.
+section 5. SciPy is imported where it is called: with the compiled core it seldom is.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.linalg import lapack
 
 from netdesign.numerics.arrays import Floats, Mask, gather
 from netdesign.snow.ordering import Blocks, Ordering, list_entries
@@ -119,6 +118,8 @@ def _solve_cholesky(
     ordering: Ordering, parts: Sequence[Blocks], rhs: Floats, held: Mask
 ) -> Floats:
     """Solutions of right sides that are in order already; they stay so."""
+    from scipy.linalg import lapack
+
     matrix = ordering.fill(parts, lower=True)
     matrix[ordering.place[held], 0] = _scale_of(matrix[:, 0])
     _, solution, fault = lapack.dpbsv(
@@ -137,6 +138,8 @@ def _solve_slipping(
     free: Mask,
 ) -> Floats:
     """Solution with a few rows added to the symmetric matrix: Woodbury's (N24)."""
+    from scipy.linalg import lapack
+
     slipping = np.flatnonzero(friction)
     columns = load.size // len(load)
     rhs = np.zeros((len(load), columns + slipping.size), order="F")
@@ -186,6 +189,8 @@ def _in_order(ordering: Ordering, load: Floats) -> Floats:
 def _solve_lu(
     ordering: Ordering, parts: Sequence[Blocks], load: Floats, held: Mask
 ) -> Floats:
+    from scipy.linalg import lapack
+
     band = ordering.band
     matrix = ordering.fill(parts, lower=False)
     matrix[ordering.place[held], 2 * band] = _scale_of(matrix[:, 2 * band])

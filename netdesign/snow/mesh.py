@@ -22,6 +22,7 @@ from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
+from netdesign.snow.triangulation import Triangulation, number_nodes
 from netdesign.words.message import say
 
 # Radii of rings are powers of equal steps: the forces that a triangle near a singular
@@ -195,22 +196,19 @@ def _subdivide(mesh: MeshTemplate) -> MeshTemplate:
 def _build_mesh(
     points: Floats, triangles: Ints, aspect: float, interfaces: tuple[float, ...] = ()
 ) -> MeshTemplate:
-    import skfem  # here, since runs that solve nothing new need no mesh
-
-    mesh = skfem.MeshTri(points.T.copy(), triangles.T.copy())
-    basis = skfem.Basis(mesh, skfem.ElementTriP2(), intorder=1)
-    nodes = np.array(basis.doflocs)
+    mesh = number_nodes(points, triangles)
+    nodes = mesh.nodes
     # placing maps xi to -X and so turns every triangle over
-    orientation = -np.sign(_twice_area(mesh.p.T[mesh.t.T]))
-    ground, upstream, surface, net = _find_sides(mesh, aspect)
+    orientation = -np.sign(_twice_area(points[mesh.triangles[:3].T]))
+    ground, upstream, surface, net = _find_sides(points, mesh, aspect)
     # points were rounded; a side lies where it is said to lie
     nodes[1, ground], nodes[0, upstream] = 0.0, aspect
     nodes[1, surface], nodes[0, net] = 1.0, 0.0
     return MeshTemplate(
         nodes=_frozen(nodes),
-        triangles=_frozen(np.array(basis.element_dofs, dtype=np.int64)),
+        triangles=_frozen(mesh.triangles),
         orientation=_frozen(orientation),
-        edges=_frozen(np.array(mesh.facets, dtype=np.int64)),
+        edges=_frozen(mesh.edges),
         net=_frozen(net[::-1].copy()),
         ground=_frozen(ground),
         surface=_frozen(surface[::-1].copy()),
@@ -220,22 +218,21 @@ def _build_mesh(
     )
 
 
-def _find_sides(mesh: Any, aspect: float) -> list[Ints]:
+def _find_sides(points: Floats, mesh: Triangulation, aspect: float) -> list[Ints]:
     """Nodes of the four sides, anticlockwise from the foot, corners in both sides.
 
     A walk around the boundary, so that no coordinate has to equal another.
     """
-    facets = mesh.boundary_facets()
-    first, second = mesh.facets[:, facets]
+    ends = mesh.edges[:, mesh.boundary].T
     around: dict[int, list[tuple[int, int]]] = defaultdict(list)
-    for facet, start, end in zip(facets, first, second, strict=True):
-        around[int(start)].append((int(facet), int(end)))
-        around[int(end)].append((int(facet), int(start)))
+    for edge, (start, end) in zip(mesh.boundary.tolist(), ends.tolist(), strict=True):
+        around[start].append((edge, end))
+        around[end].append((edge, start))
     corners = [
-        int(np.hypot(mesh.p[0] - x, mesh.p[1] - y).argmin())
+        int(np.hypot(points[:, 0] - x, points[:, 1] - y).argmin())
         for x, y in ((0.0, 0.0), (aspect, 0.0), (aspect, 1.0), (0.0, 1.0))
     ]
-    loop = _walk_boundary(around, corners[0], mesh)
+    loop = _walk_boundary(around, corners[0], points)
     places = [loop.index(corner) for corner in corners[1:]]
     return [
         np.array(loop[start : end + 1], dtype=np.int64)
@@ -244,18 +241,18 @@ def _find_sides(mesh: Any, aspect: float) -> list[Ints]:
 
 
 def _walk_boundary(
-    around: dict[int, list[tuple[int, int]]], corner: int, mesh: Any
+    around: dict[int, list[tuple[int, int]]], corner: int, points: Floats
 ) -> list[int]:
     """Nodes on the boundary from a corner along the ground and back to it."""
     loop = [corner]
     # of the foot's two neighbours the one on the ground
-    facet, vertex = max(around[corner], key=lambda one: float(mesh.p[0, one[1]]))
+    edge, vertex = max(around[corner], key=lambda one: float(points[one[1], 0]))
     while True:
-        loop += [mesh.nvertices + facet, vertex]
+        loop += [len(points) + edge, vertex]
         if vertex == corner:
             return loop
         one, other = around[vertex]
-        facet, vertex = other if one[0] == facet else one
+        edge, vertex = other if one[0] == edge else one
 
 
 def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
@@ -275,7 +272,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
         are parabolas through their three nodes, all others are straight.
     """
     distance, height = template.nodes
-    follow = np.maximum(0.0, 1.0 - distance / min(NET_FOLLOWED, template.aspect))
+    follow = _follow(template)
     fractions = template.net_fractions
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])
@@ -284,6 +281,13 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
     placed[:, template.n_vertices :] = (placed[:, start] + placed[:, end]) / 2.0
     placed[:, template.net] = net_curve
     return placed
+
+
+@lru_cache(maxsize=256)
+def _follow(template: MeshTemplate) -> Floats:
+    """Share of the net's displacement that each node takes, shape (n_nodes,)."""
+    reach = min(NET_FOLLOWED, template.aspect)
+    return _frozen(np.maximum(0.0, 1.0 - template.nodes[0] / reach))
 
 
 def edge_triples(chain: Ints) -> tuple[Ints, Ints, Ints]:

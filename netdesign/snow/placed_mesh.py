@@ -6,6 +6,7 @@ Unknowns are velocities in node axes: (normal, tangential) to the net at its nod
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple
@@ -115,12 +116,12 @@ class PlacedMesh:
         operator = build_strain_operator(self.template, self.gradients, self.axes)
         return add_pressure_rows(operator) if self.is_mixed else operator
 
-    def to_node_axes(self, vectors: Floats) -> Floats:
+    def to_node_axes(self, vectors: Sequence[Floats] | Floats) -> Floats:
         """Vectors as unknowns.
 
         Parameters
         ----------
-        vectors : ndarray, shape (2, n_nodes)
+        vectors : ndarray, shape (2, n_nodes), or two of them
             In the slope's axes, any unit.
 
         Returns
@@ -164,7 +165,8 @@ class PlacedMesh:
             In the slope's axes, foot to head.
         """
         net = self.template.net
-        return _turn(self.axes[:, net], unknowns[2 * net], unknowns[2 * net + 1])
+        pairs = unknowns[: self.n_velocities].reshape(-1, 2)[net]
+        return _turn(self.axes[:, net], *pairs.T)
 
     @cached_property
     def base(self) -> BaseEdges:
@@ -276,8 +278,8 @@ def turn_normals(mesh: PlacedMesh) -> Floats:
 
 
 def _build_base(template: MeshTemplate, nodes: Floats) -> BaseEdges:
-    triples = _list_edges(template).ground
-    half = np.abs(nodes[0, triples[:, 2]] - nodes[0, triples[:, 0]]) / 2.0
+    ends = nodes[0, template.ground[::2]]
+    half = np.abs(ends[1:] - ends[:-1]) / 2.0
     return BaseEdges(
         dofs=_list_edges(template).ground_dofs,
         shape=_EDGE_SHAPE,

@@ -9,7 +9,7 @@ import numpy as np
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.contact import Contact
 from netdesign.snow.element import interpolate_reference
-from netdesign.snow.flow_step import FlowState
+from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
 

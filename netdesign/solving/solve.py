@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from netdesign.coupling.history.clock import Clock
-from netdesign.coupling.history.staggered import StaggeredSettings, solve_staggered
-from netdesign.coupling.history.transient import TransientSettings, solve_transient
+from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
-from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.wall import Wall
+
+if TYPE_CHECKING:
+    from netdesign.coupling.history.clock import Clock
 
 Settings = SolverSettings | TransientSettings | StaggeredSettings
 
@@ -30,11 +30,18 @@ def solve_scene(
     clock : Clock, optional
         Temperature of the snow against time; of histories only.
     """
+    # few runs follow histories or push a wall: they alone wait for the imports
     if isinstance(settings, TransientSettings):
+        from netdesign.coupling.history.transient import solve_transient
+
         return solve_transient(scene, settings, clock=clock)
     if isinstance(settings, StaggeredSettings):
+        from netdesign.coupling.history.staggered import solve_staggered
+
         return solve_staggered(scene, settings)
     if isinstance(scene.net, Wall):
+        from netdesign.coupling.steady.rigid import solve_rigid
+
         return solve_rigid(scene, settings)
     return solve_steady(scene, settings)
 

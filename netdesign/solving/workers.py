@@ -30,7 +30,6 @@ from netdesign.outcome import Outcome
 from netdesign.solving.describe import describe_case
 from netdesign.solving.solve import Settings, solve_scene
 from netdesign.solving.state import CaseEnd, is_stuck, keep_state
-from netdesign.solving.store import identify_solver
 from netdesign.words.message import say
 
 DIED = say("worker.died")
@@ -208,6 +207,9 @@ class DaskCluster:
             from distributed import Client
         except ImportError:
             raise ClusterError(say("cluster.needs_extra", address=address)) from None
+        # here, since workers of a pool need no store
+        from netdesign.solving.store import identify_solver
+
         _require_answer(address)
         self._address = address
         # what Dask logs of a lost connection is told by a ClusterError
@@ -221,10 +223,11 @@ class DaskCluster:
             versions = self._client.run(identify_solver)
         except (OSError, ValueError) as error:
             raise _name_silence(address, error) from None
-        others = {v for v in versions.values() if v != identify_solver()}
+        own = identify_solver()
+        others = {v for v in versions.values() if v != own}
         if others or not versions:
             self.close()
-            raise _refuse_versions(address, tuple(sorted(others)))
+            raise _refuse_versions(address, own, tuple(sorted(others)))
 
     def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         """Solve all batches; those lost with a worker are tried again job by job.
@@ -348,8 +351,9 @@ def _name_silence(address: str, error: Exception) -> ClusterError:
     )
 
 
-def _refuse_versions(address: str, others: tuple[str, ...]) -> ClusterError:
-    version = identify_solver()
+def _refuse_versions(
+    address: str, version: str, others: tuple[str, ...]
+) -> ClusterError:
     if not others:
         return ClusterError(say("cluster.no_worker", address=address, version=version))
     return ClusterError(

@@ -7,6 +7,7 @@ import json
 from collections import Counter
 from dataclasses import replace
 from datetime import datetime
+from functools import lru_cache
 from pathlib import Path
 
 from netdesign.edge.causes import explain, explain_shape
@@ -29,7 +30,28 @@ def compute_digest(study: Study) -> str:
     was altered by somebody who did not think of it. Who alters a document on purpose
     can compute it again: only a new solve shows that the numbers are true.
     """
-    return _digest(write_json(replace(study, digest="")))
+    _, digest = _write_open(_Itself(study))
+    return digest
+
+
+class _Itself:
+    """A study as a key, known by itself: to compare two takes long."""
+
+    def __init__(self, study: Study) -> None:
+        self.study = study
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Itself) and self.study is other.study
+
+    def __hash__(self) -> int:
+        return id(self.study)
+
+
+@lru_cache(maxsize=2)
+def _write_open(key: _Itself) -> tuple[str, str]:
+    """Text of a study without its digest, and that: page and document want both."""
+    text = write_json(replace(key.study, digest=""))
+    return text, _digest(text)
 
 
 def _digest(text: str) -> str:
@@ -43,9 +65,9 @@ def write_document(study: Study) -> str:
 
     Numbers stand in full, keys in the order of the fields.
     """
-    text = write_json(replace(study, digest=""))
+    text, digest = _write_open(_Itself(study))
     # no text in the document has a line end of its own, so this line stands once
-    return text.replace(_OPEN_LINE, f'{_OPEN_LINE[:-1]}{_digest(text)}"', 1)
+    return text.replace(_OPEN_LINE, f'{_OPEN_LINE[:-1]}{digest}"', 1)
 
 
 def read_document(text: str) -> Study:

@@ -25,6 +25,7 @@ from netdesign.words.message import Message, say
 CLOSE = 0.9  # utilisation from which a passing check is told where it flips
 _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
+_UNITS = {"density": "kg/m³", "thickness": "m"}  # of what is searched
 _MOST_ROUNDS, _MOST_STEPS = 4, 14
 _NEAR = 2e-3  # a root is found when the utilisation lies this close below 1
 
@@ -102,7 +103,7 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     least, most = _LEAST_SHARE * thickness, target.row.net_height
     highest = _find_floor_height(target, least, most)
     if highest is None:
-        bound, solves, note = None, 0, say("change.not_even", value=least)
+        bound, solves, note = None, 0, _refuse("change.not_even", "thickness", least)
     elif target.is_slack:  # the floor alone decides
         bound, solves, note = _round_down(highest, _STEPS["thickness"]), 0, None
     else:
@@ -298,6 +299,11 @@ def _search(
     return None, probe.count - before, say("change.not_settled")
 
 
+def _refuse(key: str, quantity: str, value: float, **more: Message) -> Message:
+    """Remark why a value is none, with its unit."""
+    return say(key, value=value, unit=_UNITS[quantity], **more)
+
+
 def _find_violator(target: Target, probe: Probe, move: Move) -> Case | Message | None:
     """Rival case that still fails most at a value; a reason if one is unsolved."""
     worst, largest = None, 1.0
@@ -307,7 +313,9 @@ def _find_violator(target: Target, probe: Probe, move: Move) -> Case | Message |
         utilisation = target.utilisation(result, move)
         if utilisation is None:
             reason = result.reason or result.outcome.message
-            return say("change.rival_without_result", value=move.value, reason=reason)
+            return _refuse(
+                "change.rival_without_result", move.name, move.value, reason=reason
+            )
         if utilisation > largest:
             worst, largest = case, utilisation
     return worst
@@ -342,7 +350,7 @@ def _find_root(
         (result,) = target.solve(probe, [case], move)
         utilisation = target.utilisation(result, move)
         if utilisation is None:
-            return say("change.case_without_result", value=value)
+            return _refuse("change.case_without_result", quantity, value)
         if utilisation <= 0.0:
             return say("change.member_slack")
         if 1.0 - _NEAR <= utilisation <= 1.0:
@@ -354,7 +362,7 @@ def _find_root(
         else:
             fails, known_fail = value, True
             if value == limits[0]:
-                return say("change.not_even", value=value)
+                return _refuse("change.not_even", quantity, value)
         if known_pass and known_fail and fails - passes < 1e-3 * fails:
             return passes
         point = (math.log(value), math.log(utilisation))

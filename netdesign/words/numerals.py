@@ -6,6 +6,7 @@ typed, and so does what programs read: JSON, csv, toml and cells that hold numbe
 
 from __future__ import annotations
 
+import re
 from typing import Literal, get_args
 
 Language = Literal["en", "fr", "de"]
@@ -13,9 +14,14 @@ LANGUAGES: tuple[Language, ...] = get_args(Language)
 
 _NO_BREAK = "\u00a0"
 _MARKS = {
-    "fr": str.maketrans({".": ",", ",": _NO_BREAK}),
-    "de": str.maketrans({".": ",", ",": _NO_BREAK}),
+    one: str.maketrans({".": ",", ",": _NO_BREAK, "%": f"{_NO_BREAK}%"})
+    for one in ("fr", "de")
 }
+_DAY = re.compile(r"(\d{4})-(0[1-9]|1[0-2])-(\d\d)")
+_MONTHS = (
+    *("janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août"),
+    *("septembre", "octobre", "novembre", "décembre"),
+)
 
 
 def set_marks(number: str, language: Language) -> str:
@@ -27,3 +33,21 @@ def set_marks(number: str, language: Language) -> str:
     ('12.50', '12,50', '3,8e-16')
     """
     return number.translate(_MARKS.get(language, {}))
+
+
+def write_day(day: str, language: Language) -> str:
+    """Day in ISO form as a sentence of the language has it; any other text stays.
+
+    Examples
+    --------
+    >>> write_day("2018-02-01", "de"), write_day("2018-02-17", "fr").split()
+    ('01.02.2018', ['17', 'février', '2018'])
+    """
+    found = _DAY.fullmatch(day)
+    if found is None or language == "en":
+        return day
+    year, month, number = found.groups()
+    if language == "de":
+        return f"{number}.{month}.{year}"
+    first = f"{int(number)}er" if number == "01" else f"{int(number)}"
+    return _NO_BREAK.join((first, _MONTHS[int(month) - 1], year))

@@ -92,7 +92,7 @@ PROFILES = [load_standard(name) for name in list_standards()]
 
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda one: one.id)
 @given(st.floats(0.0, 89.0))
-@settings(max_examples=60, derandomize=True, deadline=None)
+@settings(max_examples=60)
 def test_no_profile_passes_a_slope_that_cannot_be_believed(profile, degrees):
     check = check_slope(math.radians(degrees), profile)
     is_inside = 25.0 <= degrees <= 60.0
@@ -104,7 +104,7 @@ def test_no_profile_passes_a_slope_that_cannot_be_believed(profile, degrees):
 
 
 @given(st.floats(60.01, 75.0))
-@settings(max_examples=30, derandomize=True, deadline=None)
+@settings(max_examples=30)
 def test_a_percentage_is_guessed_where_degrees_are_too_many(degrees):
     """The row of the verdict page: 65, meant in percent."""
     check = check_slope(math.radians(degrees), load_standard("eurocode"))

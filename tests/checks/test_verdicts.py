@@ -27,7 +27,6 @@ from tests.checks.entries import a_resistance, a_value
 PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
 BARE = replace(load_standard("swiss-guideline-2007"), values=(), tables=())
 
-FIXED = {"derandomize": True, "deadline": None, "database": None}
 
 FORCES = st.floats(1.0, 1e7)  # [N]
 FACTORS = st.floats(0.5, 4.0)
@@ -63,7 +62,7 @@ def verdict_of(action, on_action, strength, factor, gap=None):
 
 
 @given(bands(), FACTORS, FORCES, FACTORS, GAPS)
-@settings(max_examples=400, **FIXED)
+@settings(max_examples=400)
 def test_a_verdict_is_what_the_numbers_say(action, on_action, strength, factor, gap):
     """Rows two to five of the table: outside, a case without result, across, inside."""
     low, high = (
@@ -80,7 +79,7 @@ def test_a_verdict_is_what_the_numbers_say(action, on_action, strength, factor, 
 
 
 @given(bands(), FACTORS, FORCES, FACTORS, st.integers(0, 2), GAPS)
-@settings(max_examples=100, **FIXED)
+@settings(max_examples=100)
 def test_a_missing_number_is_not_proven(action, on_action, strength, factor, k, gap):
     numbers = [on_action, strength, factor]
     numbers[k] = None
@@ -88,7 +87,7 @@ def test_a_missing_number_is_not_proven(action, on_action, strength, factor, k, 
 
 
 @given(bands(), FACTORS, ANY_NUMBER, FACTORS)
-@settings(max_examples=100, **FIXED)
+@settings(max_examples=100)
 def test_a_resistance_that_is_no_positive_number_is_not_proven(
     action, on_action, strength, factor
 ):
@@ -97,13 +96,13 @@ def test_a_resistance_that_is_no_positive_number_is_not_proven(
 
 
 @given(FACTORS, FORCES, FACTORS)
-@settings(max_examples=50, **FIXED)
+@settings(max_examples=50)
 def test_no_solved_case_is_not_proven(on_action, strength, factor):
     assert verdict_of(None, on_action, strength, factor) is OPEN
 
 
 @given(bands(), FORCES, st.sampled_from(["", "declared", "guessed", "tendon"]))
-@settings(max_examples=50, **FIXED)
+@settings(max_examples=50)
 def test_an_unknown_basis_is_not_proven(action, strength, basis):
     on_tested = replace(
         BARE,
@@ -117,7 +116,7 @@ def test_an_unknown_basis_is_not_proven(action, strength, basis):
 
 
 @given(st.one_of(st.none(), FORCES), st.one_of(st.none(), FACTORS), GAPS)
-@settings(max_examples=100, **FIXED)
+@settings(max_examples=100)
 def test_a_slack_member_passes_only_if_nothing_is_missing(strength, factor, gap):
     slack = Band(low=0.0, value=0.0, high=0.0)
     expected = OPEN if gap or not strength or not factor else PASS
@@ -125,7 +124,7 @@ def test_a_slack_member_passes_only_if_nothing_is_missing(strength, factor, gap)
 
 
 @given(ANY_NUMBER, ANY_NUMBER, ANY_NUMBER, ANY_NUMBER, st.booleans())
-@settings(max_examples=500, **FIXED)
+@settings(max_examples=500)
 def test_judge_proves_only_what_comparisons_hold(low, high, least, most, complete):
     verdict = judge(low, high, least=least, most=most, is_complete=complete)
     is_band = math.isfinite(low) and math.isfinite(high) and low <= high
@@ -143,7 +142,7 @@ def test_judge_proves_only_what_comparisons_hold(low, high, least, most, complet
 
 
 @given(NO_NUMBER, st.floats(0.0, 2.0), st.booleans())
-@settings(max_examples=50, **FIXED)
+@settings(max_examples=50)
 def test_what_is_no_number_is_not_proven(bad, good, complete):
     for low, high in ((bad, good), (good, bad), (bad, bad)):
         verdict = judge(low, high, least=0.0, most=1.0, is_complete=complete)
@@ -151,7 +150,7 @@ def test_what_is_no_number_is_not_proven(bad, good, complete):
 
 
 @given(st.floats(0.0, 2.0), st.floats(0.0, 2.0), st.floats(0.0, 1.0))
-@settings(max_examples=200, **FIXED)
+@settings(max_examples=200)
 def test_less_certainty_never_makes_a_verdict_better(low, high, more):
     """Of a wider band, or of one without some case: a pass stays one or is lost."""
     low, high = sorted((low, high))
@@ -165,7 +164,7 @@ def test_less_certainty_never_makes_a_verdict_better(low, high, more):
 
 
 @given(bands(), FACTORS, FORCES, FACTORS, st.floats(1.0, 3.0))
-@settings(max_examples=200, **FIXED)
+@settings(max_examples=200)
 def test_more_load_or_less_strength_never_makes_a_verdict_better(
     action, on_action, strength, factor, more
 ):
@@ -203,7 +202,7 @@ FAMILIES = {
 
 
 @given(ROWS, st.sampled_from(sorted(FAMILIES)))
-@settings(max_examples=100, **FIXED)
+@settings(max_examples=100)
 def test_a_missing_limit_is_not_proven_or_not_checked(row, mode):
     values = tuple(v for v in FULL.values if not v.id.startswith(FAMILIES[mode]))
     checked = {c.mode: c for c in check_geometry(row, replace(FULL, values=values))}
@@ -230,7 +229,7 @@ DECIDED = {
 
 
 @given(ROWS, st.sampled_from(sorted(DECIDED)), NO_NUMBER)
-@settings(max_examples=100, **FIXED)
+@settings(max_examples=100)
 def test_a_size_that_is_no_number_never_passes(row, name, bad):
     assume(not (name == "slope_angle" and math.isinf(bad)))  # has no tangent
     spoilt = check_geometry(replace(row, **{name: bad}), FULL)
@@ -242,7 +241,7 @@ def test_a_size_that_is_no_number_never_passes(row, name, bad):
 
 
 @given(st.lists(st.sampled_from(Verdict), max_size=30))
-@settings(max_examples=200, **FIXED)
+@settings(max_examples=200)
 def test_a_whole_is_no_better_than_its_parts(parts):
     whole = merge_verdicts(parts)
     if FAIL in parts:

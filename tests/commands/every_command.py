@@ -47,6 +47,7 @@ COMMANDS = {
     "standards validate": "standards validate own",
     "verify": "verify",
     "doctor": "doctor",
+    "help": "--help",
     "completion": "completion bash",
     "no command": "chek",
 }

@@ -72,9 +72,9 @@ def test_envelope_prints_every_figure_of_its_document(sizes):
     assert [line.split() for line in shown.stdout.splitlines()] == [
         ["one", "row"],
         ["<=", "1", "s:", "NOT", "reached"],
-        ["wall_s", "1.5"],
-        ["points", "{'rows':", "2}"],
-        ["points", "7"],
+        ["wall", "time", "[s]", "1.5"],
+        ["-", "rows", "2"],
+        ["-", "7"],
     ]
     assert (printed.exit_code, shown.exit_code) == (1, 1)
 

@@ -14,7 +14,7 @@ def test_the_doctor_names_versions_and_finds_the_program_sound(call):
     assert document["sound"] is True
     assert shown["netdesign"]["shows"] == __version__
     assert {"numpy", "OMP_NUM_THREADS", "BLAS", "solver"} <= set(shown)
-    assert shown["site workbook"]["shows"].endswith("net rows: 7")
+    assert shown["site workbook"]["shows"].endswith("7 net rows")
 
 
 @pytest.mark.parametrize("broken", ["_solve_small_scene", "_round_trip_example"])
@@ -37,3 +37,20 @@ def test_a_library_that_is_missing_is_a_fault(call, monkeypatch):
     ended = call("doctor")
     assert ended.code == 5
     assert "is missing" in ended.out
+
+
+def test_a_switch_of_the_core_that_is_none_is_told(call, monkeypatch):
+    monkeypatch.setenv("NETDESIGN_CORE", "fortran")
+    ended = call("doctor")
+    assert ended.code == 5
+    assert (
+        "NETDESIGN_CORE=fortran is not known: it may be numpy or not set" in ended.out
+    )
+
+
+def test_without_the_compiled_core_the_doctor_says_why(call, monkeypatch, tmp_path):
+    monkeypatch.setenv("NETDESIGN_CORE", "numpy")
+    assert "switched off by NETDESIGN_CORE" in call("doctor").out
+    monkeypatch.delenv("NETDESIGN_CORE")
+    monkeypatch.setattr("netdesign.core.library.LIBRARY", tmp_path / "none.so")
+    assert "for want of a compiled core" in call("doctor").out

@@ -161,7 +161,7 @@ def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
     lines = result.stderr.splitlines()
     assert re.fullmatch(
         r"search: \d+ solved, about \d+ to go; "
-        r"gap [\d.e+-]+ %, open rows: 1; about \d+ s left",
+        r"gap [\d.e+-]+ %, 1 row open; about \d+ s left",
         lines[-2],
     )
     assert re.fullmatch(r"outputs: \d+ solved; about 0 s left", lines[-1])
@@ -281,7 +281,7 @@ def test_ctrl_c_stops_within_two_seconds_and_tells_how_to_continue(scene, tmp_pa
 
 
 @pytest.mark.parametrize(
-    ("language", "said"), [("en", "[support]"), ("fr", "scène"), ("de", "Szene")]
+    ("language", "said"), [("en", "[support]"), ("fr", "situation"), ("de", "Szene")]
 )
 def test_a_support_that_is_not_used_is_told(tmp_path, store, language, said):
     path = tmp_path / "scene.toml"

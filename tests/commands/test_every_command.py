@@ -2,8 +2,9 @@
 
 Counted are words of the English texts that no text of the language has. What is no
 language is taken out first: names of commands, options, files, profiles and types.
-Left out on purpose: ``bench`` and ``paper``, which speak English only; ``--size``,
-which takes seconds; ``validate``, whose page takes minutes and has a test of its own.
+Left out on purpose: ``bench``, which has a test of its own; ``--size``, which takes
+seconds; ``validate`` and ``paper``, whose pages take minutes. Help of the commands is
+read by test_help.py.
 """
 
 import re
@@ -18,6 +19,8 @@ NAMES = re.compile(
     r"|\b[\w]+(-[\w]+)*-\d{4,5}(-style)?\b|\bnf-p-95-304-style\b"  # profiles
     r"|\b[AB]\d+-\w+|\brecommended-da2\b"  # types of the example; a choice
     r"|\blaw-[a-z]+(-[a-z…]+)*|\bown\b|\b[0-9a-f]{16,}\b"  # cases, a folder, digests
+    r"|\[[a-z]+(\|[a-z]+)+\]|^  [a-z]+(?=  )",  # in help: choices and commands
+    re.MULTILINE,
 )
 
 

@@ -94,5 +94,5 @@ def test_init_writes_in_a_language(call, tmp_path, language):
     assert name in openpyxl.load_workbook(tmp_path / "site.xlsx").sheetnames
     counted = call("check", "site.xlsx", "--dry-run")
     assert counted.code == 0
-    assert "net rows: 7" in counted.out
+    assert "7 net rows" in counted.out
     assert "note" not in counted.out

@@ -137,7 +137,7 @@ def test_contradictions_are_told_before_anything_is_solved(verify):
         ("fr", "rangée 'R7' : le verdict est SATISFAIT, mais ses parties donnent NON"),
         (
             "de",
-            "Werkreihe 'R7': das Urteil ist ERFÜLLT, aber seine Teile ergeben",
+            "Werkreihe 'R7': das Ergebnis ist ERFÜLLT, aber seine Teile ergeben",
         ),
     ],
 )

@@ -140,7 +140,11 @@ def test_snow_above_the_net_is_not_proven(call, site, tmp_path):
     [
         ((), "no snow heights", 3),
         (("--heights", "thin"), "are metres taken for centimetres", 3),
-        (("--heights", "good", "--row", "R77"), "no such rows: R77", 2),
+        (
+            ("--heights", "good", "--row", "R77"),
+            "--row R77: the site has no such row",
+            2,
+        ),
     ],
 )
 def test_refusals(call, site, heights, tmp_path, arguments, told, code):

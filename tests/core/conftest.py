@@ -2,7 +2,8 @@
 
 import pytest
 
-from netdesign.core.library import SWITCH, SWITCHED_OFF, find_core
+from netdesign.core.library import find_core
+from netdesign.core.sources import SWITCH, SWITCHED_OFF
 
 
 @pytest.fixture

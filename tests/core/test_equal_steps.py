@@ -1,20 +1,18 @@
 """Steps of the compiled core against those in NumPy, on drawn untidy states."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from netdesign.core.library import find_core
-from netdesign.snow.contact import (
-    net_components,
-    update_contact,
-)
-from netdesign.snow.flow import _estimate_left, sample_material
+from netdesign.snow import flow, flow_step
+from netdesign.snow.contact import net_components
+from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import (
-    compile_flow,
     compute_residual,
     linearise_reaction,
     remove_rounding,
-    take_step,
 )
 from tests.core.drawn import CLOSE, NUMBERS, compare, draw_case
 
@@ -22,18 +20,10 @@ pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core he
 
 
 def step(problem, mesh, state):
-    """Newton's step from a state, the error that it leaves, and what follows."""
-    core = compile_flow(problem, mesh)
-    material = sample_material(problem, mesh.template)
-    contact = state.contact
-    taken = take_step(core, None, problem, material, mesh, state, contact)
-    assert (taken.wanted is None) == (core is None)
-    left = _estimate_left(problem, material, mesh, state, taken, 1e9)
-    after = taken.state
-    wanted = taken.wanted or update_contact(
-        problem, mesh, contact, after.unknowns, after.reaction
-    )
-    return after, left, wanted
+    """A state after a Newton's step, the error that it leaves, and what follows."""
+    one = solve_flow(problem, mesh, state, tolerance=1e9, max_iterations=1)
+    two = solve_flow(problem, mesh, state, tolerance=1e-99, max_iterations=2)
+    return one.state, one.change, two.state.contact
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -78,3 +68,46 @@ def test_the_derivative_of_a_round_is_that_of_numpy(number, in_numpy):
         in_numpy(linearise_reaction, problem, mesh, state),
         1e-8,
     )
+
+
+def take_back(problem, mesh, state):
+    """State after steps of which only some changes of contact are taken."""
+    problem = replace(
+        problem, friction=0.2, net_contact="two-sided", ground_contact="one-sided"
+    )
+    # all press: where nothing does, rounding decides
+    held = replace(
+        state.contact,
+        is_open=np.zeros_like(state.contact.is_open),
+        is_pressed=np.ones_like(state.contact.is_pressed),
+    )
+    start = replace(state, contact=held)
+    return solve_flow(problem, mesh, start, tolerance=1e-99, max_iterations=4).state
+
+
+@pytest.mark.parametrize("number", NUMBERS[:12])
+@pytest.mark.parametrize("patience", [0, 1])
+def test_changes_that_are_taken_back_are_those_of_numpy(
+    number, patience, in_numpy, monkeypatch
+):
+    """Half of each row of changes at step ``patience``, later one at a time."""
+    monkeypatch.setattr(flow, "_PATIENCE", patience)
+    case = draw_case(number)
+    found, expected = take_back(*case), in_numpy(take_back, *case)
+    compare(found.reaction, expected.reaction, 1e-7)
+    for name in ("sign", "is_open", "is_lifted"):
+        one, other = getattr(found.contact, name), getattr(expected.contact, name)
+        np.testing.assert_array_equal(one, other)
+
+
+def solve(problem, mesh, state):
+    return solve_flow(problem, mesh, state, tolerance=0.1)
+
+
+def test_a_mesh_that_is_too_large_for_the_core_is_solved_in_numpy(
+    in_numpy, monkeypatch
+):
+    case = draw_case(0)
+    expected = in_numpy(solve, *case)
+    monkeypatch.setattr(flow_step, "prepare_flow", lambda *_: None)
+    np.testing.assert_array_equal(solve(*case).state.stress, expected.state.stress)

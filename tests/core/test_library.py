@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from netdesign.core import library, sources
+from netdesign.core import library, plan, sources
 from netdesign.core.plan import build_plan
 
 ROOT = Path(library.__file__).resolve().parents[2]
@@ -30,8 +30,9 @@ def load_hook():
     return hook
 
 
-def test_switched_off(monkeypatch):
-    monkeypatch.setenv(library.SWITCH, library.SWITCHED_OFF)
+@pytest.mark.parametrize("word", ["numpy", "NumPy", " NUMPY "])
+def test_switched_off(word, monkeypatch):
+    monkeypatch.setenv(sources.SWITCH, word)
     assert library.find_core() is None
     assert library.name_core() == "numpy"
 
@@ -41,6 +42,17 @@ def test_its_name_has_the_digest_of_its_text():
     digest = sources.digest_sources()
     assert library.name_core() == f"C {digest}"
     assert len(digest) == 12
+
+
+def test_the_digest_has_the_flags(monkeypatch):
+    """A library that may fuse multiplications is another one."""
+    before = sources.digest_sources()
+    sources.digest_sources.cache_clear()
+    flags = tuple(flag for flag in sources.FLAGS if "contract" not in flag)
+    assert len(flags) < len(sources.FLAGS)
+    monkeypatch.setattr(sources, "FLAGS", flags)
+    assert sources.digest_sources() != before
+    sources.digest_sources.cache_clear()
 
 
 @pytest.mark.parametrize("content", [None, b"", b"not a library"])
@@ -53,10 +65,10 @@ def test_a_file_that_is_no_library_is_not_taken(tmp_path, content):
 
 @needs_compiler
 def test_a_library_of_another_text_is_not_taken(tmp_path, monkeypatch):
-    monkeypatch.delenv(library.SWITCH, raising=False)
+    monkeypatch.delenv(sources.SWITCH, raising=False)
     hook = load_hook()
     path = tmp_path / "_core.so"
-    assert hook.compile_core(ROOT, hook.find_compiler(), path, ("-O0",)) == ""
+    assert hook.compile_core(ROOT, hook.find_compiler(sources), path, ("-O0",)) == ""
     assert isinstance(library._load(path), ctypes.PyDLL)
     library._load.cache_clear()
     monkeypatch.setattr(library, "digest_sources", lambda: "of another")
@@ -73,22 +85,22 @@ def test_every_c_file_is_compiled():
 @needs_compiler
 def test_no_compiler_where_it_is_switched_off_or_missing(monkeypatch):
     hook = load_hook()
-    monkeypatch.delenv(library.SWITCH, raising=False)
-    assert hook.find_compiler()
-    monkeypatch.setenv(library.SWITCH, library.SWITCHED_OFF)
-    assert hook.find_compiler() is None
-    monkeypatch.delenv(library.SWITCH)
+    monkeypatch.delenv(sources.SWITCH, raising=False)
+    assert hook.find_compiler(sources)
+    monkeypatch.setenv(sources.SWITCH, sources.SWITCHED_OFF)
+    assert hook.find_compiler(sources) is None
+    monkeypatch.delenv(sources.SWITCH)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
-    assert hook.find_compiler() is None
+    assert hook.find_compiler(sources) is None
 
 
 @needs_compiler
 def test_a_compiler_that_fails_is_told(tmp_path, monkeypatch):
-    monkeypatch.delenv(library.SWITCH, raising=False)
+    monkeypatch.delenv(sources.SWITCH, raising=False)
     hook = load_hook()
     path = tmp_path / "_core.so"
-    fault = hook.compile_core(ROOT, hook.find_compiler(), path, ("-DPOINTS=[",))
+    fault = hook.compile_core(ROOT, hook.find_compiler(sources), path, ("-DPOINTS=[",))
     assert "error" in fault
     assert not path.exists()
 
@@ -100,8 +112,8 @@ NET = np.array([0, 5, 2], dtype=np.int32)
 
 @needs_core
 def test_plan_of_one_triangle():
-    plan = build_plan(library.find_core(), TRIANGLES, NODES, NET)
-    n_nodes, n_triangles, n_net, n_fronts, widest = plan[1:6]
+    built = build_plan(library.find_core(), TRIANGLES, NODES, NET)
+    n_nodes, n_triangles, n_net, n_fronts, widest = built[1:6]
     assert (n_nodes, n_triangles, n_net, n_fronts, widest) == (6, 1, 3, 1, 12)
 
 
@@ -119,3 +131,10 @@ def test_plan_of_one_triangle():
 def test_numbers_out_of_range_are_refused(triangles, net):
     with pytest.raises(ValueError, match="compiled core refuses"):
         build_plan(library.find_core(), triangles, NODES, net)
+
+
+@needs_core
+def test_a_template_whose_factor_is_too_large_has_no_plan(monkeypatch):
+    monkeypatch.setattr(plan, "_MOST_NUMBERS", 12)
+    found = build_plan(library.find_core(), TRIANGLES, NODES, NET)
+    assert found is None

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.history.staggered import StaggeredSettings, solve_staggered
-from netdesign.coupling.history.transient import TransientSettings, solve_transient
+from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
+from netdesign.coupling.history.staggered import solve_staggered
+from netdesign.coupling.history.transient import solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.edge import progress as progress_module
 from netdesign.edge.progress import Phase, RunProgress, show_phases
@@ -122,9 +122,9 @@ def test_a_wave_gives_gap_and_rows_and_corrects_the_count():
     ]
     progress = RunProgress(phases, shown.append, Clock())
     progress.tell_wave(Wave(2, 9, math.inf))
-    assert "no bound yet, open rows: 2" in str(shown[-1])
+    assert "no bound yet, 2 rows open" in str(shown[-1])
     progress.tell_wave(Wave(1, 3, 0.0234))
-    assert str(shown[-1]) == "search: 0 solved, about 49 to go; gap 2.3 %, open rows: 1"
+    assert str(shown[-1]) == "search: 0 solved, about 49 to go; gap 2.3 %, 1 rows open"
     progress.tell_wave(Wave(0, 0, 0.0))
     assert str(shown[-1]) == "search: 0 solved, about 40 to go"
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks.result import Band
-from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope import confirm
 from netdesign.envelope.confirm import (

@@ -22,8 +22,6 @@ IN_THE_SUITE = 450
 EXAMPLES = int(os.environ.get("NETDESIGN_FUZZ_EXAMPLES", "100000"))
 SEED = int(os.environ.get("NETDESIGN_FUZZ_SEED", "20261121"))
 _COMMON = {
-    "database": None,
-    "deadline": None,  # `time_limit` ends what hangs
     "suppress_health_check": list(HealthCheck),
     "phases": (Phase.generate, Phase.shrink),
 }

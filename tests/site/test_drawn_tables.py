@@ -117,7 +117,7 @@ def put_in_sheet(lines):
     return Workbook(file="f.xlsx", sha256="", sheets=(sheet,), unread=())
 
 
-@settings(derandomize=True, max_examples=120, deadline=None)
+@settings(max_examples=120)
 @given(tables())
 def test_every_number_is_read_as_typed_or_asked_for_and_every_column_told(drawn):
     lines, truth, strangers = drawn
@@ -140,7 +140,7 @@ def test_every_number_is_read_as_typed_or_asked_for_and_every_column_told(drawn)
         assert any(heading in text for _, text in told)
 
 
-@settings(derandomize=True, max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(st.permutations(range(len(NETS.fields))), st.data())
 def test_a_heading_never_gives_two_columns(order, data):
     """Two columns of one field are refused, whatever their headings."""

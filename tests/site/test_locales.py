@@ -48,27 +48,27 @@ def is_taken_or_refused(typed_number):
     return isinstance(understood, Refusal) or understood == float(truth)
 
 
-@settings(derandomize=True, max_examples=1000, deadline=None)
+@settings(max_examples=1000)
 @given(typed_numbers())
 def test_a_number_is_the_one_typed_or_refused(typed_number):
     assert is_taken_or_refused(typed_number)
 
 
 @pytest.mark.slow
-@settings(derandomize=True, max_examples=10_000, deadline=None)
+@settings(max_examples=10_000)
 @given(typed_numbers())
 def test_ten_thousand_numbers_are_the_ones_typed_or_refused(typed_number):
     assert is_taken_or_refused(typed_number)
 
 
-@settings(derandomize=True, max_examples=1000, deadline=None)
+@settings(max_examples=1000)
 @given(typed_numbers())
 def test_with_the_decimal_mark_declared_every_number_is_taken(typed_number):
     typed, truth, mark = typed_number
     assert parse_number(typed, mark) == float(truth)
 
 
-@settings(derandomize=True, max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(typed_numbers())
 def test_without_it_only_what_has_two_readings_is_refused(typed_number):
     typed, _, _ = typed_number
@@ -82,9 +82,7 @@ def test_without_it_only_what_has_two_readings_is_refused(typed_number):
 
 
 @settings(
-    derandomize=True,
     max_examples=10,
-    deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 @given(st.lists(typed_numbers(), min_size=20, max_size=50))

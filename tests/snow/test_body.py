@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.transient import TRANSIENT_LEVELS
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow import body as body_module

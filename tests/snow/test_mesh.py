@@ -6,7 +6,7 @@ from dataclasses import asdict
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.transient import TRANSIENT_LEVELS
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.errors import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes

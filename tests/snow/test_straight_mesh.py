@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sparse
 
-from netdesign.coupling.history.transient import TRANSIENT_LEVELS
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.snow import forms, kernel
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.straight_mesh import (

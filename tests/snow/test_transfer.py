@@ -6,7 +6,7 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow.contact import start_contact
 from netdesign.snow.element import point_heights
-from netdesign.snow.flow_step import FlowState
+from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.transfer import transfer_state

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.envelope import confirm
 from netdesign.envelope.confirm import confirm_envelopes
 from netdesign.envelope.ranges import Interval, Ranges

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.transient import TRANSIENT_LEVELS
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snowpack.follow import follow_heights
 from netdesign.snowpack.hs2swe import HS2SWE

@@ -28,6 +28,8 @@ FAMILIES: tuple[str, ...] = (
     *("slab_ground.", "variant."),
     "floor.profile_",
     *("reference.", "case_kind.", "piece.", "verify_table."),
+    *("against_figure.", "against_clock.", "bench.refused_"),
+    *("bench_table.", "bench_plot.", "bench_value."),
     *("measured.", "model_source.", "validation."),
     *("validation_mark.", "validation_input.", "validation_member."),
     *("formula.", "brings.", "holding.", "position."),

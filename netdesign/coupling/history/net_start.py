@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 
 from netdesign.cable.response import measure_arcs
@@ -12,6 +10,7 @@ from netdesign.coupling.history.net_at_rest import (
     find_net_at_rest,
     hang_polygon,
 )
+from netdesign.coupling.history.settings import Start
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.steady.start import guess_pressure
@@ -21,8 +20,6 @@ from netdesign.outcome import Outcome
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshSize, MeshTemplate
 from netdesign.words.message import say
-
-Start = Literal["steady", "straight", "sagged"]
 
 _BISECTIONS = 60
 _LARGEST_SAG = 0.6  # over the chord

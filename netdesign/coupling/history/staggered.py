@@ -8,7 +8,7 @@ section 7.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -27,22 +27,23 @@ from netdesign.cable.response import (
 from netdesign.cable.tension import compute_turning_angles
 from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.instant import Instant, advance_under
-from netdesign.coupling.history.net_start import Start, build_start, find_start
+from netdesign.coupling.history.net_start import build_start, find_start
 from netdesign.coupling.history.problem import build_problem
 from netdesign.coupling.history.run import Run, measure_run, record_moment
 from netdesign.coupling.history.run_result import build_solution, scale_history
+from netdesign.coupling.history.settings import (
+    StaggeredSettings,
+)
 from netdesign.coupling.history.state import TransientProblem, TransientState
-from netdesign.coupling.history.transient import TRANSIENT_LEVELS
 from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError
-from netdesign.guards import require_count, require_positive, require_within
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
-from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.snow.mesh import build_template
 from netdesign.words.message import say
 
 # Of the step: whole and halved.
@@ -52,48 +53,6 @@ _STABLE_SHARE = 0.3
 # Force missing from the balance, over the weight. Shear beyond the friction limit, over
 # the weight: increments keep the limit only as steps vanish.
 _BALANCE_TOLERANCE, _FRICTION_TOLERANCE = 1e-8, 1e-2
-# Creep time that a run follows at most: its steps are short.
-LONGEST_EXCHANGE = 0.1
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StaggeredSettings:
-    """Settings of the paper's exchange; pure numbers.
-
-    Attributes
-    ----------
-    base_drag : float
-        Shear stress on the ground [rho g d] over its velocity [the snow's velocity
-        scale]; the smaller, the shorter the steps must be.
-    step_share : float
-        Step over the longest that is about stable.
-    start : str
-        ``straight`` (the paper), ``sagged`` or ``steady``.
-    horizon : float
-        Creep time to follow, over thickness by velocity scale.
-    stress_tolerance : float
-        Relative change of the stress in the last iteration of a step [-].
-    max_iterations : int
-        Newton iterations of a step.
-    size : MeshSize
-        Resolution.
-    """
-
-    base_drag: float = 0.02
-    step_share: float = 1.0
-    start: Start = "straight"
-    horizon: float = LONGEST_EXCHANGE
-    stress_tolerance: float = 1e-6
-    max_iterations: int = 40
-    size: MeshSize = field(default=TRANSIENT_LEVELS[0])
-
-    def __post_init__(self) -> None:
-        """Refuse a singular or an unstable scheme."""
-        require_within("base drag", self.base_drag, 1e-5, 10.0)
-        require_within("step share", self.step_share, 1e-3, 2.0)
-        require_positive("horizon", self.horizon)
-        require_within("stress tolerance", self.stress_tolerance, 1e-14, 1e-4)
-        require_count("iterations", self.max_iterations)
 
 
 def solve_staggered(

@@ -16,7 +16,7 @@ from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.follow import follow
 from netdesign.coupling.history.instant import Instant, advance
-from netdesign.coupling.history.net_start import Start, build_start, find_start
+from netdesign.coupling.history.net_start import build_start, find_start
 from netdesign.coupling.history.problem import build_problem
 from netdesign.coupling.history.run import (
     Run,
@@ -24,6 +24,9 @@ from netdesign.coupling.history.run import (
     record_moment,
 )
 from netdesign.coupling.history.run_result import build_solution, scale_history
+from netdesign.coupling.history.settings import (
+    TransientSettings,
+)
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.moments import (
     HistoryPoint,
@@ -34,27 +37,12 @@ from netdesign.coupling.moments import (
 from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
-from netdesign.errors import ModelError, SolveError
-from netdesign.guards import require_count, require_positive, require_within
+from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize, build_template
 from netdesign.words.message import say
 
-# Meshes from the fewest triangles upwards; as for the steady state, sectors around the
-# net's ends are worth more than triangles along its middle. Corners much smaller than
-# the way that the snow makes past them would be swept away.
-TRANSIENT_LEVELS = (
-    MeshSize(
-        net_spacing=0.34, corner=0.03, sectors=3, head_sectors=3, upslope_spacing=1.0
-    ),
-    MeshSize(
-        net_spacing=0.34, corner=0.01, sectors=5, head_sectors=3, upslope_spacing=0.8
-    ),
-    MeshSize(
-        net_spacing=0.2, corner=0.003, sectors=8, head_sectors=5, upslope_spacing=0.6
-    ),
-)
 # First step, in creep time. A straight net takes up its load from the corners inward,
 # within a time that goes with the square of their size; one that sags has most of its
 # load from the start.
@@ -77,53 +65,6 @@ _ERROR = ErrorModel(share=2.0, floor=5e-3)
 # Balance of a whole history, over what is asked of a step.
 _WHOLE_BALANCE = 100.0
 _LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TransientSettings:
-    """Settings of a history.
-
-    Attributes
-    ----------
-    accuracy : float
-        Relative error allowed in the end pulls, in space and time [-].
-    start : str
-        ``steady``, ``sagged`` or ``straight``.
-    horizon : float
-        Time to follow [s].
-    densifies : bool
-        The creep law follows the density.
-    stops_at_plateau : bool
-        End once the plateau is proven instead of at the horizon.
-    stress_tolerance, balance_tolerance : float
-        Of every step, as in ``SolverSettings`` [-].
-    max_steps, max_iterations : int
-        Steps of the run; Newton iterations in one of them.
-    levels : tuple of MeshSize
-        Meshes from coarse to fine, at least two.
-    """
-
-    accuracy: float = 0.01
-    start: Start = "steady"
-    horizon: float = 30.0 * 86400.0
-    densifies: bool = True
-    stops_at_plateau: bool = False
-    stress_tolerance: float = 1e-4
-    balance_tolerance: float = 1e-9
-    max_steps: int = 1000
-    max_iterations: int = 20
-    levels: tuple[MeshSize, ...] = field(default=TRANSIENT_LEVELS)
-
-    def __post_init__(self) -> None:
-        """Refuse settings that would make every result look converged."""
-        require_within("accuracy", self.accuracy, 1e-4, 0.1)
-        require_positive("horizon", self.horizon, "s")
-        require_within("stress tolerance", self.stress_tolerance, 1e-14, 1e-4)
-        require_within("balance tolerance", self.balance_tolerance, 1e-14, 1e-6)
-        require_count("steps", self.max_steps)
-        require_count("iterations", self.max_iterations)
-        if len(self.levels) < 2:
-            raise ModelError(say("scene.two_levels"))
 
 
 def solve_transient(

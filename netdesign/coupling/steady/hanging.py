@@ -7,6 +7,7 @@ thicknesses d, forces per metre of width in rho g d^2.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -165,6 +166,8 @@ def locate_nodes(template: MeshTemplate, hanging: Hanging) -> Floats:
     ndarray, shape (n_net,)
         0 at the foot, 1 at the snow's surface [-].
     """
+    if not template.interfaces:
+        return template.net_fractions
     marks = np.array([0.0, *template.interfaces, 1.0])
     below = np.append(0.0, np.cumsum(hanging.parts[: marks.size - 1]))
     return np.asarray(np.interp(template.net_fractions, marks, below / below[-1]))
@@ -176,6 +179,7 @@ def _list_marks(problem: SteadyProblem) -> Floats:
     return np.array([0.0, *problem.template.interfaces, 1.0, *top])
 
 
+@lru_cache(maxsize=4)  # every round asks
 def _share_parts(problem: SteadyProblem) -> tuple[Floats, Ints]:
     """Length of each element over that of its part; part of each element."""
     marks, heights = _list_marks(problem), problem.template.net_fractions[::2]
@@ -204,15 +208,7 @@ def _find_parts(
 ) -> Floats:
     """Lengths of the parts, from the pull of the last round or of the last lengths."""
     shares, part = _share_parts(problem)
-    ends = np.append(_list_marks(problem)[:-1], problem.head[1])
-    cable = PartedCable(
-        shares=shares,
-        firsts=np.searchsorted(part, np.arange(ends.size - 1)),
-        rises=np.diff(ends),
-        head_x=float(problem.head[0]),
-        length=problem.length,
-        stiffness=problem.stiffness,
-    )
+    cable = _cut_cable(problem)
     found = part_cable(cable, forces, pull)
     if found is None:
         hung = _solve_cable(problem, forces, shares * parts[part], pull)
@@ -223,6 +219,20 @@ def _find_parts(
             say("steady.contact_not_found"),
         )
     return found
+
+
+@lru_cache(maxsize=4)
+def _cut_cable(problem: SteadyProblem) -> PartedCable:
+    shares, part = _share_parts(problem)
+    ends = np.append(_list_marks(problem)[:-1], problem.head[1])
+    return PartedCable(
+        shares=shares,
+        firsts=np.searchsorted(part, np.arange(ends.size - 1)),
+        rises=np.diff(ends),
+        head_x=float(problem.head[0]),
+        length=problem.length,
+        stiffness=problem.stiffness,
+    )
 
 
 def _solve_cable(

@@ -27,7 +27,7 @@ from netdesign.coupling.solution import (
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import solve_flow
-from netdesign.snow.flow_step import FlowState
+from netdesign.snow.flow_state import FlowState
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh

@@ -10,7 +10,8 @@ import numpy as np
 from netdesign.cable.funicular import Funicular, linearise_curve
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.contact import net_components
-from netdesign.snow.flow_step import FlowState, linearise_reaction
+from netdesign.snow.flow_state import FlowState
+from netdesign.snow.flow_step import linearise_reaction
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.placed_mesh import PlacedMesh, turn_normals
 

@@ -36,7 +36,7 @@ from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowResult, solve_flow
-from netdesign.snow.flow_step import FlowState
+from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.snow.transfer import transfer_state

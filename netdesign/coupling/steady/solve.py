@@ -45,7 +45,7 @@ from netdesign.coupling.steady.rounds import Coupled, couple
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template
 from netdesign.words.message import say
 
 # Share of suction, over the largest accepted, that no finer mesh takes back.
@@ -203,12 +203,12 @@ def _solve_levels(
     scene: Scene, settings: SolverSettings, start: Coupled | None
 ) -> tuple[list[Coupled], list[Estimate]]:
     """Meshes until two agree; those before the one that fails, if they are two."""
-    net = _require_net(scene)
+    first = _build_problem(scene, _require_net(scene), settings.levels[0])
     solved: dict[MeshSize, Coupled] = {}
 
     def solve(size: MeshSize, coarse: Coupled | None) -> Coupled:
         if size not in solved:
-            problem = _build_problem(scene, net, size)
+            problem = replace(first, template=_build_template(scene, size))
             solved[size] = couple(
                 problem, settings, coarse or start, is_first=coarse is None
             )
@@ -274,12 +274,16 @@ def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
     thickness = scene.snowpack.thickness
     return SteadyProblem(
         snow=scene.steady_flow_problem,
-        template=build_template(scene.modelled_aspect, size, scene.layer_tops),
+        template=_build_template(scene, size),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,
         slack=net.slack,
         stiffness=net.stiffness_per_m / scene.force_scale,
     )
+
+
+def _build_template(scene: Scene, size: MeshSize) -> MeshTemplate:
+    return build_template(scene.modelled_aspect, size, scene.layer_tops)
 
 
 def _finish(end: Coupled) -> tuple[Coupled, SupportForces]:

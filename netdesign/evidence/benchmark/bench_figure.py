@@ -16,20 +16,17 @@ from netdesign.report.drawing.figures import (
     use_style,
     write_svg,
 )
+from netdesign.report.words import ENGLISH, Words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _HEIGHT_IN = 3.6
-_LABELS: dict[Path, str] = {
-    "fast": "fast path",
-    "reference": "scikit-fem, same meshes",
-    "plain": "scikit-fem, even meshes",
-}
+_PATHS: tuple[Path, ...] = ("fast", "reference", "plain")
 _COLOURS: dict[Path, str] = {"fast": ACCENT, "reference": INK, "plain": GREY}
 
 
-def draw_work_precision(rows: Sequence[Row]) -> str:
+def draw_work_precision(rows: Sequence[Row], words: Words = ENGLISH) -> str:
     """Run time against error: a dot a row, the median of each resolution joined."""
     from matplotlib.figure import Figure
 
@@ -37,34 +34,34 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
         figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
         axes = figure.add_subplot()
         steady = [row for row in rows if row.method == "steady"]
-        for path in _LABELS:
-            _draw_path(axes, [row for row in steady if row.path == path], path)
-        _draw_histories(axes, [row for row in rows if row.method == "transient"])
+        for path in _PATHS:
+            of_path = [row for row in steady if row.path == path]
+            _draw_path(axes, of_path, _COLOURS[path], words(f"bench_plot.{path}"))
+        histories = [row for row in rows if row.method == "transient"]
+        _draw_histories(axes, histories, words("bench_plot.transient"))
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlabel("error of the worse end force [%], against a finer mesh")
-        axes.set_ylabel("run time [ms]")
+        axes.set_xlabel(words("bench_plot.error"))
+        axes.set_ylabel(words("bench_plot.time"))
         axes.invert_xaxis()
         axes.grid(visible=True, which="major", color=GREY, alpha=0.25, linewidth=0.4)
         figure.legend(frameon=False, loc="outside upper left", ncols=2)
-    return write_svg(figure, "work-precision", "Run time against error")
+    return write_svg(figure, "work-precision", words("bench_plot.title"))
 
 
-def _draw_path(axes: Axes, rows: Sequence[Row], path: Path) -> None:
+def _draw_path(axes: Axes, rows: Sequence[Row], colour: str, label: str) -> None:
     if not rows:
         return
-    axes.plot(*_places(rows), ".", color=_COLOURS[path], alpha=0.35, markersize=4)
+    axes.plot(*_places(rows), ".", color=colour, alpha=0.35, markersize=4)
     by_mesh = _group_by_resolution(rows)
     errors = [100.0 * median(row.error for row in group) for group in by_mesh]
     times = [1e3 * median(row.wall_s for row in group) for group in by_mesh]
-    axes.plot(
-        errors, times, "-o", color=_COLOURS[path], markersize=4, label=_LABELS[path]
-    )
+    axes.plot(errors, times, "-o", color=colour, markersize=4, label=label)
 
 
-def _draw_histories(axes: Axes, rows: Sequence[Row]) -> None:
+def _draw_histories(axes: Axes, rows: Sequence[Row], label: str) -> None:
     if rows:
-        axes.plot(*_places(rows), "x", color=ACCENT, markersize=5, label="transient")
+        axes.plot(*_places(rows), "x", color=ACCENT, markersize=5, label=label)
 
 
 def _places(rows: Sequence[Row]) -> tuple[list[float], list[float]]:

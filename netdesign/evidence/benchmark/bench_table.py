@@ -7,27 +7,27 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.evidence.benchmark.rows import Row
 from netdesign.evidence.benchmark.summary import summarise
+from netdesign.report.words import ENGLISH, Words
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-_HEADINGS = ("Elements", "Time ms", "Error %", "Stated %", "Solves", "MB")
+_TEXTS = ("scene", "method", "path")
+_NUMBERS = ("elements", "time", "error", "stated", "solves", "memory")
 
 
-def print_rows(rows: Sequence[Row], console: Console) -> None:
+def print_rows(rows: Sequence[Row], console: Console, words: Words = ENGLISH) -> None:
     """Print one line per row, then what they say together."""
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
-    for heading in ("Scene", "Method", "Path"):
-        table.add_column(heading, no_wrap=True)
-    for heading in _HEADINGS:
-        table.add_column(heading, justify="right", no_wrap=True)
+    for heading in _TEXTS:
+        table.add_column(words(f"bench_table.{heading}"), no_wrap=True)
+    for heading in _NUMBERS:
+        named = words(f"bench_table.{heading}")
+        table.add_column(named, justify="right", no_wrap=True)
     for row in rows:
-        table.add_row(
-            row.scene,
-            row.method,
-            row.path,
+        numbers = (
             f"{row.elements}",
             f"{1e3 * row.wall_s:.1f}",
             f"{100 * row.error:.3f}",
@@ -35,106 +35,159 @@ def print_rows(rows: Sequence[Row], console: Console) -> None:
             f"{row.linear_solves}",
             f"{row.peak_mb:.1f}",
         )
+        kinds = (words(f"bench_table.{kind}") for kind in (row.method, row.path))
+        table.add_row(row.scene, *kinds, *map(words.write, numbers))
     console.print(table)
-    for line in _describe(rows):
-        console.print(line, highlight=False)
+    _print_lines(_describe(rows, words), console)
 
 
-def print_stress(document: Mapping[str, Any], console: Console) -> None:
+def print_stress(
+    document: Mapping[str, Any], console: Console, words: Words = ENGLISH
+) -> None:
     """Print what became of the random scenes; failures last."""
     lines = [
-        f"{document['scenes']} scenes of seed {document['seed']}: "
-        f"{document['converged']} converged, {len(document['failures'])} failed",
-        f"worst balance {_show(document['worst_balance'], '.1e')} of the weight, most "
-        f"linear solves {document['most_linear_solves']}",
-        f"time: median {_show(document['median_s'], '.3f')} s, 95 % below "
-        f"{_show(document['p95_s'], '.3f')} s, slowest {document['slowest_s']:.2f} s",
-        f"accuracy of {document['accuracy']:g} not reached, and said so: "
-        f"{document['accuracy_missed']}",
+        words(
+            "bench.stress",
+            failed=len(document["failures"]),
+            **_pick(document, "scenes", "seed", "converged"),
+        ),
+        words(
+            "bench.stress_balance",
+            balance=words.write(_show(document["worst_balance"], ".1e")),
+            solves=document["most_linear_solves"],
+        ),
+        words(
+            "bench.stress_time",
+            slowest=document["slowest_s"],
+            **_show_times(document, words),
+        ),
+        words(
+            "bench.stress_accuracy",
+            accuracy=document["accuracy"],
+            missed=document["accuracy_missed"],
+        ),
         *(
-            f"refused {one['when']}, {one['count']}: {one['reason']}"
+            words(f"bench.refused_{one['when'].split()[0]}", **_pick(one, *_REFUSED))
             for one in document["refused"]
         ),
-        *(f"FAILED {one['scene']}: {one['reason']}" for one in document["failures"]),
-    ]
-    for line in lines:
-        console.print(line, highlight=False, markup=False)
-
-
-def print_errors(document: Mapping[str, Any], console: Console) -> None:
-    """Print the shares of honest and of accurate results; exceptions last."""
-    share = [
-        document[f"share_{what}"] for what in ("inside_stated_error", "below_accuracy")
-    ]
-    lines = [
-        f"{document['compared']} of {document['scenes']} scenes compared with a mesh "
-        "four times finer",
-        f"true error inside the stated one: {_show(share[0], '.1%')}; below the "
-        f"accuracy of {document['accuracy']:g}: {_show(share[1], '.1%')}",
-        f"time: median {_show(document['median_s'], '.3f')} s, 95 % below "
-        f"{_show(document['p95_s'], '.3f')} s",
         *(
-            f"outside: scene {one['scene']}, true {one['true_error']:.2%}, stated "
-            f"{one['stated_error']:.2%}"
+            words("bench.failed", **_pick(one, "scene", "reason"))
+            for one in document["failures"]
+        ),
+    ]
+    _print_lines(lines, console)
+
+
+def print_errors(
+    document: Mapping[str, Any], console: Console, words: Words = ENGLISH
+) -> None:
+    """Print the shares of honest and of accurate results; exceptions last."""
+    inside, below = (
+        words.write(_show(document[f"share_{what}"], ".1%"))
+        for what in ("inside_stated_error", "below_accuracy")
+    )
+    lines = [
+        words("bench.compared", **_pick(document, "compared", "scenes")),
+        words(
+            "bench.shares", inside=inside, below=below, accuracy=document["accuracy"]
+        ),
+        words("bench.times", **_show_times(document, words)),
+        *(
+            words("bench.outside", **_pick(one, "scene", "true_error", "stated_error"))
             for one in document["outside"]
         ),
         *(
-            f"not compared: scene {one['scene']}, {one['reason']}"
+            words("bench.not_compared", **_pick(one, "scene", "reason"))
             for one in document["not_compared"]
         ),
     ]
-    for line in lines:
-        console.print(line, highlight=False, markup=False)
+    _print_lines(lines, console)
 
 
-def print_lines(document: Mapping[str, Any], console: Console) -> None:
+def print_lines(
+    document: Mapping[str, Any], console: Console, words: Words = ENGLISH
+) -> None:
     """Print jumps and true errors along lines; what is beyond its bound last."""
+    shown = {
+        name: words.write(_show(document[name], form))
+        for name, form in (
+            ("largest_jump", ".2f"),
+            ("largest_true_over_stated", ".2f"),
+            ("share_outside", ".1%"),
+        )
+    }
     lines = [
-        f"{document['lines']} lines of {document['points']} scenes: "
-        f"{document['solved']} solved, {document['refused']} refused",
-        f"jumps beyond the stated errors: {document['jumps']}; the largest is "
-        f"{_show(document['largest_jump'], '.2f')} of them; bends that are none: "
-        f"{document['bends']}",
-        f"{document['compared']} compared with a finer mesh, the true error is at most "
-        f"{_show(document['largest_true_over_stated'], '.2f')} of the stated one; "
-        f"{document['without_truth']} without a result there; together "
-        f"{_show(document['share_outside'], '.1%')} count as outside",
+        words("bench.lines", **_pick(document, "lines", "points", "solved", "refused")),
+        words(
+            "bench.jumps",
+            largest=shown["largest_jump"],
+            **_pick(document, "jumps", "bends"),
+        ),
+        words(
+            "bench.line_truths",
+            largest=shown["largest_true_over_stated"],
+            outside=shown["share_outside"],
+            **_pick(document, "compared", "without_truth"),
+        ),
         *(
-            f"JUMP line {line['number']}, {line['parameter']}, point {jump['place']}: "
-            f"{jump['end']} by {jump['relative']:.2%}, {jump['over_stated']:.2f} of "
-            "the stated errors"
+            words(
+                "bench.jump",
+                **_pick(line, "number", "parameter"),
+                **_pick(jump, "place", "end", "relative", "over_stated"),
+            )
             for line in document["of_lines"]
             for jump in line["jumps"]
         ),
         *(
-            f"not compared: line {line['number']}, {reason}"
+            words("bench.line_not_compared", number=line["number"], reason=reason)
             for line in document["of_lines"]
             for reason in line["missing"]
         ),
     ]
+    _print_lines(lines, console)
+
+
+_REFUSED = ("count", "reason")
+
+
+def _pick(found: Mapping[str, Any], *names: str) -> dict[str, Any]:
+    return {name: found[name] for name in names}
+
+
+def _show_times(document: Mapping[str, Any], words: Words) -> dict[str, str]:
+    return {
+        name: words.write(_show(document[f"{name}_s"], ".3f"))
+        for name in ("median", "p95")
+    }
+
+
+def _print_lines(lines: Sequence[str], console: Console) -> None:
     for line in lines:
         console.print(line, highlight=False, markup=False)
 
 
-def _describe(rows: Sequence[Row]) -> list[str]:
+def _describe(rows: Sequence[Row], words: Words) -> list[str]:
     found = summarise(rows)
     lines = []
     if found.times_faster is not None:
         lines.append(
-            f"fast path: {found.times_faster:.1f} times faster than plain scikit-fem "
-            f"on the same mesh (median; {found.least_times_faster:.1f} to "
-            f"{found.most_times_faster:.1f})"
+            words(
+                "bench.faster_same_mesh",
+                times=found.times_faster,
+                least=found.least_times_faster or 0.0,
+                most=found.most_times_faster or 0.0,
+            )
         )
     if found.times_faster_at_error is not None:
-        lines.append(
-            f"{found.times_faster_at_error:.0f} times faster than plain scikit-fem on "
-            "even meshes at equal error (median)"
-        )
+        lines.append(words("bench.faster_even", times=found.times_faster_at_error))
     if found.cost_order is not None:
         lines.append(
-            f"time grows as unknowns^{found.cost_order:.2f} (median; at most "
-            f"{found.worst_cost_order:.2f}), the error falls as "
-            f"h^{found.error_order:.1f}"
+            words(
+                "bench.orders",
+                cost=found.cost_order,
+                worst=found.worst_cost_order or 0.0,
+                error=found.error_order or 0.0,
+            )
         )
     return lines
 

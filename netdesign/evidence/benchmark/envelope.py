@@ -35,6 +35,7 @@ from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import Job, ProcessPool
 from netdesign.structure.layout import SupportLayout
+from netdesign.words.message import say
 
 SCHEMA = "netdesign.bench-envelope/1"
 ACCURACY = 0.005
@@ -90,7 +91,7 @@ def run_envelope_bench(
     size : BenchSize, optional
         The table's own unless told otherwise; the document holds it.
     on_row : callable, optional
-        Takes each row of the table once it is measured.
+        Takes each row of the table once it is measured; its texts are messages.
     """
     size = size or BenchSize()
     measures: tuple[Callable[[], dict[str, Any]], ...] = (
@@ -105,8 +106,9 @@ def run_envelope_bench(
     )
     rows = []
     for measure in measures:
-        rows.append(measure())
-        on_row(rows[-1])
+        row = measure()
+        on_row(row)
+        rows.append(row | {name: str(row[name]) for name in ("what", "reach")})
     return {
         "schema": SCHEMA,
         "size": asdict(size),
@@ -232,8 +234,8 @@ def _measure_one_row() -> dict[str, Any]:
     )
     solved = runner.counts.solved
     return {
-        "what": "three parameters, one net row, one process, cold",
-        "reach": "wall <= 1 s, <= 80 cases, gap and numerical error <= 0.5 %",
+        "what": say("bench.row_what"),
+        "reach": say("bench.row_reach"),
         "reached": found.maxima.is_closed
         and clock.wall_s <= 1.0
         and solved <= 80
@@ -255,8 +257,8 @@ def _measure_grid(size: BenchSize) -> dict[str, Any]:
         grid = run_grid(_example_task(), dict.fromkeys(_AXES, size.grid), runner)
     failed = sum(not result.is_converged for result in grid.results)
     return {
-        "what": f"dense grid of {size.grid} x {size.grid} x {size.grid} cases",
-        "reach": "wall <= 5 s at 0.5 %",
+        "what": say("bench.grid_what", grid=size.grid),
+        "reach": say("bench.grid_reach"),
         "reached": not failed and clock.wall_s <= 5.0,
         "processes": _PROCESSES,
         "wall_s": clock.wall_s,
@@ -278,8 +280,8 @@ def _measure_batches(size: BenchSize) -> dict[str, Any]:
     with Clock() as alone:
         run_cases(tasks, Runner())
     return {
-        "what": "cases of a grid in batches against one by one, one process",
-        "reach": "less time",
+        "what": say("bench.batches_what"),
+        "reach": say("bench.batches_reach"),
         "reached": as_grid.cpu_s < alone.cpu_s,
         "cases": len(grid.results),
         "solved": runner.counts.solved,
@@ -293,8 +295,8 @@ def _measure_site(size: BenchSize, render: Render) -> dict[str, Any]:
     first, second = measure_site(size.rows, render, _PROCESSES)
     ratio = second.wall_s / first.wall_s
     return {
-        "what": f"site of {size.rows} net rows with all reports, and again",
-        "reach": "wall <= 15 s; second run <= 10 % of it with no case solved",
+        "what": say("bench.site_what", rows=size.rows),
+        "reach": say("bench.site_reach"),
         "reached": first.wall_s <= 15.0 and ratio <= 0.1 and not second.solved,
         "processes": _PROCESSES,
         "first": asdict(first),
@@ -320,8 +322,8 @@ def _measure_missed(size: BenchSize) -> dict[str, Any]:
     known = [one for one in excess if one is not None]
     missed = sum(one > _ROUNDING for one in known)
     return {
-        "what": f"random scenes, grids of {size.missed_grid}^3 against the bound",
-        "reach": "none missed",
+        "what": say("bench.missed_what", grid=size.missed_grid),
+        "reach": say("bench.missed_reach"),
         "reached": missed == 0 and bool(known),
         "scenes": len(known),
         "refused": refused,
@@ -334,8 +336,8 @@ def _measure_missed(size: BenchSize) -> dict[str, Any]:
 def _measure_narrow(size: BenchSize) -> dict[str, Any]:
     points = measure_peaks(size.peaks, _WIDTHS)
     return {
-        "what": "made-up responses with an interior peak, by width over its range",
-        "reach": f"none missed that is at least {RESOLVED_SHARE:g} of a range wide",
+        "what": say("bench.peaks_what"),
+        "reach": say("bench.peaks_reach", width=RESOLVED_SHARE),
         "reached": not any(
             point["missed"] for point in points if point["width"] >= RESOLVED_SHARE
         ),
@@ -356,8 +358,8 @@ def _measure_workers(size: BenchSize) -> dict[str, Any]:
                 run_grid(task, dict.fromkeys(_AXES, count), runner)
         times[processes] = clock.wall_s
     return {
-        "what": "2 workers against 1, processes started beforehand",
-        "reach": ">= 1.7 times on >= 200 cases",
+        "what": say("bench.workers_what"),
+        "reach": say("bench.workers_reach"),
         "reached": times[1] >= 1.7 * times[2] and runner.counts.solved >= 200,
         "solved": runner.counts.solved,
         "one_s": times[1],
@@ -390,8 +392,8 @@ def _measure_portfolio(size: BenchSize) -> dict[str, Any]:
     first, last = points[0], points[-1]
     growth = last["rows"] / first["rows"]
     return {
-        "what": f"rows of {size.types} types through the store",
-        "reach": "time and memory at most in proportion to the rows, no case solved",
+        "what": say("bench.portfolio_what", types=size.types),
+        "reach": say("bench.portfolio_reach"),
         "reached": all(
             last[key] <= growth * first[key]
             for key in ("wall_s", "peak_mb")

@@ -30,6 +30,8 @@ from netdesign.evidence.benchmark.truth import (
     state_error,
 )
 from netdesign.outcome import Outcome
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 ERRORS_SCHEMA = "netdesign.errors/1"
 LEAST_SHARE = 0.95  # of scenes within the stated error, and within the accuracy
@@ -43,7 +45,7 @@ class Finding:
     ----------
     number : int
         Of the scene.
-    missing : str
+    missing : Message or str
         Why there is nothing to compare; "" otherwise.
     is_refused : bool
         The model excludes the scene, as found while solving.
@@ -61,7 +63,7 @@ class Finding:
     """
 
     number: int
-    missing: str = ""
+    missing: Message | str = ""
     is_refused: bool = False
     true_error: float = float("nan")
     stated_error: float = float("nan")
@@ -103,7 +105,9 @@ def compare_scene(number: int, *, seed: int, accuracy: float) -> Finding:
     try:
         return judge_scene(number, scene, SolverSettings(accuracy=accuracy))
     except SolveError as failure:
-        return Finding(number=number, missing=f"finer mesh: {failure}")
+        return Finding(
+            number=number, missing=say("bench.finer_mesh", reason=failure.message)
+        )
 
 
 def judge_scene(number: int, scene: Scene, settings: SolverSettings) -> Finding:
@@ -120,7 +124,7 @@ def judge_scene(number: int, scene: Scene, settings: SolverSettings) -> Finding:
     if isinstance(solution, FailedSolution):
         return Finding(
             number=number,
-            missing=str(solution.reason),
+            missing=solution.reason,
             is_refused=solution.outcome is Outcome.OUT_OF_VALIDITY,
         )
     truth = solve_truth(scene, find_level(solution, settings.levels), settings)
@@ -151,9 +155,9 @@ def _time_accurate_mesh(
 
 
 def write_errors(
-    findings: Sequence[Finding], seed: int, accuracy: float
+    findings: Sequence[Finding], seed: int, accuracy: float, language: Language = "en"
 ) -> dict[str, Any]:
-    """Plain values in the form ``netdesign.errors/1``."""
+    """Plain values in the form ``netdesign.errors/1``; reasons in a language."""
     compared = [one for one in findings if not one.missing]
     counted = [one for one in findings if not one.is_refused]
     inside = share(one.is_inside for one in counted)
@@ -186,7 +190,7 @@ def write_errors(
             if not (one.is_inside and one.true_error <= accuracy)
         ],
         "not_compared": [
-            {"scene": one.number, "reason": one.missing}
+            {"scene": one.number, "reason": render(one.missing, language)}
             for one in findings
             if one.missing
         ],

@@ -41,6 +41,8 @@ from netdesign.evidence.benchmark.statistics import share
 from netdesign.evidence.benchmark.truth import solve_fine
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message
 
 LINES_SCHEMA = "netdesign.lines/1"
 POINTS = 200
@@ -160,9 +162,9 @@ class Line:
         Over the stated errors of both neighbours [-].
     ratios : list of float
         True over stated errors.
-    missing : list of str
+    missing : list of Message or str
         Why a truth gave nothing to compare with.
-    reasons : list of str
+    reasons : list of Message or str
         Of refusals, each once.
     """
 
@@ -174,8 +176,8 @@ class Line:
     bends: int
     largest_jump: float
     ratios: list[float]
-    missing: list[str]
-    reasons: list[str]
+    missing: list[Message | str]
+    reasons: list[Message | str]
 
 
 def study_lines(
@@ -233,16 +235,16 @@ def _solve_points(
     scenes: Sequence[Scene | ModelError],
     checked: Container[int],
     settings: SolverSettings,
-) -> tuple[list[Point], list[str], list[str]]:
+) -> tuple[list[Point], list[Message | str], list[Message | str]]:
     """Solved points, reasons why a truth is missing, reasons of refusals, each once."""
     solved: list[Point] = []
-    missing: list[str] = []
-    reasons: dict[str, None] = {}
+    missing: list[Message | str] = []
+    reasons: dict[str, Message | str] = {}
     for place, scene in enumerate(scenes):
         try:
             solution = _solve(scene, settings)
         except (ModelError, SolveError) as error:
-            reasons[str(error)] = None
+            reasons[str(error)] = error.message
             continue
         assert isinstance(scene, Scene)
         ratio = None
@@ -250,9 +252,9 @@ def _solve_points(
             try:
                 ratio = _compare(scene, solution, settings)
             except SolveError as error:
-                missing.append(str(error))
+                missing.append(error.message)
         solved.append(_record(place, solution, ratio))
-    return solved, missing, list(reasons)
+    return solved, missing, list(reasons.values())
 
 
 def find_jumps(points: Sequence[Point]) -> list[dict[str, Any]]:
@@ -373,9 +375,14 @@ def _record(place: int, solution: Solution, ratio: float | None) -> Point:
 
 
 def write_lines(
-    lines: Sequence[Line], seed: int, accuracy: float, points: int = POINTS
+    lines: Sequence[Line],
+    seed: int,
+    accuracy: float,
+    language: Language = "en",
+    *,
+    points: int = POINTS,
 ) -> dict[str, Any]:
-    """Plain values in the form ``netdesign.lines/1``.
+    """Plain values in the form ``netdesign.lines/1``; reasons in a language.
 
     A point without a true error counts as outside the stated one.
     """
@@ -405,5 +412,13 @@ def write_lines(
             and max(ratios, default=math.inf) <= LARGEST_EXCESS
             and not missing  # what it would have shown nobody knows
         ),
-        "of_lines": [asdict(line) for line in lines],
+        "of_lines": [_write_line(line, language) for line in lines],
     }
+
+
+def _write_line(line: Line, language: Language) -> dict[str, Any]:
+    def tell(reasons: list[Message | str]) -> list[Message | str]:
+        return [render(reason, language) for reason in reasons]
+
+    told = replace(line, missing=tell(line.missing), reasons=tell(line.reasons))
+    return asdict(told)

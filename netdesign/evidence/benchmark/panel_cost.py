@@ -18,6 +18,7 @@ from netdesign.panel.inputs import Panel, Rope
 from netdesign.site.model import BorderRope, NetRow, RowPanel, Site
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import CheckRun, search_site
+from netdesign.words.message import say
 
 SCHEMA = "netdesign.bench-panel/1"
 MOST = 1.5  # times the search without a panel
@@ -45,7 +46,7 @@ class Pair:
 def measure_panel_cost(
     *, repeats: int = 7, rows: int = ROWS, settings: SolverSettings | None = None
 ) -> dict[str, Any]:
-    """Cost of a panel for each of the example's rows, as one document.
+    """Cost of a panel for each of the example's rows; its texts are messages.
 
     Parameters
     ----------
@@ -66,8 +67,8 @@ def measure_panel_cost(
     times = [one["times"] for one in found]
     return {
         "schema": SCHEMA,
-        "what": "search of a row with a panel against without, one process",
-        "reach": f"<= {MOST:g} times the processor time",
+        "what": say("bench.panel_what"),
+        "reach": say("bench.panel_reach", most=MOST),
         "reached": max(times) <= MOST,
         "repeats": repeats,
         "median": median(times),

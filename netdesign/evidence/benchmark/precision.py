@@ -20,11 +20,8 @@ from itertools import pairwise
 from typing import Any
 
 from netdesign import __version__
-from netdesign.coupling.history.transient import (
-    TRANSIENT_LEVELS,
-    TransientSettings,
-    solve_transient,
-)
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
+from netdesign.coupling.history.transient import solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady

@@ -8,6 +8,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import Tables
 from netdesign.files.scene import SceneFile, build_scene
+from netdesign.words.message import say
 
 PAPER_SCENE = "paper-30"
 # Of these histories are measured too.
@@ -116,7 +117,7 @@ def load_scenes(names: tuple[str, ...] = ()) -> dict[str, Scene]:
     unknown = [name for name in names if name not in SCENES]
     if unknown:
         raise ModelError(
-            f"scenes {', '.join(unknown)}: not known; accepted are {', '.join(SCENES)}"
+            say("bench.no_scene", unknown=tuple(unknown), accepted=tuple(SCENES))
         )
     return {name: build_tables(SCENES[name]) for name in names or tuple(SCENES)}
 

@@ -26,6 +26,8 @@ from netdesign.evidence.benchmark.statistics import summarise_times
 from netdesign.evidence.benchmark.truth import state_error
 from netdesign.files.scene import SceneFile, build_scene
 from netdesign.outcome import Outcome
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 STRESS_SCHEMA = "netdesign.stress/1"
 LARGEST_BALANCE = 1e-8  # of the weight
@@ -36,7 +38,7 @@ _NAMED = (Outcome.OUT_OF_VALIDITY, Outcome.NO_EQUILIBRIUM)
 Kind = Literal["converged", "refused before", "refused while solving", "failed"]
 
 # A number that stands alone, unlike those in names such as "zwinger-2007".
-_NUMBER = re.compile(r"(?<![\w-])-?\d+(\.\d+)?(e[+-]?\d+)?%?(?!\w)")
+_NUMBER = re.compile(r"(?<![\w-])-?\d+([.,]\d+)?(e[+-]?\d+)?%?(?!\w)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +51,7 @@ class Attempt:
         Of the scene, with the seed its whole description.
     kind : str
         How it ended.
-    reason : str
+    reason : Message or str
         Why it was refused or failed; "" if converged.
     tables : dict
         Its scene file.
@@ -65,7 +67,7 @@ class Attempt:
 
     number: int
     kind: Kind
-    reason: str = ""
+    reason: Message | str = ""
     tables: Tables = field(default_factory=dict)
     cpu_s: float = 0.0
     linear_solves: int = 0
@@ -100,7 +102,7 @@ def attempt_scene(
         scene, _ = build_scene(SceneFile.model_validate(tables))
     except ModelError as error:
         return Attempt(
-            number=number, kind="refused before", reason=str(error), tables=tables
+            number=number, kind="refused before", reason=error.message, tables=tables
         )
     try:
         with warnings.catch_warnings():
@@ -121,7 +123,9 @@ def _solve(
         return Attempt(
             number=number,
             kind=("refused while solving" if solution.outcome in _NAMED else "failed"),
-            reason=f"{solution.outcome.value}: {solution.reason}",
+            reason=say(
+                "bench.ended", outcome=solution.outcome.value, reason=solution.reason
+            ),
             tables=tables,
             cpu_s=elapsed,
         )
@@ -129,7 +133,9 @@ def _solve(
     return Attempt(
         number=number,
         kind="converged" if balance <= LARGEST_BALANCE else "failed",
-        reason="" if balance <= LARGEST_BALANCE else f"balance {balance:.1e}",
+        reason=""
+        if balance <= LARGEST_BALANCE
+        else say("bench.balance", residual=balance),
         tables=tables,
         cpu_s=elapsed,
         linear_solves=solution.cost.linear_solves,
@@ -139,9 +145,12 @@ def _solve(
 
 
 def write_stress(
-    attempts: Sequence[Attempt], seed: int, accuracy: float = DEFAULT_ACCURACY
+    attempts: Sequence[Attempt],
+    seed: int,
+    accuracy: float = DEFAULT_ACCURACY,
+    language: Language = "en",
 ) -> dict[str, Any]:
-    """Plain values in the form ``netdesign.stress/1``."""
+    """Plain values in the form ``netdesign.stress/1``; reasons in a language."""
     converged = [one for one in attempts if one.kind == "converged"]
     solved = [one for one in attempts if one.kind != "refused before"]
     by_time = sorted(solved, key=lambda one: one.cpu_s, reverse=True)
@@ -152,8 +161,10 @@ def write_stress(
         "accuracy": accuracy,
         "converged": len(converged),
         "pass": not any(one.kind == "failed" for one in attempts),
-        "refused": _count_refusals(attempts),
-        "failures": [_write_failure(one) for one in attempts if one.kind == "failed"],
+        "refused": _count_refusals(attempts, language),
+        "failures": [
+            _write_failure(one, language) for one in attempts if one.kind == "failed"
+        ],
         "accuracy_missed": sum(not one.stated_error <= accuracy for one in converged),
         "worst_balance": max((one.balance for one in converged), default=None),
         "most_linear_solves": max((one.linear_solves for one in solved), default=0),
@@ -171,9 +182,11 @@ def generalise(reason: str) -> str:
     return _NUMBER.sub("...", reason)
 
 
-def _count_refusals(attempts: Sequence[Attempt]) -> list[dict[str, Any]]:
+def _count_refusals(
+    attempts: Sequence[Attempt], language: Language
+) -> list[dict[str, Any]]:
     counts = Counter(
-        (generalise(one.reason), one.kind.removeprefix("refused "))
+        (generalise(render(one.reason, language)), one.kind.removeprefix("refused "))
         for one in attempts
         if one.kind.startswith("refused")
     )
@@ -183,5 +196,6 @@ def _count_refusals(attempts: Sequence[Attempt]) -> list[dict[str, Any]]:
     ]
 
 
-def _write_failure(one: Attempt) -> dict[str, Any]:
-    return {"scene": one.number, "reason": one.reason, "tables": one.tables}
+def _write_failure(one: Attempt, language: Language) -> dict[str, Any]:
+    reason = render(one.reason, language)
+    return {"scene": one.number, "reason": reason, "tables": one.tables}

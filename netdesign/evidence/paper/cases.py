@@ -7,8 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from netdesign.cable.net import Net
-from netdesign.coupling.history.net_start import Start
-from netdesign.coupling.history.transient import TRANSIENT_LEVELS
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS, Start
 from netdesign.coupling.scene import Scene
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.snow.fluidity import PAPER_FLUIDITY

@@ -9,12 +9,9 @@ import numpy as np
 
 from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.run_result import scale_history
-from netdesign.coupling.history.staggered import StaggeredSettings, run_exchange
-from netdesign.coupling.history.transient import (
-    TransientSettings,
-    run_history,
-    solve_transient,
-)
+from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
+from netdesign.coupling.history.staggered import run_exchange
+from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.moments import History
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from netdesign.coupling.history.net_start import Start
+from netdesign.coupling.history.settings import Start
 from netdesign.evidence.paper.cases import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,

@@ -7,12 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from netdesign.coupling.history.run import Run
-from netdesign.coupling.history.staggered import StaggeredSettings, run_exchange
-from netdesign.coupling.history.transient import (
+from netdesign.coupling.history.settings import (
     TRANSIENT_LEVELS,
+    StaggeredSettings,
     TransientSettings,
-    run_history,
 )
+from netdesign.coupling.history.staggered import run_exchange
+from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.moments import HistoryPoint
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Solution

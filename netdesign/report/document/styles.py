@@ -29,6 +29,7 @@ _LOOKS: dict[str, tuple[float, bool, float, float, bool]] = {
     CONTENTS_HEADING: (15.0, True, 18.0, 6.0, True),
 }
 NAMES = (*_LOOKS, TABLE)
+_OWN = "netdesign"  # beginning of the names that are ours
 _INK = "1B1E22"
 _FONT = "Arial"
 _LOCALES = {"en": "en-GB", "fr": "fr-FR", "de": "de-DE"}
@@ -36,31 +37,56 @@ _LOCALES = {"en": "en-GB", "fr": "fr-FR", "de": "de-DE"}
 
 def add_missing(document: Document) -> None:
     """Give a document each style that it lacks."""
+    for name in _LOOKS:
+        if _find(document, name) is None:
+            _shape(_add(document, name), name)
+    if _find(document, TABLE) is None:
+        _add_table_style(document)
+
+
+def _find(document: Document, name: str) -> Any:
+    """Style of a name; programs write those of Word in capitals or without."""
+    from docx.enum.style import WD_STYLE_TYPE
+
+    kind = WD_STYLE_TYPE.TABLE if name == TABLE else WD_STYLE_TYPE.PARAGRAPH
+    wanted = {name.lower(), _name_own(name).lower()}
+    for style in document.styles:
+        if style.type == kind and str(style.name).lower() in wanted:
+            return style
+    return None
+
+
+def _add(document: Document, name: str) -> Any:
+    """New style of a paragraph, its name and id unlike those of any other one."""
     from docx.enum.style import WD_STYLE_TYPE
 
     known = {str(style.name).lower() for style in document.styles}
-    for name in _LOOKS:
-        if name.lower() not in known:
-            is_built_in = not name.startswith("netdesign")
-            style = document.styles.add_style(
-                name, WD_STYLE_TYPE.PARAGRAPH, builtin=is_built_in
-            )
-            _shape(style, name)
-    if TABLE not in known:
-        _add_table_style(document)
+    ids = {style.style_id for style in document.styles}
+    if name.lower() in known:  # it is one of letters, say
+        name = _name_own(name)
+    is_built_in = not name.startswith(_OWN)
+    kind = WD_STYLE_TYPE.PARAGRAPH
+    style: Any = document.styles.add_style(name, kind, builtin=is_built_in)
+    if style.style_id in ids:
+        style.element.styleId = _name_own(name).replace(" ", "")
+    return style
+
+
+def _name_own(name: str) -> str:
+    return name if name.startswith(_OWN) else f"{_OWN} {name}"
 
 
 def shape_all(document: Document) -> None:
     """Our look for every style, in a document that is nobody's template."""
     for name in _LOOKS:
-        style = document.styles[name]
+        style = _find(document, name)
         _shape(style, name)
         _set_font(style)
 
 
 def find_id(document: Document, name: str) -> str:
     """Id by which paragraphs and tables name a style."""
-    return str(document.styles[name].style_id)
+    return str(_find(document, name).style_id)
 
 
 def set_language(document: Document, language: Language) -> None:
@@ -68,8 +94,7 @@ def set_language(document: Document, language: Language) -> None:
     from docx.oxml import OxmlElement
     from docx.oxml.ns import qn
 
-    style: Any = document.styles[TEXT].element
-    look = style.get_or_add_rPr()
+    look = _find(document, TEXT).element.get_or_add_rPr()
     for old in look.findall(qn("w:lang")):
         look.remove(old)
     element = OxmlElement("w:lang")

@@ -28,6 +28,9 @@ _KEPT = (
     *("styles", "stylesWithEffects", "settings", "webSettings", "theme", "fontTable"),
     *("numbering", "header", "footer", "footnotes", "endnotes"),
 )
+_TYPES = "[Content_Types].xml"
+_TEMPLATE = b"wordprocessingml.template.main+xml"
+_DOCUMENT = b"wordprocessingml.document.main+xml"
 _A4_MM = (210.0, 297.0)
 _MARGIN_MM = 20.0
 
@@ -71,12 +74,31 @@ def open_document(template: bytes | None) -> Document:
         document = docx.Document()
         _set_paper(document)
     else:
-        document = docx.Document(io.BytesIO(template))
+        document = docx.Document(io.BytesIO(_make_document(template)))
+        if document.element.body.sectPr is None:
+            document.element.body.get_or_add_sectPr()
+            _set_paper(document)
         _drop_text(document)
     add_missing(document)
     if template is None:
         shape_all(document)
     return document
+
+
+def _make_document(content: bytes) -> bytes:
+    """Package of a document; that of a template (.dotx) differs by its type."""
+    with zipfile.ZipFile(io.BytesIO(content)) as source:
+        declared = source.read(_TYPES)
+        if _TEMPLATE not in declared:
+            return content
+        buffer = io.BytesIO()
+        with zipfile.ZipFile(buffer, "w") as target:
+            for entry in source.infolist():
+                part = source.read(entry)
+                if entry.filename == _TYPES:
+                    part = part.replace(_TEMPLATE, _DOCUMENT)
+                target.writestr(entry.filename, part)
+    return buffer.getvalue()
 
 
 def _set_paper(document: Document) -> None:

@@ -24,7 +24,6 @@ from netdesign.report.document.markup import (
     write_table,
 )
 from netdesign.report.document.picture import write_picture
-from netdesign.report.drawing.raster import read_title
 from netdesign.report.view.table import Table
 from netdesign.report.words import Words
 
@@ -114,15 +113,7 @@ class Writer:
             self.none(table.empty)
 
     def figure(self, svg: str, caption: str = "") -> None:
-        """Drawing with its caption below.
-
-        Of a chart that the drawing library made only the words, which have its values:
-        what Word shows of its shapes is not known, and no PNG is made of them.
-        """
-        if "<defs" in svg:
-            self.text(read_title(svg))
-            self.text(caption, styles.SMALL)
-            return
+        """Drawing with its caption below."""
         self.pictures += 1
         most = (self.width_pt, _HIGHEST * self.height_pt)
         runs = write_picture(self.document, svg, self.pictures, most)

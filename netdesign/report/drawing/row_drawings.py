@@ -58,7 +58,7 @@ def draw_row(row: RowStudy, anchor: str, words: Words, *, is_full: bool) -> RowD
             monitoring_note="",
             searched=(),
         )
-    monitoring = draw_monitoring(row.monitoring, f"{anchor}-r", words)
+    monitoring = draw_monitoring(row.monitoring, words)
     return RowDrawings(
         section=section,
         envelope="" if row.envelope else draw_envelope(row, words),

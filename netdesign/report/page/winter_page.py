@@ -281,7 +281,7 @@ def _describe_range(
     found = [words("winter_page.check_range", low=low, high=high)]
     if row["equivalent_density"]:
         found.insert(0, show_text(row["equivalent_density"]["justification"]))
-        found.append(words("winter_page.feed"))
+        found.append(words("winter_page.feed", sheet=document["ranges_sheet"]))
     return found
 
 
@@ -296,7 +296,7 @@ def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
         words(
             "winter_page.failed_day",
             count=len(dates),
-            day=", ".join(dates),
+            day=tuple(dates),
             outcome=words(f"day_outcome.{outcome}"),
             reason=show_text(reason or MISSING),
         )

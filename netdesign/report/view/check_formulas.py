@@ -69,6 +69,15 @@ def write_given_verdict(given: str, words: dict[Verdict, str]) -> str:
     return f"=IFERROR(IF({known},{given},{open_}),{open_})"
 
 
+def write_held(
+    verdict: str, conditions: Sequence[str], words: dict[Verdict, str]
+) -> str:
+    """Verdict of a formula as long as conditions hold; open where one does not."""
+    open_ = f'"{words[Verdict.NOT_PROVEN]}"'
+    held = f"AND({','.join(conditions)})"
+    return f"=IFERROR(IF({held},{verdict.removeprefix('=')},{open_}),{open_})"
+
+
 def write_merged(
     counts: dict[Verdict, str], total: int, held: str, words: dict[Verdict, str]
 ) -> str:
@@ -104,10 +113,13 @@ def compute_rank(number: int, verdict: Verdict, ratio: float | None) -> float:
 
 
 def write_unchanged(
-    numbers: Sequence[tuple[str, str]], texts: Sequence[tuple[str, str]]
+    numbers: Sequence[tuple[str, str]],
+    texts: Sequence[tuple[str, str]],
+    conditions: Sequence[str],
 ) -> str:
-    """1 where every live cell still shows what the study has, else 0."""
-    same = [f"{live}={stored}" for live, stored in texts]
+    """1 where conditions hold and every live cell shows what the study has, else 0."""
+    same = list(conditions)
+    same += [f"{live}={stored}" for live, stored in texts]
     same += [
         f"IF(ISNUMBER({stored}),IF(ISNUMBER({live}),"
         f"ABS({live}-{stored})<=1E-9*ABS({stored}),FALSE),{live}={stored})"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,6 +14,8 @@ _FONT = {"name": "Arial", "size": 9, "color": INK}
 _BARS = "#8A929A"
 _MOST_LINES = 8  # of a chart of cases; more cannot be told apart
 _SHADES = (INK, ACCENT, GREY, "#2A4B6B", "#C9A227", "#4F7A5B", "#8C6BB1", "#A9AFB6")
+_ROW_PX = 20  # height of a line below a table
+_WITH_CHART = 8  # lines of a table that stay with the chart below it
 _MARKERS = ("circle", "square", "triangle", "diamond")
 
 
@@ -52,7 +55,7 @@ def add_utilisation_chart(
     chart.combine(limit)
     _finish(chart, (book.words("heading.largest_of_rows"), "", ""))
     chart.set_size({"width": 500, "height": 260})
-    sheet.insert_chart(*place, chart, {"object_position": 1})
+    sheet.insert_chart(*place, chart, {"object_position": 1, "y_offset": 4})
 
 
 def add_force_chart(
@@ -77,8 +80,9 @@ def add_force_chart(
     )
     _finish(chart, (book.words("heading.largest_per_support"), "", "kN"))
     chart.set_legend({"none": True})
-    chart.set_size({"width": 980, "height": 320})
-    _insert_below(sheet, last, chart)
+    size = {"width": 980, "height": 320}
+    chart.set_size(size)
+    _insert_below(book, sheet, last, chart, size["height"])
 
 
 def add_case_chart(
@@ -109,14 +113,17 @@ def add_case_chart(
     density = name_heading(book.words, "density_kg_m3")
     titles = (book.words("heading.foot_in_cases"), density, "kN")
     _finish(chart, titles)
-    chart.set_size({"width": 820, "height": 360})
-    _insert_below(sheet, bottom, chart)
+    size = {"width": 820, "height": 360}
+    chart.set_size(size)
+    _insert_below(book, sheet, bottom, chart, size["height"])
 
 
-def _insert_below(sheet: Any, bottom: int, chart: Any) -> None:
-    """On a page of its own, so that print does not cut it."""
-    sheet.set_h_pagebreaks([bottom + 2])
-    sheet.insert_chart(bottom + 2, 0, chart, {"object_position": 1})
+def _insert_below(book: Book, sheet: Any, bottom: int, chart: Any, high: int) -> None:
+    """Below a table, on one page with the last lines of it."""
+    top = bottom + 2
+    first = max(bottom - _WITH_CHART, 0)
+    book.paper(sheet).keep(first, top + math.ceil(high / _ROW_PX))
+    sheet.insert_chart(top, 0, chart, {"object_position": 1})
 
 
 def _finish(chart: Any, titles: tuple[str, str, str]) -> None:

@@ -15,6 +15,7 @@ from netdesign.report.view.check_formulas import (
     ROUNDING,
     compute_rank,
     write_given_verdict,
+    write_held,
     write_product,
     write_quotient,
     write_rank,
@@ -34,8 +35,15 @@ from netdesign.report.words import (
     number_format,
     show_text,
 )
-from netdesign.report.workbook.profile_links import Factors, ProfileCell
-from netdesign.report.workbook.writer import Book, count_lines
+from netdesign.report.workbook.pages import A4, find_height
+from netdesign.report.workbook.profile_links import (
+    UNCHANGED,
+    Factors,
+    ProfileCell,
+    follows_factors,
+    write_same,
+)
+from netdesign.report.workbook.writer import Book, count_lines, fit_headings
 from netdesign.study.records import CheckRecord, Study
 
 _PAGES = 2  # of paper side by side; on one its figures were too small to be read
@@ -192,13 +200,14 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
         book.write_wide(sheet, (line, 0), text, widths, italic=True)
     factors = Factors(book, study)
     columns = [field.name(book.words) for field in _FIELDS]
-    book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
-    for field in _FIELDS:
+    widths = fit_headings(columns, [field.width for field in _FIELDS])
+    book.write_head(sheet, HEAD_ROW, columns, widths)
+    for field, width in zip(_FIELDS, widths, strict=True):
         is_idle = field is _FURTHER and not has_further(study)
         is_hidden = field in (*_HIDDEN, *_FOLDED) or is_idle
         options = {"hidden": is_hidden, "level": int(field in _FOLDED)}
         area = f"{field.letter}:{field.letter}"
-        sheet.set_column(area, field.width, None, options)
+        sheet.set_column(area, width, None, options)
     line = HEAD_ROW + 1
     for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
         for check, words in zip(row.checks, shown.checks, strict=True):
@@ -207,6 +216,9 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     if line == HEAD_ROW + 1:
         text = book.words("heading.no_check")
         sheet.write_string(line, 0, text, book.text())
+    printed = [field.width for field in _SHOWN if field not in _FOLDED]
+    named = _LEAD[2].index + 1
+    book.paper(sheet).height = find_height(printed, A4, _PAGES, named)
     last = max(line, HEAD_ROW + 2)
     _finish(book, sheet, last)
 
@@ -236,7 +248,7 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         decorate(sheet, (first - 1, field.index, last - 1, field.index))
     sheet.autofilter(HEAD_ROW, 0, last - 1, len(_SHOWN) - 1)
     sheet.freeze_panes(HEAD_ROW + 1, 3)
-    sheet.repeat_rows(HEAD_ROW)
+    book.paper(sheet).repeat(HEAD_ROW)
 
 
 def _validate(book: Book, sheet: Any, lines: tuple[int, int]) -> None:
@@ -325,11 +337,25 @@ class _CheckLine:
             if _is_of_forces(check)
             else write_given_verdict(given, words)
         )
+        held = write_held(formula, self._list_conditions(check), words)
         form = self._book.text(bold=True, text_wrap=True)
-        self._sheet.write_formula(self._at(_VERDICT), formula, form, shown)
+        self._sheet.write_formula(self._at(_VERDICT), held, form, shown)
         rank = write_rank(self._at(_LEAD[0]), self._at(_VERDICT), ends[1], words)
         value = compute_rank(number, check.verdict, check.utilisation)
         self._sheet.write_formula(self._at(_RANK), rank, None, value)
+
+    def _list_conditions(self, check: CheckRecord) -> list[str]:
+        """Conditions under which the cells that are no formulas hold."""
+        conditions = [f"{UNCHANGED}=1"]
+        if follows_factors(check):
+            pairs = (
+                (_ACTION_FACTOR, check.action_factor),
+                (_RESISTANCE_FACTOR, check.resistance_factor),
+            )
+            conditions += [
+                write_same(self._at(field), value) for field, value in pairs if value
+            ]
+        return conditions
 
     def _write_study(self, check: CheckRecord, view: CheckView) -> None:
         """Write the study's own values, and whether the live cells still show them."""
@@ -347,6 +373,7 @@ class _CheckLine:
         formula = write_unchanged(
             [(at(a), at(b)) for a, b in zip(live, _STUDY_NUMBERS, strict=True)],
             [(at(_VERDICT), at(_STUDY_VERDICT))],
+            self._list_conditions(check),
         )
         self._sheet.write_formula(at(_UNCHANGED), formula, None, 1)
 

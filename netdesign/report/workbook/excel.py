@@ -14,8 +14,9 @@ from netdesign.report.view.whole import ReportView, build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.charts import add_case_chart, add_force_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
+from netdesign.report.workbook.profile_links import watch_profile
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
-from netdesign.report.workbook.writer import Book
+from netdesign.report.workbook.writer import DEFAULT_FONT, Book
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
@@ -36,6 +37,7 @@ SHEETS = (
     "support",
     "directions",
     "guideline",
+    "notes",
     "formulas",
     "quality",
     "assumptions",
@@ -73,6 +75,7 @@ def render_workbook(
         "strings_to_formulas": False,
         "strings_to_urls": False,
         "strings_to_numbers": False,
+        "default_format_properties": DEFAULT_FONT,
     }
     with xlsxwriter.Workbook(buffer, options) as workbook:
         workbook.set_properties(
@@ -99,8 +102,11 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     add_check_sheet(book, study, view)
     _add_figures(book, view)
     _add_row_tables(book, study, view)
+    title = book.words("heading.reading")
+    book.add_table_sheet("notes", title, [_list_sentences(book, title, view.reading)])
     formulas = book.words("heading.formulas")
     book.add_table_sheet("formulas", formulas, [view.formulas, view.figure_tables])
+    notes = book.words("heading.notes")
     for name, title, parts in (
         ("quality", "heading.solver_quality", [view.quality, view.outcomes]),
         ("assumptions", "heading.assumptions", [view.assumptions]),
@@ -108,11 +114,13 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
         (
             "provenance",
             "heading.provenance",
-            [view.provenance, _list_notes(book, view)],
+            [view.provenance, _list_sentences(book, notes, view.notes)],
         ),
     ):
         book.add_table_sheet(name, book.words(title), parts)
+    watch_profile(book, study)
     link_sheets(book, SHEETS[1:])
+    book.end_pages()
 
 
 def _add_inputs(book: Book, view: ReportView) -> None:
@@ -221,11 +229,11 @@ def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Tabl
     return Table(caption=caption, columns=columns, rows=(), empty=empty)
 
 
-def _list_notes(book: Book, view: ReportView) -> Table:
+def _list_sentences(book: Book, caption: str, sentences: Sequence[str]) -> Table:
     return Table(
-        caption=book.words("heading.notes"),
+        caption=caption,
         columns=(Column(heading=book.words("heading.note")),),
-        rows=tuple((Cell(text=note),) for note in view.notes),
+        rows=tuple((Cell(text=sentence),) for sentence in sentences),
         empty=book.words("show.none"),
     )
 

@@ -15,20 +15,29 @@ from netdesign.report.words import MISSING, Words, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_sheet import CHANGED, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
-from netdesign.report.workbook.writer import Book, count_lines
+from netdesign.report.workbook.pages import A4, find_height
+from netdesign.report.workbook.writer import Book, count_lines, fit_headings
 from netdesign.study.case_records import CasePoint
 from netdesign.study.records import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 9, 16, 7, 9, 9, 7, 9, 9, 6, 17, 17, 9, 29)
+_WIDTHS = (4, 9, 16, 6, 6, 6, 6, 9, 9, 6, 17, 17, 9, 20)
+_ALL_WIDE, _LEAST = 157, 20  # characters of a line; of them for the reasons
 _LABELLED = 3  # columns of a label below the rows
-# Columns D, E, F, G.
+# Columns D, E, F, G, whose headings stand upright: their words are long.
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+_COUNTS = range(3, 7)
 _RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
 _HELD, _REASONS = 12, 13
 _STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
 _CASE_DECIMALS = 1
-_ABOVE = 5  # links that stand one line higher, at the end of it
+# Line, first and last column of each link to a sheet, as wide as its name is long.
+_LINKS = (
+    *((0, *place) for place in ((7, 7), (8, 8), (9, 10), (11, 11), (12, 13))),
+    *((1, *place) for place in ((7, 8), (9, 10), (11, 11), (12, 12), (13, 13))),
+    *((3, *place) for place in ((1, 1), (2, 2), (3, 4), (5, 6), (7, 8), (9, 10))),
+    *((3, *place) for place in ((11, 11), (12, 12), (13, 13))),
+)
 
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -38,8 +47,9 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     sheet.write_string(1, 0, view.running_title or MISSING, book.text())
     last = _HEAD_ROW + max(len(study.rows), 1)
     _write_overall(book, sheet, study, last)
-    book.write_head(sheet, _HEAD_ROW, _list_columns(book), _WIDTHS)
-    for index, width in enumerate(_WIDTHS):
+    widths = _find_widths(book)
+    book.write_head(sheet, _HEAD_ROW, _list_columns(book), widths, _COUNTS)
+    for index, width in enumerate(widths):
         sheet.set_column(index, index, width)
     sheet.set_column(_STUDY_REASONS, _STUDY_VERDICT, None, None, {"hidden": True})
     if not study.rows:
@@ -55,10 +65,18 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     book.add_ratio_bars(sheet, (_HEAD_ROW + 1, _RATIO, last, _RATIO))
     sheet.autofilter(_HEAD_ROW, 0, last, len(_WIDTHS) - 1)
     sheet.freeze_panes(_HEAD_ROW + 1, 2)
-    sheet.repeat_rows(_HEAD_ROW)
+    book.paper(sheet).repeat(_HEAD_ROW)
+    book.paper(sheet).height = find_height(widths, A4, 1)
     rows, columns = (_HEAD_ROW + 1, last), (_RATIO, _LIMIT)
     add_utilisation_chart(book, sheet, rows, columns, (last + 2, _LIMIT + 1))
     _write_below(book, sheet, view, last + 2)
+
+
+def _find_widths(book: Book) -> list[float]:
+    """Width of each column; the reasons have what the others leave."""
+    widths = fit_headings(_list_columns(book), _WIDTHS, _COUNTS)
+    rest = sum(widths[:_REASONS])
+    return [*widths[:_REASONS], max(_LEAST, _ALL_WIDE - rest)]
 
 
 def link_sheets(book: Book, names: Sequence[str]) -> None:
@@ -67,11 +85,10 @@ def link_sheets(book: Book, names: Sequence[str]) -> None:
     None stands beside the table: that would make all of it small in print.
     """
     sheet = book.workbook.get_worksheet_by_name(book.name("summary"))
-    room = len(_WIDTHS) - 1
-    places = [(_HEAD_ROW - 1, column) for column in range(1, room + 1)]
-    places += [(1, column) for column in range(len(_WIDTHS) - _ABOVE, len(_WIDTHS))]
-    for place, name in zip(places, names, strict=False):
-        book.link(sheet, place, book.refer(name, "A1"), book.name(name))
+    for (row, first, last), name in zip(_LINKS, names, strict=True):
+        if last > first:
+            sheet.merge_range(row, first, row, last, "")
+        book.link(sheet, (row, first), book.refer(name, "A1"), book.name(name))
 
 
 def _list_columns(book: Book) -> tuple[Column, ...]:
@@ -237,8 +254,12 @@ def _write_reasons(
     form = book.text(text_wrap=True)
     sheet.write_formula(index, _REASONS, formula, form, reasons)
     governing = shown.governing.title if shown.governing else ""
-    fields = ((1, shown.id), (_GOVERNING, governing), (_REASONS, reasons))
-    lines = count_lines([text for _, text in fields], [_WIDTHS[k] for k, _ in fields])
+    fields = (
+        *((1, shown.id), (2, shown.verdict.word)),
+        *((_GOVERNING, governing), (_REASONS, reasons)),
+    )
+    widths = _find_widths(book)
+    lines = count_lines([text for _, text in fields], [widths[k] for k, _ in fields])
     book.set_height(sheet, index, lines)
 
 
@@ -289,6 +310,7 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
         ("heading.assumed", _list_assumed(book, view)),
     ]
     for title, pairs in blocks:
+        book.paper(sheet).keep(top, top + min(len(pairs), _LABELLED))
         for column in range(_LIMIT):
             shown = "" if column else book.words(title)
             sheet.write_string(top, column, shown, head)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,6 +12,14 @@ from netdesign.outcome import Verdict
 from netdesign.report.view.table import Cell, Column, Table
 from netdesign.report.words import Words, number_format, show_verdict
 from netdesign.report.workbook.bands import split_bands
+from netdesign.report.workbook.pages import (
+    A4,
+    NAMING,
+    Line,
+    choose_paper,
+    find_height,
+    place_breaks,
+)
 
 _FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}
 _HEAD = {"bold": True, "bottom": 1, "text_wrap": True, "valign": "bottom"}
@@ -20,25 +29,64 @@ _COLOURS = {
     "not-proven": ("#F7EBC8", "#5F4B00"),
     "declared": ("#DCE7F2", "#20415F"),
 }
-_NARROWEST, _WIDEST = 6.0, 44.0  # columns, in characters of the default font
-_CHARACTER = 0.72  # width of one of ours
-_LINE_PT = 12.5  # height of a line of text
+# Widths are in digits of the default font. Every program must have it, or one as wide:
+# LibreOffice prints a sheet a third smaller that names one which it lacks.
+DEFAULT_FONT = {"font_name": "Arial", "font_size": 10}
+_NARROWEST, _WIDEST = 6.0, 50.0  # columns
+_CHARACTER, _CAPITAL = 0.82, 0.3  # width of one of ours; what a capital has beyond it
+_BOLD = 1.1  # width of bold letters over that of others
+_INDENT = 1.5  # of a text
+_DIGIT_PT = 5.56  # width of a digit
+_LINE_PT = 11.5  # height of a line of text
 _DECIMAL = re.compile(r"-?\d+(?:[.,](\d+))?")  # with the mark of any language
 _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 _LONGEST_LINK = 2000  # of its text too; older XlsxWriters leave longer links out
-
-A4, A3 = 9, 8  # paper numbers of the format
-_ROOM_PT = {A4: 798.0, A3: 1147.0}  # of a line between the margins, on its side
-_CHARACTER_PT = 7.35  # of a column, as LibreOffice prints it; Excel's are narrower
-_SMALLEST = 0.7  # of the size of the text, below which a sheet takes more paper
-_NAMING = 2  # columns that name a line, repeated on a second page beside the first
+_ROW_PT = 15.0  # height of a line of which nothing is said
+_FIRST_LINES = 3  # of a long table, which stay with its heading
+_SHORT = 26  # lines of a table that stays whole
 
 
 def _show_literally(text: str) -> str:
     """Text for a footer, where ``&`` begins a code and ``&G`` a picture."""
     return re.sub(r"&([G\[])", r"& \1", text).replace("&", "&&")
+
+
+class Paper:
+    """Lines of a sheet as it is written, to find where its pages end."""
+
+    def __init__(self, sheet: Any) -> None:
+        self.sheet = sheet
+        self._heights: dict[int, float] = {}
+        self._kept: set[int] = set()
+        self.height = 0.0  # of a page; 0 where nothing was chosen
+        self._repeated: int | None = None
+
+    def set_height(self, row: int, height: float) -> None:
+        """Height of a line [pt]."""
+        self._heights[row] = height
+
+    def keep(self, first: int, last: int) -> None:
+        """Keep lines ``first`` to ``last`` on one page."""
+        self._kept.update(range(first, last))
+        self._heights.setdefault(last, _ROW_PT)
+
+    def repeat(self, row: int) -> None:
+        """Repeat a heading on every page."""
+        self.sheet.repeat_rows(row)
+        self._repeated = row
+
+    def end_pages(self) -> None:
+        """Write where pages end."""
+        lines = [
+            Line(self._heights.get(row, _ROW_PT), row in self._kept)
+            for row in range(max(self._heights, default=0) + 1)
+        ]
+        repeated = 0.0 if self._repeated is None else lines[self._repeated].height
+        if self.height:
+            breaks = place_breaks(lines, self.height, repeated)
+            self.sheet.set_h_pagebreaks(breaks)
 
 
 class Book:
@@ -51,6 +99,7 @@ class Book:
         self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
         self._forms: dict[tuple[bool, tuple[str, Any] | None], Any] = {}
+        self._papers: dict[str, Paper] = {}
 
     def format(self, **properties: Any) -> Any:
         """Format with the font of the workbook and these properties."""
@@ -65,7 +114,18 @@ class Book:
 
     def set_height(self, sheet: Any, row: int, lines: int) -> None:
         """Height for wrapped text: not every program finds it on its own."""
-        sheet.set_row(row, _LINE_PT * lines + 3)
+        height = _LINE_PT * lines + 3
+        sheet.set_row(row, height)
+        self.paper(sheet).set_height(row, height)
+
+    def paper(self, sheet: Any) -> Paper:
+        """Lines of a sheet, for its pages."""
+        return self._papers.setdefault(sheet.get_name(), Paper(sheet))
+
+    def end_pages(self) -> None:
+        """Write where the pages of every sheet end, once all is on them."""
+        for paper in self._papers.values():
+            paper.end_pages()
 
     def add_sheet(self, name: str, title: str, *, paper: int = A4) -> Any:
         """Sheet with a title in its first cell, ready to print on one page width."""
@@ -75,7 +135,7 @@ class Book:
         sheet.set_paper(paper)
         sheet.fit_to_pages(1, 0)
         sheet.set_margins(left=0.3, right=0.3, top=0.5, bottom=0.6)
-        sheet.set_footer(f"&L&8 {self._footer}&C&8 &A&R&8 &P / &N")
+        sheet.set_footer(f"&L&9 {self._footer}&C&9 &A&R&9 &P / &N")
         sheet.write_string(0, 0, title, self.text(bold=True, font_size=13))
         sheet.set_row(0, 22)
         return sheet
@@ -103,14 +163,23 @@ class Book:
         return self.verdicts[verdict].word
 
     def write_head(
-        self, sheet: Any, row: int, columns: Sequence[Column], widths: Sequence[float]
+        self,
+        sheet: Any,
+        row: int,
+        columns: Sequence[Column],
+        widths: Sequence[float],
+        turned: Sequence[int] = (),
     ) -> None:
-        """Headings of a table, in columns of these widths."""
+        """Headings of a table, in columns of these widths; some turned upright."""
         for index, column in enumerate(columns):
-            form = self.format(**_HEAD, **_align(column))
+            turn = {"rotation": 90} if index in turned else {}
+            form = self.format(**_HEAD, **_align(column), **turn)
             sheet.write_string(row, index, column.heading, form)
-        headings = [column.heading for column in columns]
-        self.set_height(sheet, row, max(2, count_lines(headings, widths)))
+        level = [i for i in range(len(columns)) if i not in turned]
+        headings = [columns[i].heading for i in level]
+        lines = max(2, count_lines(headings, [widths[i] for i in level], _BOLD))
+        high = max((_measure_longest(columns[i].heading) for i in turned), default=0.0)
+        self.set_height(sheet, row, max(lines, math.ceil(high * _DIGIT_PT / _LINE_PT)))
 
     def write_cell(
         self,
@@ -151,8 +220,12 @@ class Book:
         self.write_wide(sheet, (top, 0), table.caption, widths, italic=True)
         if not table.rows:
             self.write_wide(sheet, (top + 1, 0), table.empty, widths)
+            self.paper(sheet).keep(top, top + 1)
             return top + 3
         self.write_head(sheet, top + 1, table.columns, widths)
+        count = len(table.rows)
+        kept = count if count <= _SHORT else _FIRST_LINES
+        self.paper(sheet).keep(top, top + 1 + kept)
         last = len(table.columns) - 1
         own = [*widths[:last], sum(widths[last:])]
         for row, cells in enumerate(table.rows, top + 2):
@@ -198,16 +271,18 @@ class Book:
         sheet = self.add_sheet(name, title, paper=paper)
         if pages > 1:
             sheet.fit_to_pages(pages, 0)
-            sheet.repeat_columns(0, _NAMING - 1)
+            sheet.repeat_columns(0, NAMING - 1)
+        self.paper(sheet).height = find_height(widths, paper, pages)
         self.link_back(sheet)
         top = 2
+        self.paper(sheet).keep(0, top)
         for table in tables:
             top = self.write_table(sheet, table, top, widths)
         for index, width in enumerate(widths):
             sheet.set_column(index, index, width)
         first = tables[0]
         if len(tables) == 1:
-            sheet.repeat_rows(3)
+            self.paper(sheet).repeat(3)
         if len(tables) == 1 and first.rows:
             sheet.autofilter(3, 0, 3 + len(first.rows), len(first.columns) - 1)
         sheet.freeze_panes(4, 1)
@@ -241,30 +316,50 @@ class Book:
         sheet.conditional_format(*area, rule)
 
 
-def choose_paper(widths: Sequence[float]) -> tuple[int, int]:
-    """Paper, and pages side by side, on which columns are read without a glass.
-
-    Excel and LibreOffice make a sheet smaller until it is as wide as its pages.
-    """
-    wide, named = sum(widths), sum(widths[:_NAMING])
-    for paper, pages in ((A4, 1), (A3, 1), (A4, 2)):
-        shown = _CHARACTER_PT * (wide + (pages - 1) * named)
-        if pages * _ROOM_PT[paper] / shown >= _SMALLEST:
-            return paper, pages
-    return A3, 2
-
-
 def _align(column: Column) -> dict[str, Any]:
     """Numbers to the right; texts keep a distance from a number before them."""
     return {"align": "right"} if column.is_number else {"align": "left", "indent": 1}
 
 
-def count_lines(texts: Sequence[str], widths: Sequence[float]) -> int:
-    """Lines that the longest of ``texts`` takes in its column."""
+def count_lines(
+    texts: Sequence[str], widths: Sequence[float], look: float = 1.0
+) -> int:
+    """Lines that the longest of ``texts`` takes in its column, broken between words.
+
+    ``look`` is the width of its letters over that of plain ones.
+    """
     return max(
-        math.ceil((len(text) * _CHARACTER + 1.5) / width)
-        for text, width in zip(texts, widths, strict=False)
+        _wrap(text, width / look) for text, width in zip(texts, widths, strict=False)
     )
+
+
+def fit_headings(
+    columns: Sequence[Column], widths: Sequence[float], turned: Sequence[int] = ()
+) -> list[float]:
+    """Widths of columns, wider where a word of a level heading has no room."""
+    return [
+        width if index in turned else max(width, _measure_longest(column.heading))
+        for index, (column, width) in enumerate(zip(columns, widths, strict=True))
+    ]
+
+
+def _measure_longest(heading: str) -> float:
+    """Width that the longest word of a heading needs."""
+    return max(_BOLD * _measure(word) + _INDENT for word in ("", *heading.split()))
+
+
+def _wrap(text: str, width: float) -> int:
+    """Lines of a text in a column; a part of it is the distance from the one before."""
+    wide = _measure(text)
+    if wide + _INDENT <= width:
+        return 1
+    letters = (width - _INDENT) * len(text) / wide
+    return len(textwrap.wrap(text, max(int(letters), 1)))
+
+
+def _measure(text: str) -> float:
+    """Width of a text in digits of the default font; capitals are wider than others."""
+    return _CHARACTER * len(text) + _CAPITAL * sum(map(str.isupper, text))
 
 
 def find_widths(tables: Sequence[Table]) -> list[float]:
@@ -277,8 +372,8 @@ def find_widths(tables: Sequence[Table]) -> list[float]:
         for index, column in enumerate(table.columns):
             if place and index == len(table.columns) - 1:
                 continue  # a last column may reach into empty cells beside it
-            lengths = [len(row[index].text) for row in table.rows]
-            lengths += [len(word) for word in column.heading.split()]
-            wanted = max(lengths, default=0) * _CHARACTER + 3
+            wide = [_measure(row[index].text) for row in table.rows]
+            wide += [_BOLD * _measure(word) for word in column.heading.split()]
+            wanted = max(wide, default=0) + 2 * _INDENT
             widths[index] = min(max(widths[index], wanted), _WIDEST)
     return widths

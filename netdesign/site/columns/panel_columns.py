@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from netdesign.panel.inputs import CUTS, LARGEST_SAG
-from netdesign.panel.row_forces import LARGEST_GUY_ANGLE
+from netdesign.panel.inputs import CUTS, LARGEST_GUY_ANGLE, LARGEST_SAG
 from netdesign.site.columns.fields import Field
 from netdesign.site.columns.unit_names import ANGLES, FORCES, SHARES
 from netdesign.units import degree_from_radian

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.history.run import measure_run
-from netdesign.coupling.history.staggered import StaggeredSettings, solve_staggered
-from netdesign.coupling.history.transient import (
+from netdesign.coupling.history.settings import (
     TRANSIENT_LEVELS,
+    StaggeredSettings,
     TransientSettings,
-    run_history,
-    solve_transient,
 )
+from netdesign.coupling.history.staggered import solve_staggered
+from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady

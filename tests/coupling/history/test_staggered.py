@@ -8,16 +8,13 @@ import pytest
 
 from netdesign.cable.incremental import advance_increment
 from netdesign.coupling.history import staggered
-from netdesign.coupling.history.staggered import (
-    StaggeredSettings,
-    run_exchange,
-    solve_staggered,
-)
-from netdesign.coupling.history.transient import (
+from netdesign.coupling.history.settings import (
     TRANSIENT_LEVELS,
+    StaggeredSettings,
     TransientSettings,
-    run_history,
 )
+from netdesign.coupling.history.staggered import run_exchange, solve_staggered
+from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError
 from netdesign.outcome import Outcome

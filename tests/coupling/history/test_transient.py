@@ -8,12 +8,8 @@ import pytest
 
 from netdesign.coupling.history import transient
 from netdesign.coupling.history.clock import Clock
-from netdesign.coupling.history.transient import (
-    TRANSIENT_LEVELS,
-    TransientSettings,
-    run_history,
-    solve_transient,
-)
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
+from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.moments import select_counted
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError

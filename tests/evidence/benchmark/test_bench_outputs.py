@@ -1,18 +1,27 @@
 """Benchmarks on a terminal and as a drawing."""
 
+import re
 import xml.etree.ElementTree as ElementTree
+from functools import partial
 
+import pytest
 from rich.console import Console
 
 from netdesign.evidence.benchmark.bench_figure import draw_work_precision
 from netdesign.evidence.benchmark.bench_table import (
     print_errors,
+    print_lines,
     print_rows,
     print_stress,
 )
+from netdesign.evidence.benchmark.figure_table import print_figure
 from netdesign.evidence.benchmark.honesty import Finding, write_errors
 from netdesign.evidence.benchmark.rows import Row
 from netdesign.evidence.benchmark.stress import Attempt, write_stress
+from netdesign.report.words import Words
+from netdesign.words.catalogue import load_texts
+from netdesign.words.message import say
+from tests.words.english import list_vocabulary, list_words
 
 ROWS = [
     Row(
@@ -93,3 +102,74 @@ def test_plot():
 def test_plot_of_histories():
     words = draw_work_precision([ROWS[0]])
     assert "transient" not in words
+
+
+FINER = say("bench.finer_mesh", reason="...")
+ATTEMPTS = [
+    Attempt(number=0, kind="converged", cpu_s=0.5, balance=1e-10),
+    Attempt(number=1, kind="failed", reason=say("bench.balance", residual=0.25)),
+    Attempt(number=2, kind="refused before", reason=FINER),
+    Attempt(number=3, kind="refused while solving", reason=say("bench.yes")),
+]
+FINDINGS = [
+    Finding(number=1, true_error=0.0213, stated_error=0.01, cpu_s=1),
+    Finding(number=2, missing=FINER),
+]
+FIGURE = {
+    "what": say("bench.row_what"),
+    "reach": say("bench.row_reach"),
+    "reached": True,
+    **dict.fromkeys(
+        (
+            key.partition(".")[2]
+            for key in load_texts("en")
+            if key.startswith("bench_value.")
+        ),
+        1.25,
+    ),
+    "first": {"wall_s": 2.5},
+    "is_closed": False,
+}
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_every_table_in_a_language(language):
+    """No word of English, and no decimal point, besides names and what others said."""
+    words = Words(language)
+    documents = (
+        (print_rows, ROWS),
+        (print_stress, write_stress(ATTEMPTS, 4, 0.005, language)),
+        (print_errors, write_errors(FINDINGS, 1, 0.005, language)),
+        (print_lines, LINES),
+    )
+    told = [printed(partial(show, words=words), one) for show, one in documents]
+    print_figure(FIGURE, told.append, words)
+    told += ElementTree.fromstring(draw_work_precision(ROWS, words)).itertext()
+    english = list_vocabulary("en") - list_vocabulary(language)
+    text = re.sub(r"scikit-fem|paper-\d+|layered", "", "\n".join(told))
+    assert list_words(text) & english == set()
+    assert re.findall(r"\d\.\d", text) == []
+    assert len(re.findall(r"\d,\d", text)) > 60
+
+
+LINES = {
+    "lines": 2,
+    "points": 9,
+    "solved": 17,
+    "refused": 1,
+    "jumps": 1,
+    "bends": 0,
+    "largest_jump": 1.25,
+    "largest_true_over_stated": None,
+    "share_outside": 0.0312,
+    "compared": 4,
+    "without_truth": 1,
+    "of_lines": [
+        {
+            "number": 1,
+            "parameter": "N",
+            "jumps": [{"place": 3, "end": "T", "relative": 0.031, "over_stated": 1.25}],
+            "missing": ["..."],
+        }
+    ],
+}

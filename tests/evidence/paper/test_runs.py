@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.transient import TRANSIENT_LEVELS
+from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.evidence.paper.cases import (
     PaperSettings,
     find_exchange,

@@ -268,11 +268,14 @@ def test_libreoffice_opens_it(tmp_path):
         assert len(re.findall(rb"/Type\s*/Page\b", path.read_bytes())) > 3
 
 
-def test_measured_forces_stand_in_the_document_by_their_words(language):
-    """The chart of the drawing library has shapes of which no PNG is made."""
-    first, *others = STUDY.rows
-    measured = replace(first, monitoring=[build_monitoring(random.Random(5))])
-    study = replace(STUDY, rows=[measured, *others])
-    lines = open_word(render_document(study, language, "full")).paragraphs
-    text = squeeze(" ".join(line.text for line in lines))
-    assert squeeze(Words(language)("drawing.monitoring")) in text
+def test_measured_forces_stand_in_the_document_as_a_picture():
+    study = build_study(rows=1)
+    (row,) = study.rows
+    measured = replace(row, monitoring=[build_monitoring(random.Random(5))])
+    bare = replace(measured, drawing=None, envelope=None, head=[])
+    parts = list_parts(render_document(replace(study, rows=[bare]), "fr", "full"))
+    told = re.findall(b'descr="([^"]*)"', parts["word/document.xml"])
+    (picture,) = [one.decode() for one in told if b"mesur" in one]
+    assert picture.startswith(Words("fr")("drawing.monitoring"))
+    kinds = {name.rpartition(".")[2] for name in parts if "/media/" in name}
+    assert kinds == {"svg", "png"}

@@ -58,6 +58,7 @@ def draw_all(rng: random.Random, words) -> list[str]:
         draw_head(build_head(rng), words),
         draw_panel(build_panel(rng), words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
+        draw_monitoring([build_monitoring(rng)], words),
     ]
 
 
@@ -67,7 +68,6 @@ def draw_slow(rng: random.Random, words) -> list[str]:
     row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
     return [
         draw_envelope(row, words),
-        draw_monitoring([build_monitoring(rng)], "m", words),
         draw_node_forces(face, "f", words),
         draw_stick_slip(face, "t", words),
     ]

@@ -28,7 +28,7 @@ def texts(svg):
 
 
 def test_readings_are_drawn_and_the_model_is_told_of():
-    shown = texts(draw_monitoring([RECORD], "x"))
+    shown = texts(draw_monitoring([RECORD]))
     assert {"measured", "air", "Uphill guy, tension [kN]"} <= set(shown)
     assert "sheet Winter" in describe_monitoring([RECORD, RECORD])
     assert describe_monitoring([RECORD, RECORD]).count("sheet Winter") == 1
@@ -36,7 +36,7 @@ def test_readings_are_drawn_and_the_model_is_told_of():
 
 def test_page_has_the_drawing_only_where_something_was_measured():
     study = build_study(rows=2)
-    assert draw_monitoring([], "x") == ""
+    assert draw_monitoring([]) == ""
     assert "row-1-monitoring" not in PageReader(render_html(study)).ids
     rows = [replace(study.rows[0], monitoring=[RECORD]), study.rows[1]]
     page = PageReader(render_html(replace(study, rows=rows)))

@@ -10,9 +10,9 @@ from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
-from netdesign.report.workbook.writer import A3, A4, choose_paper
 from netdesign.study.document import compute_digest
 from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.message import say
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_rows, read_workbook, recalculate
 
@@ -85,6 +85,7 @@ def fresh(content, tmp_path_factory):
     books = {
         "en": content,
         "edited": edit(content),
+        **{name: edit_profile(name) for name in PROFILE_EDITS},
         **{name: render_workbook(STUDY, name) for name in ("fr", "de")},
         **{f"spoilt-{name}": spoil(render_workbook(MANY, name)) for name in LANGUAGES},
     }
@@ -102,6 +103,49 @@ def edit(content):
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
+
+
+# A value of the profile that is no factor of a check; a factor of all; one of tendons.
+PROFILE_EDITS = {
+    "other-value": ("inclination.low", 24.0),
+    "no-value": ("inclination.low", None),
+    "on-action": ("action.snow", 1.4),
+    "on-tendons": ("resistance.tendon", 1.3),
+}
+
+
+def edit_profile(name):
+    """One value of the profile typed over in the workbook of a study that passes."""
+    study = name_factors(LOOSE)
+    book = read_workbook(render_workbook(study), formulas=True)
+    key, number = PROFILE_EDITS[name]
+    line = [one.id for one in study.profile.values].index(key)
+    book["Profile"][f"C{5 + line}"] = number
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
+def name_factors(study):
+    """The same study under a profile whose factors have their own names."""
+    factor = next(one for one in study.profile.values if one.id == "factor.tendon")
+    named = [
+        replace(factor, id="resistance.tendon"),
+        replace(factor, id="action.snow", value=1.5),
+    ]
+    values = [*study.profile.values, *named]
+    return replace(study, profile=replace(study.profile, values=values))
+
+
+def follow_factors(study):
+    """The same study; the first check's resistance rests on the factors themselves."""
+    (row,) = study.rows
+    sliding = say("derivation.sliding", friction=0.5, factor=1.5, pressing=90.0)
+    first = replace(row.checks[0], resistance_derivation=sliding)
+    return replace(study, rows=[replace(row, checks=[first, *row.checks[1:]])])
+
+
+LOOSE = follow_factors(build_study(rows=1))
 
 
 def expected_checks(study):
@@ -254,7 +298,7 @@ def test_only_our_formulas_exist(content):
                     assert cell.hyperlink.target is None
                     assert cell.hyperlink.location.startswith("'")
                 if cell.data_type == "f":
-                    assert sheet.title in ("Checks", "Summary")
+                    assert sheet.title in ("Checks", "Summary", "Profile")
                     assert cell.value != FORMULA
     names = {cell.value for cell in book["Checks"]["B"]}
     assert FORMULA in {cell.value for cell in book["Inputs"]["D"]}
@@ -305,25 +349,31 @@ def find_table_columns(sheet):
     return [sheet.column_dimensions[letter].width for letter in letters]
 
 
-def test_wide_sheets_take_more_paper_and_stay_legible():
-    """Widths of one of ours, in characters; LibreOffice's are the widest seen."""
-    for widths, pages in (([9.0] * 9, 1), ([9.0] * 16, 1), ([9.0] * 25, 2)):
-        paper, across = choose_paper(widths)
-        room = {A4: 798.0, A3: 1147.0}[paper] * across
-        wide = 7.35 * (sum(widths) + (across - 1) * sum(widths[:2]))
-        assert 9.0 * room / wide >= 6.0
-        assert across == pages
+def list_live(book):
+    """Verdict and utilisation of each check, and whether its sentence stands."""
+    changed = ENGLISH(CHANGED)
+    lines = read_rows(book["Checks"], "No.")
+    return [(one["Verdict"], one["μ"], one["Reason"] != changed) for one in lines]
 
 
-def name_factors(study):
-    """The same study under a profile whose factors have their own names."""
-    factor = next(one for one in study.profile.values if one.id == "factor.tendon")
-    named = [
-        replace(factor, id="resistance.tendon"),
-        replace(factor, id="action.snow", value=1.5),
-    ]
-    values = [*study.profile.values, *named]
-    return replace(study, profile=replace(study.profile, values=values))
+@pytest.mark.parametrize("name", ["other-value", "no-value"])
+def test_nothing_is_proven_by_a_profile_that_was_not_solved(name, fresh):
+    book = read_workbook(fresh[name])
+    assert {(one, kept) for one, _, kept in list_live(book)} == {("NOT PROVEN", False)}
+    assert book["Summary"]["C3"].value == "NOT PROVEN"
+
+
+def test_factors_of_the_profile_are_live(fresh):
+    for name, share in (("on-action", 1.4 / 1.5), ("on-tendons", 1.3 / 1.35)):
+        live = list_live(read_workbook(fresh[name]))
+        checks = expected_checks(LOOSE)
+        assert live[0][0] == "NOT PROVEN"  # its resistance has the factors of the study
+        for (verdict, used, _), check in zip(live[1:], checks[1:], strict=True):
+            assert verdict == "PASS"
+            is_changed = name == "on-action" or check.mode == "tendon"
+            if check.utilisation and check.demand_kN is not None:
+                wanted = check.utilisation * (share if is_changed else 1.0)
+                assert used == pytest.approx(wanted, rel=1e-9), check.id
 
 
 def test_factors_are_read_from_the_profile():

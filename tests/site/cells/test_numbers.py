@@ -84,7 +84,7 @@ def test_values_that_are_no_numbers_are_refused(value, rule):
     assert str(refusal.rule) == rule
 
 
-@settings(derandomize=True, max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     st.decimals(min_value=-99999, max_value=99999, places=2),
     st.sampled_from([".", ","]),
@@ -100,7 +100,7 @@ def test_more_digits_than_are_kept_are_refused_as_such(text):
 
 
 @given(st.floats(min_value=1e-3, max_value=1e5), st.sampled_from([".", ","]))
-@settings(derandomize=True, max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_floats_as_programs_write_them_are_read_to_the_last_bit(number, mark):
     assert parse_number(repr(number).replace(".", mark), mark) == number
 
@@ -131,7 +131,7 @@ def test_a_number_against_the_declared_decimal_mark_is_refused(text, mark):
     assert str(refusal.rule) == f'is not a number with the decimal mark "{mark}"'
 
 
-@settings(derandomize=True, max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.text(alphabet="0123456789.,+- eEO m'", max_size=9))
 def test_text_without_groups_is_read_as_its_one_meaning_or_refused(text):
     number = parse_number(text)

@@ -84,7 +84,7 @@ def written(draw):
     return sheet, key, text + unit
 
 
-@settings(derandomize=True, max_examples=800, deadline=None)
+@settings(max_examples=800)
 @given(written())
 def test_a_heading_written_otherwise_is_the_same_or_asked_for(drawn):
     sheet, key, text = drawn
@@ -92,7 +92,7 @@ def test_a_heading_written_otherwise_is_the_same_or_asked_for(drawn):
     assert field is None or field.key == key
 
 
-@settings(derandomize=True, max_examples=800, deadline=None)
+@settings(max_examples=800)
 @given(st.sampled_from(NAMES), st.sampled_from(NAMES))
 def test_two_headings_in_one_cell_are_taken_only_if_they_agree(one, other):
     assume(fold(one[2]))  # "de" is a name alone, and no word beside another

@@ -1,0 +1,1 @@
+"""Two versions of the program timed beside each other, each in turn."""

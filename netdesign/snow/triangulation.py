@@ -1,0 +1,78 @@
+"""Six-node triangles of a triangulation: its edges, their middles, its boundary.
+
+Numbers and places are those of scikit-fem to the last digit, without its import, which
+takes longer than a solve (tests/snow/test_triangulation.py compares the two).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats, Ints
+
+# Vertices of each edge of a triangle; reference coordinates of its six nodes.
+_EDGES = ((0, 1), (1, 2), (0, 2))
+NODE_PLACES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.0), (0.5, 0.5), (0.0, 0.5))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Triangulation:
+    """Triangles with their edges; vertices are numbered first, then middles of edges.
+
+    Attributes
+    ----------
+    nodes : ndarray, shape (2, n_nodes)
+        Coordinates, of the unit of the points.
+    triangles : ndarray of int, shape (6, n_triangles)
+        Vertices in ascending order, then the middles of edges 01, 12 and 02.
+    edges : ndarray of int, shape (2, n_edges)
+        Vertices of each edge, in ascending order.
+    boundary : ndarray of int, shape (n,)
+        Edges of one triangle only.
+    """
+
+    nodes: Floats
+    triangles: Ints
+    edges: Ints
+    boundary: Ints
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of corner nodes."""
+        return int(self.nodes.shape[1] - self.edges.shape[1])
+
+
+def number_nodes(points: Floats, triangles: Ints) -> Triangulation:
+    """Triangulation with its edges and nodes numbered.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        Vertices.
+    triangles : ndarray of int, shape (n_triangles, 3)
+        Vertices of each triangle, in any order.
+    """
+    vertices = np.sort(triangles.T, axis=0)
+    starts = np.concatenate([vertices[first] for first, _ in _EDGES])
+    ends = np.concatenate([vertices[second] for _, second in _EDGES])
+    keys, number, uses = np.unique(
+        starts * len(points) + ends, return_inverse=True, return_counts=True
+    )
+    six = np.concatenate([vertices, len(points) + number.reshape(vertices.shape)])
+    return Triangulation(
+        nodes=_place(points, six, len(points) + len(keys)),
+        triangles=six,
+        edges=np.array(np.divmod(keys, len(points))),
+        boundary=np.flatnonzero(uses == 1),
+    )
+
+
+def _place(points: Floats, triangles: Ints, count: int) -> Floats:
+    """Coordinates (2, n_nodes) of all nodes, mapped from the reference triangle."""
+    origin, first, second = (points.T[:, corner] for corner in triangles[:3])
+    nodes = np.zeros((2, count))
+    for node, (x, y) in zip(triangles, NODE_PLACES, strict=True):
+        nodes[:, node] = x * (first - origin) + y * (second - origin) + origin
+    return nodes

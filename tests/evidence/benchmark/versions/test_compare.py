@@ -1,0 +1,104 @@
+"""Two versions in turns: their runs, what a failure becomes, ratios, what is asked."""
+
+import itertools
+import sys
+from pathlib import Path
+
+import pytest
+
+from netdesign.evidence.benchmark.versions import compare
+from netdesign.evidence.benchmark.versions.compare import (
+    Figure,
+    Timing,
+    compare_versions,
+    count_runs,
+)
+from netdesign.evidence.benchmark.versions.measures import RunFailure, Size, Time
+from netdesign.evidence.benchmark.versions.table import print_versions
+from netdesign.report.words import Words
+from tests.words.english import list_vocabulary, list_words
+
+THIS, OTHER = Path(sys.executable), Path("other-python")
+SIZE = Size(short=3, long=2, scenes=("paper-0",))
+
+
+@pytest.fixture
+def timed(monkeypatch):
+    """Order of the runs; the other takes 3, 5, 4 s by the processor, this one 2 s."""
+    order, others = [], itertools.cycle((3.0, 5.0, 4.0))
+
+    def measure(bench, python):
+        order.append((python, bench.has_core))
+        taken = 2.0 if python == THIS else next(others)
+        return [Time(cpu_s=taken, wall_s=2.0 * taken)]
+
+    def fail(_, python):
+        if python == OTHER:
+            raise RunFailure("of its own")
+        return [Time(cpu_s=0.02, wall_s=0.03)]
+
+    timings = (
+        Timing(measure, (Figure("row", "cpu_s", 1.5),)),
+        Timing(fail, (Figure("solve", "cpu_s", 0.4),), is_long=True),
+    )
+    monkeypatch.setattr(compare, "TIMINGS", timings)
+    monkeypatch.setattr(compare, "read_version", lambda python: f"of {python.name}")
+    return order
+
+
+def test_versions_take_turns_and_the_other_begins_every_second_repeat(timed):
+    done = []
+    compare_versions(OTHER, SIZE, done.append)
+    with_core = [THIS, OTHER, OTHER, THIS, THIS, OTHER]
+    assert [python for python, _ in timed] == 2 * with_core
+    assert [has_core for _, has_core in timed] == [True] * 6 + [False] * 6
+    assert len(done) == count_runs(SIZE) == 2 * 2 * (3 + 2)
+
+
+def test_medians_and_their_ratio(timed):
+    row, _, slow, _ = compare_versions(OTHER, SIZE)["rows"]
+    assert row["this"]["cpu_s"] == {"median": 2.0, "least": 2.0, "most": 2.0}
+    assert row["other"]["cpu_s"] == {"median": 4.0, "least": 3.0, "most": 5.0}
+    assert row["times_faster"] == {"cpu_s": 2.0, "wall_s": 2.0}
+    assert not row["reached"]  # 2 s where 1.5 s are asked
+    assert slow["reached"]  # without the core it is not slower
+
+
+def test_a_failure_of_the_other_is_told_and_not_raised(timed):
+    document = compare_versions(OTHER, SIZE)
+    _, failed, _, without = document["rows"]
+    assert failed["other"] == {"failure": "of its own", "cpu_s": None, "wall_s": None}
+    assert failed["this"]["cpu_s"]["median"] == 0.02
+    assert failed["times_faster"] == {"cpu_s": None, "wall_s": None}
+    assert failed["reached"]  # what is asked of this version alone
+    assert not without["reached"]  # nobody knows whether it is slower
+    assert not document["pass"]
+
+
+@pytest.mark.parametrize(("language", "mark"), [("en", "."), ("fr", ","), ("de", ",")])
+def test_table(timed, capsys, language, mark):
+    from rich.console import Console
+
+    document = compare_versions(OTHER, SIZE)
+    print_versions(document, Console(width=100), Words(language))
+    lines = capsys.readouterr().out.splitlines()
+    times = next(line for line in lines if "2 (2 " in line)
+    assert times.split()[-1] == f"2{mark}00"
+    assert f"0{mark}02" not in times
+    assert any("20 (20 " in line for line in lines)  # ms
+    assert lines[-1].endswith("of its own")
+    if language != "en":
+        english = list_vocabulary("en") - list_vocabulary(language)
+        told = "\n".join(lines).replace("of its own", "").replace(" of ", "")
+        assert list_words(told) & english <= {"numpy", "other", "python"}
+
+
+def test_a_failure_of_this_version_fails(timed, monkeypatch):
+    def fail(*_):
+        raise RunFailure("both")
+
+    timings = (Timing(fail, (Figure("grid", "wall_s", 9.0),)),)
+    monkeypatch.setattr(compare, "TIMINGS", timings)
+    document = compare_versions(OTHER, SIZE)
+    assert [row["reached"] for row in document["rows"]] == [False, False]
+    assert not document["pass"]

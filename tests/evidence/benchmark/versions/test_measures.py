@@ -1,0 +1,123 @@
+"""What is timed of a version, run with this one: a scene, a row, a refused command."""
+
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from netdesign import __version__
+from netdesign.errors import ModelError
+from netdesign.evidence.benchmark.versions import inputs, probe
+from netdesign.evidence.benchmark.versions.inputs import NAMES, write_scene, write_site
+from netdesign.evidence.benchmark.versions.measures import (
+    Bench,
+    RunFailure,
+    Size,
+    time_scenes,
+    time_solve,
+)
+from netdesign.evidence.benchmark.versions.other import open_version, read_version
+from netdesign.files.scene import read_scene
+from netdesign.site.reader import read_site
+
+THIS = Path(sys.executable)
+SMALL = Size(scenes=("flat-light",), solves=1, samples=2, rows=9)
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory):
+    made = Bench(tmp_path_factory.mktemp("bench"), SMALL, has_core=True)
+    made.write_inputs()
+    return made
+
+
+def test_scenes_are_solved_in_a_process_of_the_version(bench):
+    middle, high = time_scenes(bench, THIS)
+    assert 0.0 < middle.cpu_s <= middle.wall_s * 1.5
+    assert middle == high  # of one scene
+
+
+def test_a_scene_without_a_result_fails(bench, tmp_path):
+    spoilt = Bench(tmp_path, SMALL, has_core=True)
+    (tmp_path / "scenes").mkdir()
+    (tmp_path / "scenes" / "flat-light.toml").write_text("[slope]\n")
+    with pytest.raises(RunFailure, match="1"):
+        time_scenes(spoilt, THIS)
+    with pytest.raises(RunFailure, match="3"):  # its exit code
+        time_solve(spoilt, THIS)
+
+
+def test_every_scene_is_written_as_it_is(tmp_path):
+    from netdesign.evidence.benchmark.scenes import SCENES, load_scenes
+
+    known = load_scenes()
+    for name in SCENES:
+        write_scene(tmp_path / "scene.toml", SCENES[name])
+        assert read_scene(tmp_path / "scene.toml")[0] == known[name]
+    assert len(NAMES) == 16
+
+
+def test_the_site_is_read(bench):
+    site = read_site(bench.folder / "site")
+    assert [row.id for row in site.rows][-3:] == ["R7.1", "R1.2", "R2.2"]
+    first, again = (row for row in site.rows if row.id in ("R1.1", "R1.2"))
+    assert again.snow_thickness == pytest.approx(0.97 * first.snow_thickness)
+
+
+def test_rows_of_the_site_are_all_different(tmp_path):
+    write_site(tmp_path / "site", 20)
+    rows = read_site(tmp_path / "site").rows
+    assert len({(row.snow_thickness, row.upslope_length) for row in rows}) == 20
+
+
+def test_a_command_in_a_process_that_has_loaded_what_it_needs(bench, monkeypatch):
+    write_scene(bench.folder / "short.toml", inputs.SHORT)
+    monkeypatch.chdir(bench.folder)
+    monkeypatch.setattr(sys, "argv", [])
+    words = ["envelope", "short.toml", "--density", "300:310:2", "--confirm", "none"]
+    words += ["--no-cache", "--json", "--quiet", "--jobs", "1"]
+    found = probe.time_command(words, words)
+    assert found["exit_code"] == 0
+    assert found["cpu_s"] > 0.0
+
+
+def test_python_of_a_venv():
+    with open_version(THIS) as python:
+        assert read_version(python) == __version__
+    with open_version(THIS.parent.parent) as python:
+        assert python == THIS
+
+
+@pytest.mark.parametrize("name", ["no-such", "empty"])
+def test_what_is_no_version_is_refused(tmp_path, name):
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ModelError, match="accepted is"), open_version(tmp_path / name):
+        pass
+
+
+def test_a_python_without_the_program_is_refused(tmp_path):
+    script = tmp_path / "python"
+    script.write_text("#!/bin/sh\nexit 1\n")
+    script.chmod(0o755)
+    with pytest.raises(ModelError, match="runs no netdesign"):
+        read_version(script)
+
+
+@pytest.mark.slow
+def test_a_wheel_is_installed_beside_the_libraries_of_this_version(tmp_path):
+    """``pytest -m slow -k wheel_is_installed``: makes a venv, 5 s."""
+    wheel = tmp_path / "netdesign-9.9-py3-none-any.whl"
+    folder = "netdesign-9.9.dist-info"
+    texts = {
+        "netdesign/__init__.py": "import numpy\n",
+        f"{folder}/METADATA": "Metadata-Version: 2.1\nName: netdesign\nVersion: 9.9\n",
+        f"{folder}/WHEEL": "Wheel-Version: 1.0\nRoot-Is-Purelib: true\n"
+        "Tag: py3-none-any\n",
+        f"{folder}/RECORD": "",
+    }
+    with zipfile.ZipFile(wheel, "w") as file:
+        for name, text in texts.items():
+            file.writestr(name, text)
+    with open_version(wheel) as python:
+        assert read_version(python) == "9.9"
