@@ -25,7 +25,6 @@ from netdesign.core.arguments import (
     to_floats,
 )
 from netdesign.core.library import SINGULAR, require_sound
-from netdesign.core.plan import Words
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.compiled_mesh import number_template, plan_template
 from netdesign.snow.contact import Contact, may_lift
@@ -69,8 +68,8 @@ class CompiledFlow:
         Of the flow.
     given : tuple of structures
         Mesh, laws and rules as the core takes them.
-    plan : ndarray of int32, shape (n_words,)
-        Order of the template's nodes.
+    plan : int
+        Address of the order of the template's nodes.
     kept : tuple of ndarray, each of any shape
         Arrays whose addresses the structures have.
     """
@@ -78,7 +77,7 @@ class CompiledFlow:
     library: ctypes.PyDLL
     mesh: PlacedMesh
     given: tuple[MeshArgument, LawArgument, RulesArgument]
-    plan: Words
+    plan: int
     kept: tuple[np.ndarray[Any, Any], ...]
 
     def solve(
@@ -113,7 +112,7 @@ class CompiledFlow:
         mesh, own, rules = map(ctypes.byref, self.given)
         code = self.library.nd_flow(
             *(mesh, own, law and ctypes.byref(law), rules),
-            ctypes.c_void_p(locate(self.plan)),
+            ctypes.c_void_p(self.plan),
             *(ctypes.byref(argument), ctypes.byref(effort)),
         )
         del kept  # C had its addresses
@@ -245,7 +244,7 @@ class CompiledFlow:
         step = StepArgument(*locate_all(stress, shear, *held), *results)
         code = self.library.nd_step(
             *map(ctypes.byref, (*self.given, step)),
-            ctypes.c_void_p(locate(self.plan)),
+            ctypes.c_void_p(self.plan),
             int(keeps),
         )
         _require_held(code)
@@ -336,11 +335,11 @@ def _describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
 class _Described(NamedTuple):
     """A template as the core takes it."""
 
-    plan: Words
     kept: tuple[np.ndarray[Any, Any], ...]  # C has their addresses
     counts: tuple[int, int, int, int]  # of nodes, triangles, net, edges
-    numbers: tuple[int, ...]
+    numbers: tuple[int, ...]  # addresses
     lifts: int
+    plan: int
 
 
 def prepare_flow(
@@ -390,9 +389,9 @@ def _describe_template(
     numbers, lifts = number_template(template), np.ascontiguousarray(may_lift(template))
     counts = (template.nodes.shape[1], len(numbers.triangles))
     return _Described(
-        plan=plan,
-        kept=(*numbers, lifts),
+        kept=(*numbers, lifts, plan),
         counts=(*counts, numbers.net.size, len(numbers.edges)),
         numbers=tuple(locate_all(*numbers)),
         lifts=locate(lifts),
+        plan=locate(plan),
     )

@@ -85,7 +85,7 @@ def place_compiled(
     ValueError
         If an array is not of its shape, or the element has other points.
     """
-    numbers = number_template(template)
+    numbers, places = _locate_template(template)
     shape, gradients, point_weights = _reference()
     n_triangles, n_points = len(numbers.triangles), point_weights.size
     if shape.shape != (_POINTS, 6):
@@ -98,14 +98,22 @@ def place_compiled(
         axes=np.empty(nodes.shape),
     )
     nodes = to_floats(nodes, template.nodes.shape)
-    given = (numbers.triangles, numbers.net, template.orientation, gradients, shape)
     results = (found.gradients, found.weights, found.load, found.axes, found.net_normal)
     argument = PlacementArgument(
         *(nodes.shape[1], n_triangles, numbers.net.size),
-        *locate_all(*given, point_weights, tangents, nodes, *results),
+        *places,
+        *locate_all(gradients, shape, point_weights, tangents, nodes, *results),
     )
     require_sound(library.nd_place(ctypes.byref(argument)))
     return found
+
+
+@lru_cache(maxsize=256)
+def _locate_template(template: MeshTemplate) -> tuple[Numbers, tuple[int, ...]]:
+    """Numbers of a template, and where three of its arrays are while these live."""
+    numbers = number_template(template)
+    arrays = (numbers.triangles, numbers.net, template.orientation)
+    return numbers, tuple(locate_all(*arrays))
 
 
 @lru_cache(maxsize=1)
