@@ -145,12 +145,12 @@ def test_byte_order_mark_is_allowed(folder):
 
 
 def test_unknown_id_names_the_nearest():
-    with pytest.raises(StandardError, match=f"'NF P 95-304'.*did you mean {NF_STYLE}"):
+    with pytest.raises(StandardError, match=f"'NF P 95-304'.*Did you mean {NF_STYLE}"):
         load_standard("NF P 95-304")
 
 
 def test_unknown_id_names_all_that_are_near():
-    two = "did you mean onr-24805-style or nf-p-95-304-style? Accepted are"
+    two = "Did you mean onr-24805-style or nf-p-95-304-style? Accepted are"
     with pytest.raises(StandardError, match=re.escape(two)):
         load_standard("ONR-style")
 
