@@ -220,7 +220,7 @@ def test_an_unknown_profile_of_a_site_is_refused_at_its_cell(call, tmp_path):
     ended = call("check", "site.xlsx", "--dry-run")
     assert ended.code == 3
     assert "site.xlsx › Project › B3: limit profile 'eurocod'" in ended.err
-    assert "did you mean eurocode?" in ended.err
+    assert "Did you mean eurocode?" in ended.err
 
 
 def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
@@ -353,7 +353,7 @@ def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
 def test_dry_run_counts_and_writes_nothing(home, checked, tmp_path):
     result = run("check", home / "site.xlsx", "--dry-run", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
-    assert "1 net rows, 3 cases" in result.stdout
+    assert "1 net row, 3 cases" in result.stdout
     assert "nothing was written" in result.stdout
     assert listing(tmp_path) == set()
 
@@ -442,7 +442,7 @@ def test_an_accuracy_that_is_no_number_ends_with_3(tmp_path):
 def test_an_unknown_profile_ends_with_3_and_a_guess(home, tmp_path):
     result = run("check", home / "site.xlsx", "--standard", "nf-p-95-303", cwd=tmp_path)
     assert result.returncode == 3
-    assert f"did you mean {PROFILE}?" in result.stderr
+    assert f"Did you mean {PROFILE}?" in result.stderr
     assert result.stdout == ""
     assert listing(tmp_path) == set()
 

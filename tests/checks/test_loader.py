@@ -145,12 +145,12 @@ def test_byte_order_mark_is_allowed(folder):
 
 
 def test_unknown_id_names_the_nearest():
-    with pytest.raises(StandardError, match=f"'NF P 95-304'.*did you mean {NF_STYLE}"):
+    with pytest.raises(StandardError, match=f"'NF P 95-304'.*Did you mean {NF_STYLE}"):
         load_standard("NF P 95-304")
 
 
 def test_unknown_id_names_all_that_are_near():
-    two = "did you mean onr-24805-style or nf-p-95-304-style? Accepted are"
+    two = "Did you mean onr-24805-style or nf-p-95-304-style? Accepted are"
     with pytest.raises(StandardError, match=re.escape(two)):
         load_standard("ONR-style")
 
@@ -159,14 +159,14 @@ def test_a_file_or_an_impossible_name_is_no_profile(tmp_path):
     file = tmp_path / "limits.toml"
     file.touch()
     for given in (file, "x" * 5000):
-        with pytest.raises(StandardError, match="is unknown: Accepted are"):
+        with pytest.raises(StandardError, match="is unknown. Accepted are"):
             load_standard(given)
 
 
 def test_unknown_id_far_from_all_names_what_is_accepted():
     with pytest.raises(StandardError) as caught:
         load_standard("zzz")
-    assert str(caught.value).startswith("limit profile 'zzz' is unknown: Accepted are")
+    assert str(caught.value).startswith("limit profile 'zzz' is unknown. Accepted are")
     assert f"Accepted are {', '.join(list_standards())}, or" in str(caught.value)
     assert "path of a profile folder" in str(caught.value)
 

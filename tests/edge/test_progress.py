@@ -124,7 +124,7 @@ def test_a_wave_gives_gap_and_rows_and_corrects_the_count():
     progress.tell_wave(Wave(2, 9, math.inf))
     assert "no bound yet, 2 rows open" in str(shown[-1])
     progress.tell_wave(Wave(1, 3, 0.0234))
-    assert str(shown[-1]) == "search: 0 solved, about 49 to go; gap 2.3 %, 1 rows open"
+    assert str(shown[-1]) == "search: 0 solved, about 49 to go; gap 2.3 %, 1 row open"
     progress.tell_wave(Wave(0, 0, 0.0))
     assert str(shown[-1]) == "search: 0 solved, about 40 to go"
 
