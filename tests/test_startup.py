@@ -37,7 +37,7 @@ friction_deg = 28.4
 """
 
 
-def imported(*arguments, cwd, whole=False):
+def imported(*arguments, cwd, whole=False, code=0):
     """Top-level packages that are loaded when the program ends; or whole names."""
     result = subprocess.run(
         [sys.executable, "-c", PROBE, *arguments],
@@ -46,7 +46,7 @@ def imported(*arguments, cwd, whole=False):
         text=True,
         check=False,
     )
-    assert result.returncode == 0, result.stderr
+    assert result.returncode == code, result.stderr
     names = json.loads(result.stderr.splitlines()[-1])
     return set(names) if whole else {name.split(".")[0] for name in names}
 
@@ -90,6 +90,14 @@ def test_a_plain_steady_scene_needs_little_beside_its_solver(tmp_path):
     assert not modules & unused
     own = [name for name in modules if name.startswith("netdesign")]
     assert len(own) <= MOST_OWN_MODULES
+
+
+def test_a_faulty_site_is_refused_without_a_solver(tmp_path):
+    site = tmp_path / "site.csv"
+    site.write_text("id,slope angle [deg]\nR1,steep\n", encoding="utf-8")
+    modules = imported("check", "site.csv", cwd=tmp_path, whole=True, code=3)
+    assert "netdesign.site.reader" in modules
+    assert not modules & {"scipy", "netdesign.study.cases", "netdesign.snow.flow_step"}
 
 
 def test_profiles_are_listed_without_a_solver(tmp_path):

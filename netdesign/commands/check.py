@@ -139,16 +139,18 @@ def check(
     may stand in netdesign.toml beside it, or in variables such as
     NETDESIGN_CHECK_JOBS.
     """
-    from netdesign.coupling.scene import SolverSettings
-    from netdesign.edge.output import write_files
-    from netdesign.study.cases import CheckRun
-
     if example == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     require_one(instead, size=size, has_folder=folder is not None, dry_run=dry_run)
     reading |= {"overwrite": force, "language": language}
     site = _read_site(site_file, instead, **reading)
+
+    # behind the reading: a faulty workbook is refused without a solver
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.edge.output import write_files
+    from netdesign.study.cases import CheckRun
+
     profiles = _choose_profiles(standards, site, floor)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),

@@ -56,7 +56,7 @@ def show_profile(name: str, *, language: Language) -> None:
 
     profile, words = load_standard(name), Words(language)
     title = show_own(words, f"{profile.title}, {profile.edition}")
-    click.echo(f"{profile.id}: {title}")
+    tell(say("show.label", label=profile.id, text=title), language)
     told = say("standard.version", version=profile.version, sha256=profile.sha256)
     tell(told, language)
     if profile.choice:

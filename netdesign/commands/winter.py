@@ -38,11 +38,12 @@ from netdesign.commands.winter_fit import (
     tell_fit,
 )
 from netdesign.edge.streams import print_json
+from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from netdesign.commands.winter_fit import FitChoice
     from netdesign.files.winter import WinterRun
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
     from netdesign.words.catalogue import Language
+    from netdesign.words.message import Message
 
 MODELS = ("delta-snow-ageing", "hs2swe", "delta-snow")  # the first is the default
 _FOLDER = "winter"
@@ -230,7 +232,8 @@ def _find_heights(
 
     found = site.winter
     if heights is not None:
-        found, remarks = read_height_file(heights, text_format)
+        ids = [row.id for row in site.rows]
+        found, remarks = read_height_file(heights, text_format, ids)
         for remark in remarks:
             tell(remark.message, language, err=True)
         found, note = complete_by_sheet(found, site.winter)
@@ -240,7 +243,7 @@ def _find_heights(
         with as_file(files("netdesign.examples") / EXAMPLE_HEIGHTS) as path:
             found, _ = read_height_file(path)
     if found is None:
-        raise UsageRefusal(say("winter.no_heights"))
+        raise ModelError(say("winter.no_heights"))
     return replace(found, series=smooth(found.series)) if median else found
 
 
@@ -338,7 +341,20 @@ def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> Non
                 ),
                 language,
             )
+            if one["days_without_force"]:
+                tell(_count_failed(row["id"], one), language)
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"], language)
         if row["fit"]:
             tell_fit(row["id"], row["fit"], language)
+
+
+def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
+    """Line on the days of a curve that have no force."""
+    return say(
+        "winter.without_force",
+        row=row,
+        winter=winter["name"],
+        count=winter["days_without_force"],
+        days=len(winter["curve"]),
+    )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.language import tell
-from netdesign.commands.usage import UsageRefusal
+from netdesign.errors import ModelError
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -99,13 +99,13 @@ def require_measured_forces(site: Site) -> None:
 
     Raises
     ------
-    UsageRefusal
+    ModelError
         If no row has a force with a date.
     """
     from netdesign.study.measured_pulls import list_measured_pulls
 
     if not any(list_measured_pulls(site, row.id) for row in site.rows):
-        raise UsageRefusal(say("fit.no_measured_forces"))
+        raise ModelError(say("fit.no_measured_forces"))
 
 
 def fit_rows(run: WinterRun, choice: FitChoice | None, runner: Runner) -> WinterRun:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from netdesign.cable.net import Net
 from netdesign.errors import ModelError
@@ -21,7 +22,6 @@ from netdesign.snow.creep_law import (
     compute_shear_factor,
     require_admissible,
 )
-from netdesign.snow.flow_step import Step
 from netdesign.snow.fluidity import (
     FLUIDITY_EXPONENT,
     PAPER_FLUIDITY,
@@ -34,6 +34,9 @@ from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import Layer, Snowpack
 from netdesign.snow.wall import Wall
 from netdesign.words.message import say
+
+if TYPE_CHECKING:  # a workbook is read, and refused, without a solver
+    from netdesign.snow.flow_step import Step
 
 # Snow may stand above the head by this share of the net's height before the scene
 # is refused: rounding of a height that was meant to be equal.

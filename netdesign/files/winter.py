@@ -11,6 +11,7 @@ from netdesign.files.measured import write_measured
 from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
+from netdesign.study.winter_row import ASSUMED_FACTOR
 from netdesign.units import (
     celsius_from_kelvin,
     degree_from_radian,
@@ -88,7 +89,7 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
             "name": station.station,
             "file": station.file or run.site.file_name,
             "altitude_m": station.altitude,
-            "height_factor": run.rows[0].height_factor if run.rows else None,
+            "height_factor": station.height_factor or ASSUMED_FACTOR,
             "height_factor_given": station.height_factor is not None,
             "first_day": series.first_day.isoformat(),
             "last_day": series.days[-1].isoformat(),
@@ -148,6 +149,8 @@ def _write_row(
             day["reason"] = render(reason, language) if reason else ""
     return {
         "id": row.id,
+        "height_factor": row.height_factor,
+        "height_factor_given": run.winter.find_factor(row.id) is not None,
         "slope_deg": degree_from_radian(scene.snowpack.slope_angle),
         "net_height_m": net.height_normal,
         "inclination_deg": degree_from_radian(net.inclination),
@@ -200,6 +203,7 @@ def _write_winter(
         ),
         "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
         "days_above_90_percent": season.high_days if season else None,
+        "days_without_force": len(season.failed) if season else None,
         "curve": [_write_day(day, packs, run) for day in season.curve]
         if season
         else [],

@@ -105,13 +105,24 @@ def _write_parameters(fitted: SeasonFit) -> list[dict[str, Any]]:
             "deviation_of": "logarithm" if one.name in LOGARITHMIC else "value",
             "prior": _show(one.name, one.mean),
             "prior_deviation": _scale(one, one.deviation),
-            "posterior": _show(one.name, float(value)),
-            "posterior_deviation": _known(_scale(one, float(deviation))),
+            **_write_posterior(fitted, one, float(value), float(deviation)),
             "is_constrained": fitted.is_fitted and one.name not in loose,
-            "is_at_end": one.is_at_end(float(value)),
         }
         for one, value, deviation in zip(fitted.parameters, values, left, strict=True)
     ]
+
+
+def _write_posterior(
+    fitted: SeasonFit, one: Parameter, value: float, deviation: float
+) -> dict[str, Any]:
+    """Value after the fit; none of a fit that is refused, wherever it stopped."""
+    if not fitted.is_fitted:
+        return {"posterior": None, "posterior_deviation": None, "is_at_end": False}
+    return {
+        "posterior": _show(one.name, value),
+        "posterior_deviation": _known(_scale(one, deviation)),
+        "is_at_end": one.is_at_end(value),
+    }
 
 
 def _show(name: str, value: float) -> float:
@@ -126,7 +137,7 @@ def _scale(one: Parameter, deviation: float) -> float:
 
 
 def _write_correlations(fitted: SeasonFit) -> list[list[float]]:
-    if fitted.fit is None or not fitted.fit.posterior.is_known:
+    if fitted.fit is None or not fitted.is_fitted:
         return []
     return [[round(float(x), 4) for x in line] for line in fitted.fit.correlations]
 

@@ -355,7 +355,9 @@ class StationWinter:
     altitude : float or None
         [m].
     height_factor : float or None
-        f_H [-]; None where none is given.
+        f_H of the rows that have none of their own [-]; None where none is given.
+    row_factors : mapping of str to float
+        f_H of single rows by their id [-].
     source : str
         First cell.
     file : str
@@ -368,9 +370,25 @@ class StationWinter:
     station: str = ""
     altitude: float | None = None
     height_factor: float | None = None
+    row_factors: Mapping[str, float] = field(default_factory=dict)
     source: str = ""
     file: str = ""
     notes: tuple[Message, ...] = ()
+
+    @property
+    def has_factors(self) -> bool:
+        """A height factor is given, of all rows or of some."""
+        return self.height_factor is not None or bool(self.row_factors)
+
+    def find_factor(self, row_id: str) -> float | None:
+        """f_H of a row [-]; None where none is given.
+
+        Parameters
+        ----------
+        row_id : str
+            As in sheet Nets.
+        """
+        return self.row_factors.get(row_id, self.height_factor)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -114,7 +114,7 @@ def read_site(
         check_layers(net_rows, snow, built.ranges, findings)
     ids = _list_ids(nets)
     monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
-    winter = read_winter(tables[WINTER.name], findings)
+    winter = read_winter(tables[WINTER.name], ids, findings)
     declared = read_declared(tables[DECLARED.name], ids, findings)
     findings.extend(_note_unread(workbook, findings))
     if built.ranges is None or any(finding.severity == "error" for finding in findings):

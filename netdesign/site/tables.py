@@ -26,6 +26,7 @@ from netdesign.site.readings import (
     read_without_unit,
 )
 from netdesign.site.table_lines import find_data_rows
+from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 
 # How alike the name of a sheet must be to a missing one to count as that, misspelt.
@@ -168,7 +169,9 @@ def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     if not plan.required:
         return []
     rule = say("table.lacks_sheet", wanted=wanted)
-    accepted = say("table.name_accepted", names=(plan.title, *plan.aliases))
+    # in each language; what else is read would be a list that nobody reads
+    names = dict.fromkeys(plan.name_in(one) for one in LANGUAGES)
+    accepted = say("table.name_accepted", names=tuple(names))
     return [Finding(file=workbook.file, rule=rule, accepted=accepted)]
 
 

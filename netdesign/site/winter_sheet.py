@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from datetime import date, datetime
 from pathlib import Path
@@ -15,6 +15,7 @@ from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.winter_columns import WINTER
 from netdesign.site.model import StationWinter
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.row_factors import read_factors
 from netdesign.site.tables import Table, find_table, read_rows
 from netdesign.snowpack.series import (
     LONGEST_GAP,
@@ -28,13 +29,17 @@ from netdesign.words.message import Message, say
 _MOST_LISTED = 8  # days in one remark
 
 
-def read_winter(table: Table | None, findings: list[Finding]) -> StationWinter | None:
+def read_winter(
+    table: Table | None, row_ids: Collection[str], findings: list[Finding]
+) -> StationWinter | None:
     """Series of the sheet; None without it, or where it is refused.
 
     Parameters
     ----------
     table : Table or None
         Sheet Winter, if there is one.
+    row_ids : collection of str
+        Ids of sheet Nets; with none, any row may be named.
     findings : list of Finding
         Appended to: days that are none or come twice, gaps inside snow, and remarks on
         what was filled and on steep rises.
@@ -55,6 +60,7 @@ def read_winter(table: Table | None, findings: list[Finding]) -> StationWinter |
             refuse(lines[0]["date"], rule, say("winter_sheet.heights"), findings)
         return None
     _check_gaps(heights, days, findings)
+    factor, row_factors = read_factors(lines, row_ids, findings)
     warm = {
         day: line["temperature"].si
         for day, line in days.items()
@@ -62,11 +68,21 @@ def read_winter(table: Table | None, findings: list[Finding]) -> StationWinter |
     }
     series = build_series(heights, warm)
     notes = _note_oddities(series, heights, days, findings)
-    return _build(lines[0], series, notes)
+    return StationWinter(
+        series=series,
+        station=lines[0]["station"].word,
+        altitude=lines[0]["altitude"].given_si,
+        height_factor=factor,
+        row_factors=row_factors,
+        source=lines[0]["date"].place,
+        notes=notes,
+    )
 
 
 def read_height_file(
-    path: Path, text_format: TextFormat = UNDECLARED
+    path: Path,
+    text_format: TextFormat = UNDECLARED,
+    row_ids: Collection[str] = (),
 ) -> tuple[StationWinter, tuple[Finding, ...]]:
     """Series of a csv file of a station alone, and remarks on it.
 
@@ -76,6 +92,8 @@ def read_height_file(
         A csv file with the columns of sheet Winter, whatever its name.
     text_format : TextFormat
         What is declared of the file's text.
+    row_ids : collection of str
+        Ids of the rows that it may name; with none, any.
 
     Raises
     ------
@@ -93,7 +111,7 @@ def read_height_file(
     sheets = tuple(replace(one, name=WINTER.name) for one in workbook.sheets)
     findings = list(workbook.remarks)
     table = find_table(replace(workbook, sheets=sheets), WINTER, findings)
-    winter = read_winter(table, findings)
+    winter = read_winter(table, row_ids, findings)
     if winter is None or any(one.severity == "error" for one in findings):
         if not findings:
             rule = say("winter_sheet.no_height")
@@ -117,12 +135,14 @@ def complete_by_sheet(
     """
     if sheet is None:
         return station, None
-    altitude, factor = station.altitude, station.height_factor
+    altitude = station.altitude
+    factors = station if station.has_factors else sheet  # never of two stations
     completed = replace(
         station,
         station=station.station or sheet.station,
         altitude=sheet.altitude if altitude is None else altitude,
-        height_factor=sheet.height_factor if factor is None else factor,
+        height_factor=factors.height_factor,
+        row_factors=factors.row_factors,
     )
     if completed == station:
         return station, None
@@ -136,19 +156,6 @@ def _list_days(days: Sequence[date]) -> Message:
     if more := len(days) - len(listed):
         return say("winter_sheet.days_more", days=listed, count=more)
     return say("winter_sheet.days", days=listed)
-
-
-def _build(
-    head: Row, series: HeightSeries, notes: tuple[Message, ...]
-) -> StationWinter:
-    return StationWinter(
-        series=series,
-        station=head["station"].word,
-        altitude=head["altitude"].given_si,
-        height_factor=head["height_factor"].given_si,
-        source=head["date"].place,
-        notes=notes,
-    )
 
 
 def _read_days(lines: list[Row], findings: list[Finding]) -> dict[date, Row]:

@@ -27,6 +27,7 @@ _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
 _UNITS = {"density": "kg/m³", "thickness": "m"}  # of what is searched
 _MOST_ROUNDS, _MOST_STEPS = 4, 14
+_LEAST_POWER = 0.2  # of a force in a quantity, that a secant is taken with
 _NEAR = 2e-3  # a root is found when the utilisation lies this close below 1
 
 
@@ -282,7 +283,7 @@ def _search(
     """Largest value at which every case passes, solves, and a remark."""
     before = probe.count
     active = target.governing
-    value = start
+    value, power = start, _find_power(target, quantity, power)
     for _ in range(_MOST_ROUNDS):
         found = _find_root(target, probe, quantity, active, value, limits, power)
         if isinstance(found, Message):
@@ -302,6 +303,27 @@ def _search(
 def _refuse(key: str, quantity: str, value: float, **more: Message) -> Message:
     """Remark why a value is none, with its unit."""
     return say(key, value=value, unit=_UNITS[quantity], **more)
+
+
+def _find_power(target: Target, quantity: str, usual: float) -> float:
+    """Power by which the governing force grows, from a solved case beside it.
+
+    One that differs in the quantity alone, the nearest; without one the usual power.
+    """
+    at = target.governing.values
+    if quantity not in at:
+        return usual
+    beside = {
+        one.case.values[quantity]: target.utilisation(one) or 0.0
+        for one in target.results
+        if {**one.case.values, quantity: at[quantity]} == at
+    }
+    used = beside.pop(at[quantity], 0.0)
+    for value in sorted(beside, key=lambda one: abs(one - at[quantity])):
+        if used > 0.0 and beside[value] > 0.0:
+            slope = math.log(used / beside[value]) / math.log(at[quantity] / value)
+            return slope if slope > _LEAST_POWER else usual
+    return usual
 
 
 def _find_violator(target: Target, probe: Probe, move: Move) -> Case | Message | None:
@@ -368,7 +390,7 @@ def _find_root(
         point = (math.log(value), math.log(utilisation))
         if last is not None and point[0] != last[0]:
             slope = (point[1] - last[1]) / (point[0] - last[0])
-            power = slope if slope > 0.2 else power
+            power = slope if slope > _LEAST_POWER else power
         last = point
         aim = value * math.exp((math.log(1.0 - 0.5 * _NEAR) - point[1]) / power)
         value = _keep_inside(aim, passes, fails, known_pass, known_fail)

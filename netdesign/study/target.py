@@ -127,9 +127,24 @@ class Target:
     def solve(
         self, probe: Probe, cases: Sequence[Case], move: Move
     ) -> list[CaseResult]:
-        """Results of some cases of the row with what is moved."""
-        moved = [case.with_value(move.name, move.value) for case in cases]
-        return probe.solve_all([(self.row, case, probe.law) for case in moved])
+        """Results of some cases of the row with what is moved.
+
+        What a move leaves as it is was solved in the search: it is not solved again.
+        """
+        known = {case: self._find_unmoved(case, move) for case in cases}
+        moved = [case for case in cases if known[case] is None]
+        wanted = [case.with_value(move.name, move.value) for case in moved]
+        solved = probe.solve_all([(self.row, case, probe.law) for case in wanted])
+        found = known | dict(zip(moved, solved, strict=True))
+        return [one for case in cases if (one := found[case]) is not None]
+
+    def _find_unmoved(self, case: Case, move: Move) -> CaseResult | None:
+        """Result of a solved case that already has the value; None of any other."""
+        of_row = self.row.snow_thickness if move.name == "thickness" else None
+        if case.values.get(move.name, of_row) != move.value:
+            return None
+        same = (one for one in self.results if one.case == case)
+        return next((one for one in same if self.has_result(one)), None)
 
     def utilisation(self, result: CaseResult, move: Move | None = None) -> float | None:
         """Upper end of the utilisation in a case [-]; None if it has no result.

@@ -35,7 +35,7 @@ def build_winter_row(site: Site, row: NetRow, winter: StationWinter) -> WinterRo
         id=row.id,
         scene=scene,
         layout=row.layout,
-        height_factor=winter.height_factor or ASSUMED_FACTOR,
+        height_factor=winter.find_factor(row.id) or ASSUMED_FACTOR,
     )
 
 

@@ -68,8 +68,8 @@ class Season:
 
     @property
     def failed(self) -> tuple[RowDay, ...]:
-        """Days of the curve without a force, each with its reason."""
-        return tuple(day for day in self.curve if day.ending == "failed")
+        """Days of the curve without a force, failed or overtopped."""
+        return tuple(day for day in self.curve if day.pull is None)
 
     @property
     def high_days(self) -> int:
@@ -103,14 +103,12 @@ def follow_season(
         Days between those of the curve; 0 for the days near the maximum alone.
     """
     maximum, uniform = find_annual_maximum(name, packs, solver)
-    coarse = _coarsen(solver)
-    near = _solve_near(uniform, packs, coarse)
+    near = _solve_near(uniform, packs, solver)
     highest = max(packs, key=lambda k: packs[k].height)
     heaviest = max(packs, key=lambda k: packs[k].mass)
     evenly = set(list(packs)[::step]) if step else set()
     wanted = sorted((evenly | {highest, heaviest}) - near.keys())
-    days = coarse.prepare({k: packs[k] for k in wanted}, layered=True)
-    curve = near | {day.index: day for day in coarse.solve(days)}
+    curve = near | _solve_coarsely({k: packs[k] for k in wanted}, solver)
     curve = _sharpen(curve, solver)
     governing = find_largest(curve.values())
     top = curve[highest].thickness
@@ -143,16 +141,25 @@ def _solve_near(
         if not batch:
             break
         left = left[_BATCH:]
-        days = solver.prepare({d.index: packs[d.index] for d in batch}, layered=True)
-        found |= {day.index: day for day in solver.solve(days)}
+        near = {day.index: packs[day.index] for day in batch}
+        found |= _solve_coarsely(near, solver)
+        # what may govern is not given up for a coarse accuracy
+        failed = {k: pack for k, pack in near.items() if found[k].reason}
+        again = solver.solve(solver.prepare(failed, layered=True))
+        found |= {day.index: day for day in again}
     return found
 
 
-def _coarsen(solver: DaySolver) -> DaySolver:
-    """Solver of the days whose forces are not the largest."""
+def _solve_coarsely(
+    packs: Mapping[int, DayPack], solver: DaySolver
+) -> dict[int, RowDay]:
+    """Layered days to the accuracy of a curve."""
     fine = solver.settings.accuracy
     accuracy = max(fine, min(CURVE_SHARE * fine, COARSEST_CURVE))
-    return replace(solver, settings=replace(solver.settings, accuracy=accuracy))
+    settings = replace(solver.settings, accuracy=accuracy)
+    days = solver.prepare(packs, layered=True)
+    solved = replace(solver, settings=settings).solve(days)
+    return {day.index: day for day in solved}
 
 
 def _sharpen(curve: Mapping[int, RowDay], solver: DaySolver) -> dict[int, RowDay]:

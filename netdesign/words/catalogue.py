@@ -64,7 +64,7 @@ class _Gaps(string.Formatter):
         """An argument as text: words of ours in the language of the whole."""
         if format_spec == _CLAUSE:
             return self.format_field(value, "").rstrip(".")
-        if isinstance(value, str) and format_spec == _DATE:
+        if isinstance(value, str) and format_spec.startswith(_DATE):
             return write_day(value, self.language)
         if isinstance(value, int) and _ONE_OR_MANY in format_spec:
             return self._count(value, *format_spec.split(_ONE_OR_MANY))

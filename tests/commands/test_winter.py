@@ -138,7 +138,7 @@ def test_snow_above_the_net_is_not_proven(call, site, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "told", "code"),
     [
-        ((), "no snow heights", 2),
+        ((), "no snow heights", 3),
         (("--heights", "thin"), "are metres taken for centimetres", 3),
         (
             ("--heights", "good", "--row", "R77"),

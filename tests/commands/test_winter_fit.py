@@ -90,5 +90,5 @@ def test_forces_without_a_date_cannot_be_fitted(call, tmp_path, heights):
     site = tmp_path / "site.xlsx"
     write_short_example(site, ["R2"])
     ended = call("winter", site, "--heights", heights, "--fit", *QUICK)
-    assert ended.code == 2
+    assert ended.code == 3
     assert "no measured forces with a date" in ended.err

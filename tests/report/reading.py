@@ -49,6 +49,7 @@ class PageReader(HTMLParser):
             self._cell = None
 
     def handle_data(self, data):
+        data = data.replace("\u00ad", "")  # where a word may be broken
         self.text.append(data)
         if self._cell is not None:
             self._cell.append(data)

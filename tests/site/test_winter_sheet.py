@@ -151,3 +151,49 @@ def test_faults_of_a_long_file_are_folded_and_its_marks_may_be_declared(tmp_path
     path.write_text("\n".join(["date;HS [cm]", *lines]))
     winter, _ = read_height_file(path, TextFormat(decimal_mark=","))
     assert winter.series.heights[1] == pytest.approx(1.06125)
+
+
+WITH_ROWS = [*HEADINGS, "height factor [-]", "net row"]
+
+
+def rows_of(*factors):
+    """Lines of February with a factor and a row each."""
+    return [[*day, *one] for day, one in zip(days(0, 20, 40), factors, strict=True)]
+
+
+def test_a_row_has_its_own_height_factor(sheets, save):
+    lines = rows_of((0.93, None), (1.21, "R1"), (None, None))
+    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).winter
+    assert winter.find_factor("R1") == 1.21
+    assert winter.find_factor("another") == 0.93
+    lines = rows_of((1.21, "R1"), (None, None), (None, None))
+    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).winter
+    assert winter.find_factor("R1") == 1.21
+    assert winter.find_factor("another") is None
+
+
+@pytest.mark.parametrize(
+    ("factors", "cell", "told"),
+    [
+        (((None, None), (1.2, "R1"), (1.3, "R1")), "E4", "has a height factor already"),
+        (((0.9, None), (None, "R1"), (None, None)), "E3", "without a height factor"),
+        (((0.9, None), (1.2, "r 77"), (None, None)), "E3", "is no id of sheet Nets"),
+        (((0.9, None), (1.2, None), (None, None)), "D3", "height factor of no row"),
+        (((0.9, None), (5.2, "R1"), (None, None)), "D3", "accepted: 0.2 to 5"),
+    ],
+)
+def test_a_height_factor_that_cannot_be_placed_is_one_finding(
+    sheets, save, factors, cell, told
+):
+    lines = rows_of(*factors)
+    with pytest.raises(SiteDataError) as refusal:
+        read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS)))
+    (finding,) = [one for one in refusal.value.findings if one.severity == "error"]
+    assert (finding.sheet, finding.cell) == ("Winter", cell)
+    assert told in str(finding)
+
+
+def test_a_factor_repeated_down_the_column_is_that_of_all_rows(sheets, save):
+    lines = rows_of((0.93, None), (0.93, None), (0.93, "R1"))
+    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).winter
+    assert (winter.height_factor, dict(winter.row_factors)) == (0.93, {"R1": 0.93})

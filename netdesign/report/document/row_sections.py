@@ -189,7 +189,8 @@ class RowWriter:
     def _show_symbols(self, table: Table, *, is_upright: bool = False) -> None:
         grid = list_cells(table, has_symbols=True)
         if not grid.lines:
-            self.to.none(f"{table.caption}: {table.empty}")
+            told = self.to.words("show.label", label=table.caption, text=table.empty)
+            self.to.none(told)
             return
         self.to.grid(turn(grid) if is_upright else grid)
 

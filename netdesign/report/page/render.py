@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from netdesign.edge.resources import find_resource
@@ -35,9 +35,12 @@ def build_environment(language: Language = "en") -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals["t"] = environment.globals["words"] = Words(language)
+    words = Words(language)
+    environment.globals["t"] = environment.globals["words"] = words
     environment.filters["subscripts"] = write_subscripts
     environment.filters["unbroken"] = _keep_units
+    points = tuple(words("page.breaks").split())
+    environment.filters["breakable"] = partial(_offer_breaks, points)
     return environment
 
 
@@ -52,6 +55,20 @@ def write_subscripts(symbols: str) -> Markup:
 def _keep_units(case: str) -> str:
     """``400 kg/m³, φ 15°`` that breaks at its commas only."""
     return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
+
+
+def _offer_breaks(points: tuple[str, ...], heading: str) -> Markup:
+    """Heading whose long words may be broken at their joints, in narrow columns.
+
+    Not every browser knows the hyphens of a language; without them it would break a
+    word anywhere.
+    """
+    from markupsafe import Markup, escape
+
+    shown = str(escape(heading))
+    for point in points:
+        shown = shown.replace(point.replace("|", ""), point.replace("|", "&shy;"))
+    return Markup(shown)
 
 
 def load_style(*names: str) -> Markup:

@@ -190,10 +190,31 @@ def _draw_history(solution: Solution, words: Words) -> str:
     return draw_panels(
         [panel],
         "history",
-        words("solved.force_history"),
+        _describe_history(pulls, times, words),
         panel_in=2.3,
         time_label=words("solved.time"),
+        language=words.language,
     )
+
+
+def _describe_history(
+    pulls: dict[str, list[float]], times: Sequence[float], words: Words
+) -> str:
+    """Words for the chart: of each end the first pull, the largest and the last."""
+    key = "foot_size_kN_per_m"
+    values = tuple(
+        words(
+            "solved.history_of",
+            pull=words(f"solved.pull_on_{end}"),
+            first=words.show_with_unit(key, sizes[0]),
+            largest=words.show_with_unit(key, max(sizes)),
+            last=words.show_with_unit(key, sizes[-1]),
+            days=words.write(f"{times[-1]:.3g}"),
+        )
+        for end, sizes in pulls.items()
+    )
+    what = words("solved.force_history")
+    return words("drawing.with_values", what=what, values=values)
 
 
 def _size(vector: Any) -> float:

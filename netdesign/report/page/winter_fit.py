@@ -55,13 +55,15 @@ def view_fit(
             else words("fit_page.forces_none")
         ),
         "parameters": _tabulate_parameters(fit, words),
-        "parameters_note": words(
-            "fit_page.parameters_note", share=fit["unconstrained_above"]
+        "parameters_note": (
+            words("fit_page.parameters_note", share=fit["unconstrained_above"])
+            if is_fitted
+            else words("fit_page.parameters_none")
         ),
         "known": _tell_known(fit, words),
         "left_out": _tell_left_out(fit, words),
         "correlations": _tabulate_correlations(fit, words),
-        "residuals": _tabulate_residuals(fit["residuals"], words),
+        "residuals": _tabulate_residuals(fit, words),
         "svg": mark_safe(draw_residuals(fit["residuals"], words)),
     }
 
@@ -108,6 +110,8 @@ def _tabulate_parameters(fit: Mapping[str, Any], words: Words) -> Table:
 
 def _value_cell(one: Mapping[str, Any], key: str, words: Words) -> Cell:
     value, deviation = one[key], one[f"{key}_deviation"]
+    if value is None:
+        return text_cell(MISSING)
     decimals = _DECIMALS.get(one["name"], 3)
     shown = words.show_fixed(value, decimals)
     if deviation is None:
@@ -157,8 +161,9 @@ def _unsigned(value: float) -> float:
     return round(value, 2) or 0.0
 
 
-def _tabulate_residuals(residuals: Sequence[Mapping[str, Any]], words: Words) -> Table:
-    keys = ("measured", "computed", "residual", "deviation")
+def _tabulate_residuals(fit: Mapping[str, Any], words: Words) -> Table:
+    computed = "computed" if fit["outcome"] == "fitted" else "computed_refused"
+    keys = ("measured", computed, "residual", "deviation")
     headings = [words(f"fit_page.{key}") for key in keys]
     columns = [words("fit_page.date"), words("fit_page.member"), *headings]
     return Table(
@@ -173,7 +178,7 @@ def _tabulate_residuals(residuals: Sequence[Mapping[str, Any]], words: Words) ->
                 fixed_cell(words, one["measured_kN"] / one["computed_kN"], 3),
                 _percent_cell(one["deviation"], words),
             )
-            for one in residuals
+            for one in fit["residuals"]
         ),
     )
 

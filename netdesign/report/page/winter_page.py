@@ -66,8 +66,6 @@ def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
     named = station["name"] or words("winter_page.unnamed")
     if altitude is not None:
         named = words("winter_page.at_altitude", station=named, altitude=altitude)
-    is_given = station["height_factor_given"]
-    factor = "winter_page.factor_given" if is_given else "winter_page.factor_assumed"
     if station["file"] != document["site"]["file"]:
         named = f"{named} ({station['file']})"
     found = [
@@ -77,7 +75,6 @@ def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
             first=station["first_day"],
             last=station["last_day"],
         ),
-        words(factor, factor=station["height_factor"]),
         words("winter_page.model", model=document["model"]),
     ]
     if station["is_smoothed"]:
@@ -90,8 +87,11 @@ def _view_row(
 ) -> dict[str, Any]:
     shown = [winter for winter in row["winters"] if winter["curve"]]
     air = document["air_temperatures_C"]
+    is_given = row["height_factor_given"]
+    factor = "winter_page.factor_given" if is_given else "winter_page.factor_assumed"
     return {
         "id": show_text(row["id"]),
+        "factor": words(factor, factor=row["height_factor"]),
         "scene": words(
             "winter_page.scene",
             friction=row["friction_deg"],
@@ -101,7 +101,7 @@ def _view_row(
         ),
         "summary": _tabulate_winters(row, words),
         "unproven": [
-            f"{one['name']}: {show_text(one['why'])}"
+            words("show.label", label=one["name"], text=show_text(one["why"]))
             for one in row["winters"]
             if not one["is_proven"]
         ],
@@ -118,7 +118,9 @@ def _view_row(
         "figures": [
             {
                 "svg": mark_safe(draw_winter(winter, air, words)),
-                "caption": f"{winter['name']}: {show_text(winter['why'])}",
+                "caption": words(
+                    "show.label", label=winter["name"], text=show_text(winter["why"])
+                ),
                 "failed": _list_failed(winter, words),
             }
             for winter in shown
@@ -221,7 +223,7 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
     others = list(row["winters"][0]["models"]) if row["winters"] else []
     names = [model, *others]
     headings = [words("winter_column.winter")]
-    headings += [f"{name} [kN/m]" for name in names]
+    headings += [words("winter_page.pull_by", model=name) for name in names]
     headings += [words("winter_page.density_by", model=name) for name in names]
     rows = []
     for one in row["winters"]:
@@ -295,7 +297,8 @@ def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
     return [
         words(
             "winter_page.failed_day",
-            day=", ".join(dates),
+            count=len(dates),
+            day=tuple(dates),
             outcome=words(f"day_outcome.{outcome}"),
             reason=show_text(reason or MISSING),
         )

@@ -287,9 +287,8 @@ def describe_flip(change: ChangeRecord, words: Words) -> str:
     text = describe_change(change, words)
     if change.now is None:
         return text
-    return words(
-        "show.change_now", change=text, now=_show(change.now, change.unit, words)
-    )
+    now = round(change.now, 3) if change.unit == "m" else change.now  # cos of a slope
+    return words("show.change_now", change=text, now=_show(now, change.unit, words))
 
 
 _SENSES = {

@@ -22,7 +22,7 @@ from netdesign.study.records import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
 _WIDTHS = (4, 9, 16, 6, 6, 6, 6, 9, 9, 6, 17, 17, 9, 20)
-_ALL_WIDE, _LEAST = 157, 20  # characters of a line; of them for the reasons
+_ALL_WIDE, _LEAST = 163, 20  # characters of a line; of them for the reasons
 _LABELLED = 3  # columns of a label below the rows
 # Columns D, E, F, G, whose headings stand upright: their words are long.
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)

@@ -50,6 +50,14 @@ WINTER = word_plan(
                 note="snow height at the net rows over that of the station, by "
                 "exposure and drift; left empty, 1 is assumed" + _FIRST_LINE,
             ),
+            Field(
+                key="row",
+                aliases=("row",),
+                kind="id",
+                refers_to="Nets",
+                note="id of a row of sheet Nets, for which alone the height factor of "
+                "this line holds; any line; the others have that of the first line",
+            ),
         ),
     )
 )
