@@ -159,7 +159,7 @@ def test_a_file_or_an_impossible_name_is_no_profile(tmp_path):
     file = tmp_path / "limits.toml"
     file.touch()
     for given in (file, "x" * 5000):
-        with pytest.raises(StandardError, match="is unknown. Accepted are"):
+        with pytest.raises(StandardError, match=r"is unknown\. Accepted are"):
             load_standard(given)
 
 
