@@ -179,7 +179,7 @@ class Scene:
     def layer_tops(self) -> tuple[float, ...]:
         """Heights of the interfaces between layers over the thickness."""
         tops, height = [], 0.0
-        for layer in self.layers[:-1]:
+        for layer in self.snowpack.layers[:-1]:
             height += layer.thickness
             tops.append(height / self.snowpack.thickness)
         return tuple(tops)

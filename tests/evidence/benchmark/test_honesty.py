@@ -62,7 +62,7 @@ def test_a_truth_that_fails_is_told(monkeypatch):
 
     monkeypatch.setattr(honesty, "solve_truth", fail)
     (finding,) = study_errors(1, 1, 0.05)
-    assert "too fine" in finding.missing
+    assert "too fine" in str(finding.missing)
 
 
 def test_coarsest_mesh_whose_true_error_is_small_enough_is_timed(monkeypatch, a_scene):
@@ -144,5 +144,5 @@ def test_only_the_models_own_limits_are_refusals(monkeypatch, a_scene, outcome):
     failed = FailedSolution(outcome=outcome, reason="why")
     monkeypatch.setattr(honesty, "solve_steady", lambda *_: failed)
     finding = judge_scene(0, a_scene(), SolverSettings())
-    assert finding.missing == "why"
+    assert str(finding.missing) == "why"
     assert finding.is_refused is (outcome is Outcome.OUT_OF_VALIDITY)

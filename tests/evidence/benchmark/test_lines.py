@@ -187,7 +187,7 @@ def test_a_truth_that_fails_is_told(monkeypatch):
     monkeypatch.setattr(lines, "_compare", fail)
     found = follow_line(0, seed=13, accuracy=0.05, points=3)
     assert len(found.missing) == found.solved > 0
-    assert "too fine" in found.missing[0]
+    assert "too fine" in str(found.missing[0])
 
 
 def a_line(**changes):
