@@ -54,7 +54,7 @@ def test_a_replaced_cell_is_read_and_told(workbook):
     ("place", "text", "rule"),
     [
         ("Netz!P3", "A40-tested", "has no sheet Netz that is read"),
-        ("Nets!P3", "A28-computed", "that is what the workbook has"),
+        ("Nets!P3", "A28-computed", "is what the workbook has already"),
         ("Nets!P3", "A41", "is no id of sheet Anchors"),
         ("Anchors!B2", "strong", "not a number"),
     ],
