@@ -7,6 +7,7 @@ import numpy as np
 from netdesign.evidence.paper.cases import PaperSettings, list_cases
 from netdesign.evidence.paper.runs import PaperRun, Shape, Track
 from netdesign.evidence.paper.study import PaperStudy
+from netdesign.words.message import say
 
 SETTINGS = PaperSettings()
 TRIANGLE = np.array([[0.0, 4.0, 0.0], [0.0, 0.0, 4.0]])
@@ -23,7 +24,9 @@ def build_study(pull=None, *, swings=0, plateau=1000.0, density=400.0, failing=(
     runs = {}
     for case in list_cases(SETTINGS):
         if case in failing:
-            runs[case] = PaperRun(case=case, failure="made to fail")
+            runs[case] = PaperRun(
+                case=case, failure=say("text.as_given", text="made to fail")
+            )
             continue
         runs[case] = build_run(case, pull(case), swings, plateau, density)
     return PaperStudy(settings=SETTINGS, runs=runs)
@@ -57,7 +60,7 @@ def build_run(case, size, swings, plateau, density):
         heights=(1.0, 3.0),
         density=np.full(101, 0.45),
         plateau=index,
-        ended="",
+        ended=None,
     )
     at_rest = None if index is None else float(foot[index])
     return PaperRun(

@@ -1,7 +1,4 @@
-"""``netdesign paper``: the source paper's study on one page.
-
-It speaks English only: it is for whoever develops or examines the program.
-"""
+"""``netdesign paper``: the source paper's study on one page."""
 
 from __future__ import annotations
 
@@ -10,12 +7,16 @@ from pathlib import Path
 
 import click
 
+from netdesign.commands.language import tell
 from netdesign.commands.options import (
     force_option,
     jobs_option,
+    language_option,
     out_option,
     quiet_option,
 )
+from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 _NOT_PROVEN = 4
 
@@ -25,7 +26,10 @@ _NOT_PROVEN = 4
 @force_option
 @jobs_option()
 @quiet_option
-def paper(out: Path, *, force: bool, jobs: int | None, quiet: bool) -> None:
+@language_option("Of page and messages.")
+def paper(
+    out: Path, *, force: bool, jobs: int | None, quiet: bool, language: Language
+) -> None:
     """Reproduce the source paper's study: histories, meshes, plateaus.
 
     \b
@@ -41,11 +45,14 @@ def paper(out: Path, *, force: bool, jobs: int | None, quiet: bool) -> None:
 
     settings = PaperSettings()
     require_free([out / PAGE_FILE], overwrite=force)
-    with show_progress(len(list_cases(settings)), "runs", quiet=quiet) as on_done:
+    count = len(list_cases(settings))
+    with show_progress(count, "runs", quiet=quiet, language=language) as on_done:
         study = run_study(settings, jobs=jobs or os.cpu_count() or 1, on_done=on_done)
-    files = {out / name: content for name, content in render_paper(study).items()}
+    rendered = render_paper(study, language)
+    files = {out / name: content for name, content in rendered.items()}
     write_files(files, overwrite=force)
     if not quiet:
-        click.echo(f"wrote {out / PAGE_FILE} and {len(files) - 1} more", err=True)
+        told = say("paper.wrote", path=str(out / PAGE_FILE), count=len(files) - 1)
+        tell(told, language, err=True)
     if any(run.failure for run in study.runs.values()):
         sys.exit(_NOT_PROVEN)

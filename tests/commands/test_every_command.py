@@ -2,8 +2,8 @@
 
 Counted are words of the English texts that no text of the language has. What is no
 language is taken out first: names of commands, options, files, profiles and types.
-Left out on purpose: ``bench``, which has a test of its own; ``--size``, which takes
-seconds; ``validate`` and ``paper``, whose pages take minutes. Help of the commands is
+Left out on purpose: ``bench`` and ``paper``, which have tests of their own; ``--size``,
+which takes seconds; ``validate``, whose page takes minutes. Help of the commands is
 read by test_help.py.
 """
 

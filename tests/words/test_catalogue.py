@@ -34,6 +34,8 @@ FAMILIES: tuple[str, ...] = (
     *("validation_mark.", "validation_input.", "validation_member."),
     *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),
+    *("paper_call.", "paper_said.", "paper_found.", "paper_reason."),
+    *("paper_value.", "paper_plate."),
     *(
         "profile_about.",
         "profile_title.",

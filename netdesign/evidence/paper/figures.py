@@ -22,9 +22,10 @@ from netdesign.evidence.paper.runs import Track
 from netdesign.evidence.paper.study import PaperStudy
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import MeshPicture, draw_meshes
+from netdesign.report.words import Words
 from netdesign.units import day_from_second
 
-_NODES = (("lower", "Lower node"), ("upper", "Upper node"))
+_NODES = ("lower", "upper")
 _NETS = (NORMAL_NET_DEG, DESIGN_NET_DEG)
 
 
@@ -38,26 +39,28 @@ class Plate:
     svg: str
 
 
-def draw_plates(study: PaperStudy) -> list[Plate]:
+def draw_plates(study: PaperStudy, words: Words) -> list[Plate]:
     """All drawings, in the order of the page; those without a run are left out."""
     plates = [
-        _plate_nodes(study, "staggered"),
-        _plate_nodes(study, "implicit"),
-        _plate_meshes(study),
-        _plate_methods(study),
-        _plate_trend(study),
-        _plate_drift(study),
-        _plate_inclination(study),
-        _plate_gravity(study),
+        _plate_nodes(study, words, "staggered"),
+        _plate_nodes(study, words, "implicit"),
+        _plate_meshes(study, words),
+        _plate_methods(study, words),
+        _plate_trend(study, words),
+        _plate_drift(study, words),
+        _plate_inclination(study, words),
+        _plate_gravity(study, words),
     ]
     return [plate for plate in plates if plate is not None]
 
 
-def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
+def _plate_nodes(study: PaperStudy, words: Words, kind: str) -> Plate | None:
+    drag = study.settings.exchange_drag
+    is_staggered = kind == "staggered"
     runs = [
         study[
             find_exchange(NORMAL_NET_DEG, study.settings, phi)
-            if kind == "staggered"
+            if is_staggered
             else find_history(NORMAL_NET_DEG, phi)
         ]
         for phi in FRICTIONS_DEG
@@ -66,30 +69,27 @@ def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
     if len(tracks) < len(runs):
         return None
     lower, upper = tracks[0][1].heights
-    caption = (
-        f"Force of the net on the snow at nodes {lower:.2f} m and {upper:.2f} m above "
-        "the ground, for friction angles of 15°, 30°, 45°; net normal to the slope, "
-        "straight at the start. "
-    )
-    if kind == "staggered":
-        drag = study.settings.exchange_drag
-        heading = "Node forces as the paper computed them"
-        caption += (
-            f"Staggered exchange, base drag {drag:g}. The paper's figures 8 to 11. The "
-            "oscillation comes from the scheme."
-        )
-    else:
-        heading = "The same forces, implicit in the net's stiffness"
-        caption += "The mesh is finer: a node stands for less of the net."
-    panels = _list_node_panels(tracks, is_thin=kind == "staggered")
+    heading = words(f"paper_plate.nodes_{kind}")
+    shown = words("paper_plate.nodes", lower=lower, upper=upper)
     svg = draw_panels(
-        panels, f"nodes-{kind}", heading, across=2, time_label=_SINCE, panel_in=1.7
+        _list_node_panels(tracks, words, is_thin=is_staggered),
+        f"nodes-{kind}",
+        heading,
+        across=2,
+        time_label=words("paper_plate.since"),
+        panel_in=1.7,
+        language=words.language,
     )
-    return Plate(name=f"node-forces-{kind}", heading=heading, caption=caption, svg=svg)
+    return Plate(
+        name=f"node-forces-{kind}",
+        heading=heading,
+        caption=f"{shown} {words(f'paper_plate.nodes_{kind}_caption', drag=drag)}",
+        svg=svg,
+    )
 
 
 def _list_node_panels(
-    tracks: Sequence[tuple[PaperCase, Track]], *, is_thin: bool
+    tracks: Sequence[tuple[PaperCase, Track]], words: Words, *, is_thin: bool
 ) -> list[Panel]:
     """Both parts of both nodes' forces, a line for each friction angle."""
 
@@ -100,21 +100,18 @@ def _list_node_panels(
 
     return [
         Panel(
-            title=f"{title}, {axis.upper()} [kN/m]",
+            title=words(f"paper_plate.{node}_node", axis=axis.upper()),
             lines=[
                 draw(style, case, track, node, part)
                 for style, (case, track) in enumerate(tracks)
             ],
         )
-        for node, title in _NODES
+        for node in _NODES
         for part, axis in enumerate("xy")
     ]
 
 
-_SINCE = "time since the start, logarithmic"
-
-
-def _plate_meshes(study: PaperStudy) -> Plate | None:
+def _plate_meshes(study: PaperStudy, words: Words) -> Plate | None:
     cases = [find_paper_time()]
     cases += [find_history(NORMAL_NET_DEG, phi) for phi in reversed(FRICTIONS_DEG)]
     cases.append(find_history(DESIGN_NET_DEG))
@@ -123,12 +120,9 @@ def _plate_meshes(study: PaperStudy) -> Plate | None:
         run = study[case]
         if run.shape is None or run.track is None:
             continue
-        days = day_from_second(float(run.track.times[-1]))
-        when = f"{case.until:.0f} s" if case.until else f"{days:.0f} days"
         pictures.append(
             MeshPicture(
-                title=f"φ = {case.friction_deg:.0f}°, θ = {case.inclination_deg:.0f}°, "
-                f"after {when}",
+                title=_name_mesh(case, run.track, words),
                 nodes=run.shape.nodes,
                 triangles=run.shape.triangles,
                 density=run.shape.density,
@@ -139,56 +133,70 @@ def _plate_meshes(study: PaperStudy) -> Plate | None:
         return None
     return Plate(
         name="meshes",
-        heading="Deformed snow",
-        caption="The paper's figures 12 to 14 with their densities, and an inclined "
-        "net. Displacements to scale. The net is red.",
-        svg=draw_meshes(pictures, "meshes"),
+        heading=words("paper_plate.meshes"),
+        caption=words("paper_plate.meshes_caption"),
+        svg=draw_meshes(pictures, "meshes", words),
     )
 
 
-def _plate_methods(study: PaperStudy) -> Plate | None:
+def _name_mesh(case: PaperCase, track: Track, words: Words) -> str:
+    angles = {"friction": case.friction_deg, "inclination": case.inclination_deg}
+    if case.until:
+        return words("paper_plate.mesh_after_s", seconds=case.until, **angles)
+    days = day_from_second(float(track.times[-1]))
+    return words("paper_plate.mesh_after_days", days=days, **angles)
+
+
+def _plate_methods(study: PaperStudy, words: Words) -> Plate | None:
     panels = []
     for net in _NETS:
         straight = find_history(net)
         lines = [
-            *_pulls(study, find_exchange(net, study.settings), "staggered", 2),
-            *_pulls(study, straight, "straight start", 0),
-            *_pulls(study, replace(straight, start="sagged"), "sagged start", 1),
+            *_pulls(
+                study,
+                find_exchange(net, study.settings),
+                words("paper_plate.staggered"),
+                2,
+            ),
+            *_pulls(study, straight, words("paper_plate.straight"), 0),
+            *_pulls(
+                study, replace(straight, start="sagged"), words("paper_plate.sagged"), 1
+            ),
         ]
-        panels.append(_with_steady(study, straight, lines, f"Foot, θ = {net:.0f}°"))
+        panels.append(_with_steady(study, straight, lines, words))
     return _plate(
         panels,
         "methods",
-        "One scene, four ways to its plateau",
-        "Pull on the foot at a friction of 30°. The steady state is an upper figure: a "
-        "straight net has pushed and densified snow on its way. The first tensions of "
-        "a sagged net follow from the guess of its shape.",
+        words,
     )
 
 
-def _plate_trend(study: PaperStudy) -> Plate | None:
+def _plate_trend(study: PaperStudy, words: Words) -> Plate | None:
     *staggered, history = find_trend(study.settings)
     shown = [staggered[0], staggered[-2], staggered[-1]]
     lines = [
         line
         for style, case in zip((2, 1, 0), shown, strict=True)
-        for line in _pulls(study, case, f"drag {case.drag:g}", style)
+        for line in _pulls(
+            study, case, words("paper_plate.drag", drag=case.drag), style
+        )
     ]
     lines += [
-        replace(line, is_accent=True) for line in _pulls(study, history, "implicit", 0)
+        replace(line, is_accent=True)
+        for line in _pulls(study, history, words("paper_plate.implicit"), 0)
     ]
     end = day_from_second(study.settings.trend_time * history.scene.time_scale)
     lines = [_cut(line, end) for line in lines]
     return _plate(
-        [Panel(title="Foot, θ = 0° [kN/m]", lines=lines)] if lines else [],
+        [Panel(title=words("paper_plate.foot_at", inclination=0.0), lines=lines)]
+        if lines
+        else [],
         "trend",
-        "The staggered scheme as drag and step vanish",
-        "The step follows the drag; on one mesh. The oscillation dies out sooner, and "
-        "the pull tends to the implicit history's.",
+        words,
     )
 
 
-def _plate_drift(study: PaperStudy) -> Plate | None:
+def _plate_drift(study: PaperStudy, words: Words) -> Plate | None:
     panels = []
     for net in _NETS:
         lines = []
@@ -198,7 +206,7 @@ def _plate_drift(study: PaperStudy) -> Plate | None:
                 case = replace(find_history(net), densifies=densifies)
                 if start == "sagged":
                     case = replace(case, start="sagged")
-                word = f"{start} start" if densifies else ""
+                word = words(f"paper_plate.{start}") if densifies else ""
                 lines += [
                     replace(
                         line,
@@ -210,19 +218,19 @@ def _plate_drift(study: PaperStudy) -> Plate | None:
                 ]
         if lines:
             panels.append(
-                Panel(title=f"Foot over steady state [%], θ = {net:.0f}°", lines=lines)
+                Panel(
+                    title=words("paper_plate.foot_over_steady", inclination=net),
+                    lines=lines,
+                )
             )
     return _plate(
         panels,
         "drift",
-        "After the plateau: a slow drift",
-        "Red: with densification; black: without, followed for a shorter time. Full "
-        "lines: at the start the net sags and the snow lies against it; dashed: the "
-        "net is straight. The table of drifts has the rates per e-fold of time.",
+        words,
     )
 
 
-def _plate_inclination(study: PaperStudy) -> Plate | None:
+def _plate_inclination(study: PaperStudy, words: Words) -> Plate | None:
     panels = []
     for end in ("foot", "head"):
         lines = [
@@ -231,59 +239,65 @@ def _plate_inclination(study: PaperStudy) -> Plate | None:
             for line in _pulls(study, find_history(net), f"{net:.0f}°", style, end)
         ]
         if lines:
-            title = f"Pull on the {end} [kN/m]"
+            title = words(f"paper_plate.pull_{end}")
             panels.append(Panel(title=title, lines=lines))
     return _plate(
         panels,
         "inclination",
-        "Announced and not shown: inclination",
-        "Net inclination 25°, 30°, 35° from the slope's normal, friction 30°, straight "
-        "start. A leaning net carries more at its foot and less at its head.",
+        words,
         across=2,
     )
 
 
-def _plate_gravity(study: PaperStudy) -> Plate | None:
+def _plate_gravity(study: PaperStudy, words: Words) -> Plate | None:
     panels = []
     for net in _NETS:
         lines = []
         for end, accent in (("foot", True), ("head", False)):
             full = find_history(net)
-            for case, word, style in (
+            for case, kind, style in (
                 (full, "full", 0),
                 (replace(full, gravity="parallel"), "parallel", 2),
             ):
                 lines += [
                     replace(line, is_accent=accent)
-                    for line in _pulls(study, case, f"{end}, {word}", style, end)
+                    for line in _pulls(
+                        study, case, words(f"paper_plate.{end}_{kind}"), style, end
+                    )
                 ]
         if lines:
             panels.append(
-                Panel(title=f"Foot and head, θ = {net:.0f}° [kN/m]", lines=lines)
+                Panel(title=words("paper_plate.both_at", inclination=net), lines=lines)
             )
     return _plate(
         panels,
         "gravity",
-        "Announced and not shown: gravity",
-        "Full gravity (full lines) against its part along the slope alone (dotted), "
-        "friction 30°, straight start.",
+        words,
         across=2,
     )
 
 
 def _plate(
-    panels: Sequence[Panel], name: str, heading: str, caption: str, *, across: int = 1
+    panels: Sequence[Panel], name: str, words: Words, *, across: int = 1
 ) -> Plate | None:
     if not panels:
         return None
+    heading = words(f"paper_plate.{name}")
     svg = draw_panels(
-        panels, name, heading, across=across, panel_in=1.9, time_label=_SINCE
+        panels,
+        name,
+        heading,
+        across=across,
+        panel_in=1.9,
+        time_label=words("paper_plate.since"),
+        language=words.language,
     )
+    caption = words(f"paper_plate.{name}_caption")
     return Plate(name=name, heading=heading, caption=caption, svg=svg)
 
 
 def _with_steady(
-    study: PaperStudy, case: PaperCase, lines: list[Line], title: str
+    study: PaperStudy, case: PaperCase, lines: list[Line], words: Words
 ) -> Panel:
     steady = study[find_steady(case)].foot
     ends = [float(line.x[-1]) for line in lines]
@@ -291,13 +305,20 @@ def _with_steady(
     if steady is not None and ends:
         x = [min(begins), max(ends)]
         level = [steady / 1e3] * 2
-        lines = [*lines, Line(label="steady state", x=x, y=level, is_accent=True)]
+        lines = [
+            *lines,
+            Line(label=words("paper_plate.steady"), x=x, y=level, is_accent=True),
+        ]
     track = study[case].track
     marks = []
     if track is not None and track.plateau is not None:
         begin = day_from_second(float(track.times[track.plateau]))
-        marks.append(Mark(x=begin, label="plateau from"))
-    return Panel(title=f"{title} [kN/m]", lines=lines, marks=marks)
+        marks.append(Mark(x=begin, label=words("solved.plateau_from")))
+    return Panel(
+        title=words("paper_plate.foot_at", inclination=case.inclination_deg),
+        lines=lines,
+        marks=marks,
+    )
 
 
 def _cut(line: Line, end: float) -> Line:

@@ -184,7 +184,7 @@ def _grow_histories(
             Growth(
                 method=method,
                 inclination_deg=inclination,
-                quantity=f"{node} node, {name}",
+                quantity=f"{node}_{name}",
                 values=tuple(abs(force[axis]) for force in forces),
                 scale=math.hypot(*forces[0]),
             )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from netdesign import __version__
-from netdesign.coupling.moments import CRITERION
 from netdesign.evidence.paper.cases import (
     ASSUMED_SLOPE_DEG,
     ASSUMED_STIFFNESS,
@@ -16,26 +15,35 @@ from netdesign.evidence.paper.figures import Plate, draw_plates
 from netdesign.evidence.paper.findings import list_findings
 from netdesign.evidence.paper.runs import PaperRun
 from netdesign.evidence.paper.study import PaperStudy
-from netdesign.evidence.paper.tables import Listed, list_tables
+from netdesign.evidence.paper.tables import list_tables
 from netdesign.evidence.paper.words import word_finding
 from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.page.solution_page import describe_criterion
+from netdesign.report.words import ENGLISH, Words
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.catalogue import Language
 
 PAGE_FILE = "index.html"
 
 
-def render_paper(study: PaperStudy) -> dict[str, bytes]:
+def render_paper(study: PaperStudy, language: Language = "en") -> dict[str, bytes]:
     """Contents of all files of the study, by name.
+
+    CSV files are for programs: the same in every language.
 
     Parameters
     ----------
     study : PaperStudy
         As computed; a run without a result is named on the page.
+    language : str
+        Of page and drawings.
     """
-    plates, tables = draw_plates(study), list_tables(study)
-    files = {PAGE_FILE: _render_page(study, plates, tables).encode()}
+    words = Words(language)
+    plates = draw_plates(study, words)
+    files = {PAGE_FILE: _render_page(study, plates, words).encode()}
     files |= {f"{plate.name}.svg": plate.svg.encode() for plate in plates}
+    tables = list_tables(study, ENGLISH)
     files |= {f"{listed.name}.csv": listed.render() for listed in tables}
     for run in study.runs.values():
         if run.track is not None:
@@ -85,25 +93,16 @@ def write_track(run: PaperRun) -> bytes:
     return write_csv(headings, [list(row) for row in zip(*columns, strict=True)])
 
 
-def _render_page(study: PaperStudy, plates: list[Plate], tables: list[Listed]) -> str:
-    claims = [word_finding(finding) for finding in list_findings(study)]
-    agreed = sum(claim.call == "agrees" for claim in claims)
-    days = study.settings.horizon / 86_400.0
-    template = build_environment().get_template("paper.html")
+def _render_page(study: PaperStudy, plates: list[Plate], words: Words) -> str:
+    findings = list_findings(study)
+    template = build_environment(words.language).get_template("paper.html")
     return template.render(
         css=load_style("report.css", "study.css"),
-        claims=claims,
-        agreed=agreed,
-        scene={
-            "length": f"{LENGTH:g}",
-            "thickness": f"{THICKNESS:g}",
-            "density": f"{RELATIVE_DENSITY:g}",
-            "slope": f"{ASSUMED_SLOPE_DEG:g}",
-            "stiffness": f"{kilonewton_from_newton(ASSUMED_STIFFNESS):g}",
-            "time_scale": f"{find_history(0.0).scene.time_scale / 3600.0:.1f}",
-            "days": f"{days:g}",
-        },
-        criterion=CRITERION,
+        language=words.language,
+        claims=[word_finding(finding, words) for finding in findings],
+        agreed=sum(finding.call == "agrees" for finding in findings),
+        scene=_describe_scene(study, words),
+        criterion=describe_criterion(words),
         version=__version__,
         plates=[
             {
@@ -114,6 +113,20 @@ def _render_page(study: PaperStudy, plates: list[Plate], tables: list[Listed]) -
             }
             for plate in plates
         ],
-        tables=tables,
+        tables=list_tables(study, words),
         failures=[run for run in study.runs.values() if run.failure],
     )
+
+
+def _describe_scene(study: PaperStudy, words: Words) -> dict[str, str]:
+    """Numbers that the page's sentences name, as the language writes them."""
+    numbers = {
+        "length": f"{LENGTH:g}",
+        "thickness": f"{THICKNESS:g}",
+        "density": f"{RELATIVE_DENSITY:g}",
+        "slope": f"{ASSUMED_SLOPE_DEG:g}",
+        "stiffness": f"{kilonewton_from_newton(ASSUMED_STIFFNESS):g}",
+        "time_scale": f"{find_history(0.0).scene.time_scale / 3600.0:.1f}",
+        "days": f"{study.settings.horizon / 86_400.0:g}",
+    }
+    return {name: words.write(number) for name, number in numbers.items()}

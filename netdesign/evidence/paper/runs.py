@@ -19,6 +19,7 @@ from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.paper.cases import PaperCase, PaperSettings, horizon_of
 from netdesign.numerics.arrays import Floats, Ints
+from netdesign.words.message import Message, say
 
 # Heights of the two nodes that are followed, over the net's. The paper's nodes 3 and 8
 # stand in a drawing only; these are at a quarter and at three quarters.
@@ -44,8 +45,8 @@ class Track:
         Largest relative density [-].
     plateau : int or None
         Number of the moment at which a plateau begins.
-    ended : str
-        Why it ended before its horizon; empty if it did not.
+    ended : Message or None
+        Why it ended before its horizon; None if it did not.
     """
 
     times: Floats
@@ -56,7 +57,7 @@ class Track:
     heights: tuple[float, float]
     density: Floats
     plateau: int | None
-    ended: str
+    ended: Message | None
 
     def at(self, time: float, name: str) -> float:
         """Value of ``foot``, ``head`` or ``density`` at a time [s], between moments."""
@@ -90,8 +91,8 @@ class PaperRun:
     ----------
     case : PaperCase
         What was run.
-    failure : str
-        Empty if it has a result.
+    failure : Message or None
+        Why there is no result; None if there is one.
     foot, head : float or None
         Pulls of the steady state, or where the plateau begins [N/m]; None without.
     foot_error, head_error : float
@@ -101,7 +102,7 @@ class PaperRun:
     """
 
     case: PaperCase
-    failure: str = ""
+    failure: Message | None = None
     foot: float | None = None
     head: float | None = None
     foot_error: float = 0.0
@@ -119,13 +120,13 @@ def run_case(case: PaperCase, settings: PaperSettings) -> PaperRun:
             return _run_one_mesh(case, settings)
         return _run_history(case, settings)
     except SolveError as failure:
-        return PaperRun(case=case, failure=str(failure.reason))
+        return PaperRun(case=case, failure=failure.reason)
 
 
 def _run_steady(case: PaperCase) -> PaperRun:
     solution = solve_steady(case.scene, SolverSettings(accuracy=0.01))
     if not isinstance(solution, Solution):
-        return PaperRun(case=case, failure=str(solution.reason))
+        return PaperRun(case=case, failure=solution.reason)
     return PaperRun(
         case=case,
         foot=solution.foot.size,
@@ -147,11 +148,10 @@ def _run_history(case: PaperCase, settings: PaperSettings) -> PaperRun:
             levels=settings.levels,
         ),
     )
-    if isinstance(solution, FailedSolution) or solution.history is None:
-        reason = (
-            str(solution.reason) if isinstance(solution, FailedSolution) else "none"
-        )
-        return PaperRun(case=case, failure=reason)
+    if isinstance(solution, FailedSolution):
+        return PaperRun(case=case, failure=solution.reason)
+    if solution.history is None:
+        return PaperRun(case=case, failure=say("paper.no_history"))
     track = _track_of(solution.history, solution.net_curve[1, 1:])
     return PaperRun(
         case=case,
@@ -210,7 +210,7 @@ def _track_of(history: History, heights: Floats) -> Track:
         heights=(float(heights[lower]), float(heights[upper])),
         density=np.array([moment.max_relative_density for moment in moments]),
         plateau=history.plateau.index,
-        ended=str(history.ended or ""),
+        ended=history.ended,
     )
 
 

@@ -31,7 +31,7 @@ from netdesign.report.view.table import (
     text_cell,
     text_column,
 )
-from netdesign.report.words import ENGLISH
+from netdesign.report.words import MISSING, Words
 from netdesign.units import day_from_second
 
 _FORCE = "foot_size_kN_per_m"
@@ -59,49 +59,46 @@ class Listed:
         return write_csv(self.keys, rows)
 
 
-def list_tables(study: PaperStudy) -> list[Listed]:
-    """All tables of the study."""
+def list_tables(study: PaperStudy, words: Words) -> list[Listed]:
+    """All tables of the study in a language."""
     return [
-        _tabulate_plateaus(study),
-        _tabulate_growth(study),
-        _tabulate_parameters(study),
-        _tabulate_trend(study),
-        _tabulate_drift(study),
-        _tabulate_runs(study),
+        _tabulate_plateaus(study, words),
+        _tabulate_growth(study, words),
+        _tabulate_parameters(study, words),
+        _tabulate_trend(study, words),
+        _tabulate_drift(study, words),
+        _tabulate_runs(study, words),
     ]
 
 
-def _tabulate_plateaus(study: PaperStudy) -> Listed:
+def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
     rows = []
     for net in _NETS:
         straight = find_history(net)
         ways = {
-            "steady state": find_steady(straight),
-            "history, sagged start": replace(straight, start="sagged"),
-            "history, straight start": straight,
-            "staggered, straight start": find_exchange(net, study.settings),
+            "steady": find_steady(straight),
+            "sagged": replace(straight, start="sagged"),
+            "straight": straight,
+            "staggered": find_exchange(net, study.settings),
         }
         reference = study[find_steady(straight)]
         for way, case in ways.items():
             rows.append(
                 (
-                    given_cell(ENGLISH, net),
-                    text_cell(way),
-                    *_row(study[case], reference),
+                    given_cell(words, net),
+                    text_cell(words(f"paper_value.way_{way}")),
+                    *_row(study[case], reference, words),
                 )
             )
     return Listed(
         name="plateau",
         keys=("inclination_deg", "method", *_ROW_KEYS),
         table=Table(
-            caption="Plateau of the paper's scene at a friction of 30°. Errors of "
-            "histories and steady states are differences between two meshes; the "
-            "staggered exchange has one mesh only. Without a number: no plateau in its "
-            "time.",
+            caption=words("paper_table.plateau"),
             columns=(
                 number_column("inclination_deg", "θ [°]"),
-                text_column("Method"),
-                *_ROW_COLUMNS,
+                text_column(words("paper_table.method")),
+                *_list_row_columns(words),
             ),
             rows=tuple(rows),
         ),
@@ -117,18 +114,21 @@ _ROW_KEYS = (
     "largest_foot_kN_per_m",
     "plateau_from_s",
 )
-_ROW_COLUMNS = (
-    number_column(_FORCE, "Foot [kN/m]"),
-    number_column("error_kN_per_m", "± "),
-    number_column(_FORCE, "Head [kN/m]"),
-    number_column("error_kN_per_m", "± "),
-    number_column("change_percent", "Foot, against steady [%]"),
-    number_column(_FORCE, "Largest foot [kN/m]"),
-    Column(heading="Plateau from [s]", is_number=True),
-)
 
 
-def _row(run: PaperRun, reference: PaperRun) -> tuple[Cell, ...]:
+def _list_row_columns(words: Words) -> tuple[Column, ...]:
+    return (
+        number_column(_FORCE, words("paper_table.foot")),
+        number_column("error_kN_per_m", "± "),
+        number_column(_FORCE, words("paper_table.head")),
+        number_column("error_kN_per_m", "± "),
+        number_column("change_percent", words("paper_table.foot_against_steady")),
+        number_column(_FORCE, words("paper_table.largest_foot")),
+        Column(heading=words("paper_table.plateau_from"), is_number=True),
+    )
+
+
+def _row(run: PaperRun, reference: PaperRun, words: Words) -> tuple[Cell, ...]:
     against = None
     if run.foot is not None and reference.foot is not None:
         against = 100.0 * (run.foot / reference.foot - 1.0)
@@ -136,33 +136,33 @@ def _row(run: PaperRun, reference: PaperRun) -> tuple[Cell, ...]:
     begin = _plateau_begin(run)
     largest = None if run.track is None else float(run.track.foot.max())
     return (
-        number_cell(ENGLISH, _FORCE, _kilo(run.foot)),
+        number_cell(words, _FORCE, _kilo(run.foot)),
         number_cell(
-            ENGLISH, "error_kN_per_m", _kilo(run.foot_error) if has_error else None
+            words, "error_kN_per_m", _kilo(run.foot_error) if has_error else None
         ),
-        number_cell(ENGLISH, _FORCE, _kilo(run.head)),
+        number_cell(words, _FORCE, _kilo(run.head)),
         number_cell(
-            ENGLISH, "error_kN_per_m", _kilo(run.head_error) if has_error else None
+            words, "error_kN_per_m", _kilo(run.head_error) if has_error else None
         ),
-        number_cell(ENGLISH, "change_percent", against),
-        number_cell(ENGLISH, _FORCE, _kilo(largest)),
-        _seconds(begin),
+        number_cell(words, "change_percent", against),
+        number_cell(words, _FORCE, _kilo(largest)),
+        _seconds(words, begin),
     )
 
 
-def _tabulate_growth(study: PaperStudy) -> Listed:
+def _tabulate_growth(study: PaperStudy, words: Words) -> Listed:
     rows = tuple(
         (
-            text_cell(growth.method),
-            given_cell(ENGLISH, growth.inclination_deg),
-            text_cell(growth.quantity),
-            *(number_cell(ENGLISH, _FORCE, _kilo(value)) for value in growth.values),
+            _value(words, growth.method),
+            given_cell(words, growth.inclination_deg),
+            _value(words, growth.quantity),
+            *(number_cell(words, _FORCE, _kilo(value)) for value in growth.values),
             number_cell(
-                ENGLISH,
+                words,
                 "change_percent",
                 None if growth.change is None else 100.0 * growth.change,
             ),
-            text_cell(growth.trend),
+            _value(words, growth.trend),
         )
         for growth in judge_growth(study)
     )
@@ -175,24 +175,21 @@ def _tabulate_growth(study: PaperStudy) -> Listed:
             *("change_percent", "trend"),
         ),
         table=Table(
-            caption="Sizes of forces against friction [kN/m], of histories at the time "
-            "when the last of the three has come to its plateau. Change from 15° to "
-            "45°; of a node's component over the node's whole force. Steps up to 1% "
-            "count as level.",
+            caption=words("paper_table.friction"),
             columns=(
-                text_column("Method"),
+                text_column(words("paper_table.method")),
                 number_column("inclination_deg", "θ [°]"),
-                text_column("Force"),
+                text_column(words("paper_table.force")),
                 *angles,
-                number_column("change_percent", "Change [%]"),
-                text_column("Trend"),
+                number_column("change_percent", words("paper_table.change")),
+                text_column(words("paper_table.trend_heading")),
             ),
             rows=rows,
         ),
     )
 
 
-def _tabulate_parameters(study: PaperStudy) -> Listed:
+def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
     cases = [find_history(net) for net in (NORMAL_NET_DEG, *INCLINATIONS_DEG)]
     cases += [replace(find_history(net), gravity="parallel") for net in _NETS]
     rows = []
@@ -200,10 +197,10 @@ def _tabulate_parameters(study: PaperStudy) -> Listed:
         history, steady = study[case], study[find_steady(case)]
         rows.append(
             (
-                given_cell(ENGLISH, case.inclination_deg),
-                text_cell(case.gravity),
+                given_cell(words, case.inclination_deg),
+                _value(words, case.gravity),
                 *(
-                    number_cell(ENGLISH, _FORCE, _kilo(value))
+                    number_cell(words, _FORCE, _kilo(value))
                     for value in (history.foot, history.head, steady.foot, steady.head)
                 ),
             )
@@ -216,22 +213,21 @@ def _tabulate_parameters(study: PaperStudy) -> Listed:
             *("steady_foot_kN_per_m", "steady_head_kN_per_m"),
         ),
         table=Table(
-            caption="Inclination and gravity at a friction of 30°: plateau of a "
-            "straight start, and steady state [kN/m]",
+            caption=words("paper_table.parameters"),
             columns=(
                 number_column("inclination_deg", "θ [°]"),
-                text_column("Gravity"),
-                number_column(_FORCE, "History, foot"),
-                number_column(_FORCE, "History, head"),
-                number_column(_FORCE, "Steady, foot"),
-                number_column(_FORCE, "Steady, head"),
+                text_column(words("paper_table.gravity")),
+                number_column(_FORCE, words("paper_table.history_foot")),
+                number_column(_FORCE, words("paper_table.history_head")),
+                number_column(_FORCE, words("paper_table.steady_foot")),
+                number_column(_FORCE, words("paper_table.steady_head")),
             ),
             rows=tuple(rows),
         ),
     )
 
 
-def _tabulate_trend(study: PaperStudy) -> Listed:
+def _tabulate_trend(study: PaperStudy, words: Words) -> Listed:
     *staggered, history = (study[case] for case in find_trend(study.settings))
     end = study.settings.trend_time * history.case.scene.time_scale
     expected = None if history.track is None else history.track.at(end, "foot")
@@ -244,11 +240,11 @@ def _tabulate_trend(study: PaperStudy) -> Listed:
             off = 100.0 * (got / expected - 1.0)
         rows.append(
             (
-                given_cell(ENGLISH, run.case.drag),
-                _seconds(None if track is None else float(track.times[0])),
-                number_cell(ENGLISH, _FORCE, _kilo(got)),
-                number_cell(ENGLISH, "change_percent", off),
-                _seconds(last_swing(run)),
+                given_cell(words, run.case.drag),
+                _seconds(words, None if track is None else float(track.times[0])),
+                number_cell(words, _FORCE, _kilo(got)),
+                number_cell(words, "change_percent", off),
+                _seconds(words, last_swing(run)),
             )
         )
     return Listed(
@@ -258,25 +254,27 @@ def _tabulate_trend(study: PaperStudy) -> Listed:
             *("against_implicit_percent", "oscillates_until_s"),
         ),
         table=Table(
-            caption=f"Staggered exchange as drag and step vanish, at {end:.0f} s; the "
-            "implicit history on the same mesh gives "
-            f"{number_cell(ENGLISH, _FORCE, _kilo(expected)).text} kN/m",
+            caption=words(
+                "paper_table.trend",
+                end=end,
+                expected=words.show_number(_FORCE, _kilo(expected)),
+            ),
             columns=(
-                Column(heading="Base drag", is_number=True),
-                Column(heading="Step [s]", is_number=True),
-                number_column(_FORCE, "Foot [kN/m]"),
-                number_column("change_percent", "Against implicit [%]"),
-                Column(heading="Oscillates until [s]", is_number=True),
+                Column(heading=words("paper_table.base_drag"), is_number=True),
+                Column(heading=words("paper_table.step"), is_number=True),
+                number_column(_FORCE, words("paper_table.foot")),
+                number_column("change_percent", words("paper_table.against_implicit")),
+                Column(heading=words("paper_table.oscillates"), is_number=True),
             ),
             rows=tuple(rows),
         ),
     )
 
 
-def _tabulate_drift(study: PaperStudy) -> Listed:
+def _tabulate_drift(study: PaperStudy, words: Words) -> Listed:
     rows = [
         _row_of_drift(
-            study, replace(find_history(net), start=start, densifies=densifies)
+            study, words, replace(find_history(net), start=start, densifies=densifies)
         )
         for net in _NETS
         for start in _STARTS
@@ -290,25 +288,23 @@ def _tabulate_drift(study: PaperStudy) -> Listed:
             "drift_percent_per_efold",
         ),
         table=Table(
-            caption="Drift of the foot's pull from the plateau to the end of the "
-            "history, per e-fold of time. Without densification histories are followed "
-            "for a shorter time.",
+            caption=words("paper_table.drift"),
             columns=(
                 number_column("inclination_deg", "θ [°]"),
-                text_column("Start"),
-                text_column("Densification"),
-                number_column(_FORCE, "At plateau [kN/m]"),
-                Column(heading="from [s]", is_number=True),
-                number_column(_FORCE, "At the end [kN/m]"),
-                Column(heading="after [d]", is_number=True),
-                number_column("change_percent", "Drift [% per e-fold]"),
+                text_column(words("paper_table.start")),
+                text_column(words("paper_table.densification")),
+                number_column(_FORCE, words("paper_table.at_plateau")),
+                Column(heading=words("paper_table.from"), is_number=True),
+                number_column(_FORCE, words("paper_table.at_end")),
+                Column(heading=words("paper_table.after"), is_number=True),
+                number_column("change_percent", words("paper_table.drift_rate")),
             ),
             rows=tuple(rows),
         ),
     )
 
 
-def _row_of_drift(study: PaperStudy, case: PaperCase) -> tuple[Cell, ...]:
+def _row_of_drift(study: PaperStudy, words: Words, case: PaperCase) -> tuple[Cell, ...]:
     run = study[case]
     track, begin = run.track, _plateau_begin(run)
     last = None if track is None else float(track.foot[-1])
@@ -317,34 +313,34 @@ def _row_of_drift(study: PaperStudy, case: PaperCase) -> tuple[Cell, ...]:
     if run.foot is not None and last is not None and begin and end and end > begin:
         drift = 100.0 * (last / run.foot - 1.0) / math.log(end / begin)
     return (
-        given_cell(ENGLISH, case.inclination_deg),
-        text_cell(case.start),
-        text_cell("on" if case.densifies else "off"),
-        number_cell(ENGLISH, _FORCE, _kilo(run.foot)),
-        _seconds(begin),
-        number_cell(ENGLISH, _FORCE, _kilo(last)),
-        _rounded(None if end is None else day_from_second(end), 3),
-        number_cell(ENGLISH, "change_percent", drift),
+        given_cell(words, case.inclination_deg),
+        _value(words, case.start),
+        _value(words, "on" if case.densifies else "off"),
+        number_cell(words, _FORCE, _kilo(run.foot)),
+        _seconds(words, begin),
+        number_cell(words, _FORCE, _kilo(last)),
+        _rounded(words, None if end is None else day_from_second(end), 3),
+        number_cell(words, "change_percent", drift),
     )
 
 
-def _tabulate_runs(study: PaperStudy) -> Listed:
+def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
     rows = []
     for run in study.runs.values():
         case, track = run.case, run.track
-        ended = "" if track is None else track.ended
-        result = run.failure or (f"ended early: {ended}" if ended else "complete")
         moments = 0 if track is None else len(track.times)
         rows.append(
             (
-                text_cell(case.method + (", coarse" if case.is_coarse else "")),
-                given_cell(ENGLISH, case.inclination_deg),
-                given_cell(ENGLISH, case.friction_deg),
-                text_cell(case.gravity),
-                text_cell("-" if case.method == "steady" else case.start),
-                text_cell("on" if case.densifies else "off"),
-                given_cell(ENGLISH, float(moments)),
-                text_cell(result),
+                text_cell(_name_method(case, words)),
+                given_cell(words, case.inclination_deg),
+                given_cell(words, case.friction_deg),
+                _value(words, case.gravity),
+                text_cell(MISSING)
+                if case.method == "steady"
+                else _value(words, case.start),
+                _value(words, "on" if case.densifies else "off"),
+                given_cell(words, float(moments)),
+                text_cell(_tell_result(run, words)),
             )
         )
     return Listed(
@@ -354,16 +350,16 @@ def _tabulate_runs(study: PaperStudy) -> Listed:
             *("densification", "steps", "result"),
         ),
         table=Table(
-            caption="All runs of the study",
+            caption=words("paper_table.runs"),
             columns=(
-                text_column("Method"),
+                text_column(words("paper_table.method")),
                 number_column("inclination_deg", "θ [°]"),
                 number_column("friction_deg", "φ [°]"),
-                text_column("Gravity"),
-                text_column("Start"),
-                text_column("Densification"),
-                Column(heading="Steps", is_number=True),
-                text_column("Result"),
+                text_column(words("paper_table.gravity")),
+                text_column(words("paper_table.start")),
+                text_column(words("paper_table.densification")),
+                Column(heading=words("paper_table.steps"), is_number=True),
+                text_column(words("paper_table.result")),
             ),
             rows=tuple(rows),
         ),
@@ -377,17 +373,34 @@ def _plateau_begin(run: PaperRun) -> float | None:
     return float(track.times[track.plateau])
 
 
+def _value(words: Words, key: str) -> Cell:
+    return text_cell(words(f"paper_value.{key}"))
+
+
+def _name_method(case: PaperCase, words: Words) -> str:
+    method = words(f"paper_value.{case.method}")
+    return words("paper_value.coarse", method=method) if case.is_coarse else method
+
+
+def _tell_result(run: PaperRun, words: Words) -> str:
+    if run.failure:
+        return words.show(run.failure)
+    if run.track is not None and run.track.ended:
+        return words("paper_value.ended", reason=run.track.ended)
+    return words("paper_value.complete")
+
+
 def _kilo(value: float | None) -> float | None:
     return None if value is None else value / 1e3
 
 
-def _seconds(value: float | None) -> Cell:
-    return _rounded(value, 3)
+def _seconds(words: Words, value: float | None) -> Cell:
+    return _rounded(words, value, 3)
 
 
-def _rounded(value: float | None, digits: int) -> Cell:
+def _rounded(words: Words, value: float | None, digits: int) -> Cell:
     """Significant digits on the page, all of them in the CSV."""
     if value is None:
-        return Cell(text="-")
+        return Cell(text=MISSING)
     shown = float(f"{value:.{digits}g}")
-    return Cell(text=f"{shown:.10g}", number=value)
+    return Cell(text=words.write(f"{shown:.10g}"), number=value)

@@ -240,7 +240,7 @@ def _render_page(
         outcome=words(f"ended.{document['outcome']}").replace("_", " "),
         reason=show_text(document.get("reason", "")),
         flags=[show_text(flag) for flag in document.get("flags", ())],
-        criterion=_describe_criterion(words) if plateau else "",
+        criterion=describe_criterion(words) if plateau else "",
         figures=[
             {"caption": drawn.caption, "svg": mark_safe(drawn.svg), "name": drawn.name}
             for drawn in drawings
@@ -252,7 +252,7 @@ def _render_page(
     )
 
 
-def _describe_criterion(words: Words) -> str:
+def describe_criterion(words: Words) -> str:
     """Criterion of a plateau, in words."""
     return words(
         "solved.criterion",

@@ -2,16 +2,24 @@
 
 import csv
 import io
+import re
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
 
+from netdesign import __version__
 from netdesign.evidence.paper.cases import find_history
 from netdesign.evidence.paper.findings import list_findings
 from netdesign.evidence.paper.page import PAGE_FILE, name_history, render_paper
+from netdesign.evidence.paper.tables import list_tables
 from netdesign.evidence.paper.words import word_finding
+from netdesign.report.words import Words
+from netdesign.words.message import say
 from tests.build_paper import build_study
+from tests.commands.every_command import read_page
 from tests.report.reading import PageReader
+from tests.words.english import list_vocabulary, list_words
 
 
 @pytest.fixture(scope="module")
@@ -103,3 +111,70 @@ def test_signs_are_minus_signs_and_no_zero_has_one():
     assert "foot −10.0%" in claim.found
     flat = next(f for f in list_findings(build_study()) if f.key == "settlement")
     assert "foot 0.0%" in word_finding(flat).found
+
+
+@pytest.fixture(scope="module", params=["fr", "de"])
+def told(request, study):
+    """Words of a language, and the files in it."""
+    return Words(request.param), render_paper(study, request.param)
+
+
+def tell_open(words):
+    """Statements and tables of a study with a failed run and one that ended early."""
+    study, case = build_study(failing=[find_history(0.0)]), find_history(0.0, 45.0)
+    reason = say("staggered.no_increment", time=0.37)
+    track = replace(study[case].track, ended=reason)
+    study = replace(study, runs={**study.runs, case: replace(study[case], track=track)})
+    told = [word_finding(finding, words).found for finding in list_findings(study)]
+    tables = [listed.table for listed in list_tables(study, words)]
+    told += [cell.text for table in tables for row in table.rows for cell in row]
+    assert words.show(reason) in " ".join(told)
+    return told
+
+
+def test_no_english_stands_on_the_page(told):
+    words, files = told
+    english = list_vocabulary("en") - list_vocabulary(words.language)
+    shown = [
+        read_page(content.decode())
+        for name, content in files.items()
+        if name.endswith((".html", ".svg"))
+    ]
+    text = " ".join((*shown, *tell_open(words)))
+    text = text.replace(f"netdesign paper · {__version__}", "")
+    text = text.replace("made to fail", "")  # somebody's own words
+    assert len(list_words(text)) > 200
+    assert list_words(text) & english == set()
+    assert f'<html lang="{words.language}">' in files[PAGE_FILE].decode()
+    assert re.findall(r"\d\.\d", text) == []
+    assert len(re.findall(r"\d,\d", text)) > 60
+
+
+def test_statements_are_told_in_the_language(study, told):
+    words, files = told
+    text = " ".join(read_page(files[PAGE_FILE].decode()).split())
+    for finding in list_findings(study):
+        claim = word_finding(finding, words)
+        assert " ".join(claim.found.split()) in text
+        assert claim.call in text
+
+
+def test_tables_for_programs_are_the_same_in_every_language(files, told):
+    _, in_language = told
+    tables = [name for name in files if name.endswith(".csv")]
+    assert len(tables) > 20
+    assert {one: in_language[one] for one in tables} == {
+        one: files[one] for one in tables
+    }
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_signs_are_those_of_the_language(language):
+    study = build_study(lambda case: 3e5 * (0.9 if case.gravity != "full" else 1.0))
+    pages = {}
+    for name, one in (("change", study), ("none", build_study())):
+        finding = next(f for f in list_findings(one) if f.key == "settlement")
+        pages[name] = word_finding(finding, Words(language)).found
+    assert " −10,0\u00a0%" in pages["change"]
+    assert " 0,0\u00a0%" in pages["none"]
+    assert not re.search(r"[+-]\d", pages["change"] + pages["none"])
