@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 
 from netdesign.checks import (
     Band,
@@ -88,7 +88,7 @@ def build_end_target(
         scale=use * _widen(extreme.member, extreme.widened, task.solved.results),
         governing=extreme.governing.case,
         results=task.solved.results,
-        widen=partial(_find_end_factor, task),
+        widen=cache(partial(_find_end_factor, task)),
     )
 
 
@@ -205,6 +205,7 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         for name, band in pair
     }
     followed = extreme.member
+    widen = _find_load if demand.along.high else _find_width
     return Target(
         row=task.row,
         ranges=task.site.ranges,
@@ -217,7 +218,7 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         results=task.solved.results,
         use_floor=use_floor,
         bound_floor=bound_floor,
-        widen=partial(_find_load if demand.along.high else _find_width, task, one),
+        widen=cache(partial(widen, task, one)),
         push=_find_push(task, one, demand),
     )
 

@@ -215,15 +215,18 @@ def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
     A search crowds its cases around the largest force; what lies between those that
     are left is in the margin of the target.
     """
-    kept: list[Case] = []
+    reach = [_BESIDE * (span.high - span.low) for _, span in ranges.intervals]
+    kept: dict[Case, list[float]] = {}
     for case in cases:
-        if not any(_is_beside(case, other, ranges) for other in kept):
-            kept.append(case)
-    return kept
+        values = case.values
+        point = [values[axis] for axis, _ in ranges.intervals]
+        if not any(_is_beside(point, other, reach) for other in kept.values()):
+            kept[case] = point
+    return list(kept)
 
 
-def _is_beside(case: Case, other: Case, ranges: Ranges) -> bool:
-    return all(
-        abs(case.values[axis] - other.values[axis]) <= _BESIDE * (span.high - span.low)
-        for axis, span in ranges.intervals
-    )
+def _is_beside(
+    point: Sequence[float], other: Sequence[float], reach: Sequence[float]
+) -> bool:
+    sides = zip(point, other, reach, strict=True)
+    return all(abs(one - beside) <= most for one, beside, most in sides)
