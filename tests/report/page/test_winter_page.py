@@ -17,7 +17,7 @@ def test_days_of_one_reason_stand_together():
         build_day("2021-01-20", "failed", "the snow lifts"),
     ]
     assert _list_failed({"curve": curve}, Words("en")) == [
-        "2021-01-04, 2021-01-12: without a force (the net folds)",
-        "2021-01-16: solved as uniform snow (the net folds)",
-        "2021-01-20: without a force (the snow lifts)",
+        "2 × without a force (the net folds): 2021-01-04, 2021-01-12",
+        "1 × solved as uniform snow (the net folds): 2021-01-16",
+        "1 × without a force (the snow lifts): 2021-01-20",
     ]
