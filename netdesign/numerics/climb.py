@@ -63,7 +63,7 @@ def find_largest(functions: Functions, axes: Sequence[Floats]) -> tuple[Floats, 
     -----------
     tests/numerics/test_climb.py
     """
-    grid = np.array([one.ravel() for one in np.meshgrid(*axes, indexing="ij")])
+    grid = build_grid(axes)
     values = functions(grid)
     sought, index = _find_peaks(values.reshape(-1, *(axis.size for axis in axes)))
     peaks = _Peaks(sought=sought, points=grid[:, index], values=values[sought, index])
@@ -71,6 +71,17 @@ def find_largest(functions: Functions, axes: Sequence[Floats]) -> tuple[Floats, 
     every = np.arange(len(values))[:, None]
     heights = np.where(peaks.sought == every, peaks.values, -np.inf)
     return peaks.points[:, heights.argmax(axis=1)], heights.max(axis=1)
+
+
+def build_grid(axes: Sequence[Floats]) -> Floats:
+    """Points of a grid, shape (d, n).
+
+    Parameters
+    ----------
+    axes : sequence of d ndarrays
+        Values along each axis, shape (any,); those of the last one run first.
+    """
+    return np.array([one.ravel() for one in np.meshgrid(*axes, indexing="ij")])
 
 
 def _find_peaks(values: Floats) -> tuple[Ints, Ints]:

@@ -194,18 +194,22 @@ class NetRow:
     net_stiffness_per_m: float
     slack: float
     layout: SupportLayout
-    resistances: tuple[Resistance, ...]
-    inputs: tuple[InputEcho, ...] = ()
+    # long tuples stay out of the hash, which cases are looked up by, not of equality
+    resistances: tuple[Resistance, ...] = field(hash=False)
+    inputs: tuple[InputEcho, ...] = field(default=(), hash=False)
     layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
     axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]
-    anchors: tuple[tuple[Member, AnchorType], ...] = ()  # those that have a type
+    # those that have a type
+    anchors: tuple[tuple[Member, AnchorType], ...] = field(default=(), hash=False)
     # of the first and last support; None: those of all others
-    end_resistances: tuple[Resistance, ...] | None = None
-    end_anchors: tuple[tuple[Member, AnchorType], ...] | None = None
+    end_resistances: tuple[Resistance, ...] | None = field(default=None, hash=False)
+    end_anchors: tuple[tuple[Member, AnchorType], ...] | None = field(
+        default=None, hash=False
+    )
     panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
     row_end: RowEnd | None = None  # of a row with panel and end
     panel_lack: Message | None = None  # why there is none; None also without ropes

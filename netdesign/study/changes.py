@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 
 from netdesign.checks import (
     Band,
@@ -14,7 +14,6 @@ from netdesign.checks import (
 from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import BaseFriction, Resistance
 from netdesign.structure.members import RopeForce, name_in_panel
@@ -89,7 +88,7 @@ def build_end_target(
         scale=use * _widen(extreme.member, extreme.widened, task.solved.results),
         governing=extreme.governing.case,
         results=task.solved.results,
-        widen=partial(_find_end_factor, task),
+        widen=cache(partial(_find_end_factor, task)),
     )
 
 
@@ -186,7 +185,17 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
             return math.inf
         if floor is None or least is None:
             return 0.0
-        return use * (load.share * least.force + _add_by_floor(load, floor))
+        pull = floor.head.pull if floor.head else 0.0
+        return use * (load.share * least.force + _add_by_floor(load, pull))
+
+    def bound_floor(ranges: Ranges) -> tuple[float, float]:
+        ends = task.bound_floor(ranges)
+        if ends is None:
+            return 0.0, math.inf
+        forces = (load.share * end.of_members[member] for end in ends)
+        added = (_add_by_floor(load, end.pull) for end in ends)
+        least, most = map(sum, zip(forces, added, strict=True))
+        return use * least, use * most
 
     pair: list[tuple[str, Band]] = [(member, demand.solved)]
     if demand.panel is not None:
@@ -196,6 +205,7 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         for name, band in pair
     }
     followed = extreme.member
+    widen = _find_load if demand.along.high else _find_width
     return Target(
         row=task.row,
         ranges=task.site.ranges,
@@ -207,7 +217,8 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         governing=extreme.governing.case,
         results=task.solved.results,
         use_floor=use_floor,
-        widen=partial(_find_load if demand.along.high else _find_width, task, one),
+        bound_floor=bound_floor,
+        widen=cache(partial(widen, task, one)),
         push=_find_push(task, one, demand),
     )
 
@@ -248,12 +259,11 @@ def _find_width(task: RowCheck, one: MemberCheck, ranges: Ranges) -> float:
     return max(widths, default=one.width.width)
 
 
-def _add_by_floor(load: MemberLoad, floor: Floor) -> float:
+def _add_by_floor(load: MemberLoad, pull: float) -> float:
     """Force added to a member where the guideline's pull on the head may be larger [N].
 
     It grows with that pull, and never falls.
     """
-    pull = floor.head.pull if floor.head else 0.0
     growth = max(0.0, pull / load.pull - 1.0) if load.pull else 0.0
     return load.added.value + growth * load.rise
 

@@ -154,8 +154,7 @@ def _find_floor_height(target: Target, least: float, most: float) -> float | Non
     """
 
     def is_met(thickness: float) -> bool:
-        move = Move(name="thickness", value=thickness)
-        return target.use_least(move) <= 1.0
+        return target.is_floor_met(Move(name="thickness", value=thickness))
 
     if is_met(most):
         return most

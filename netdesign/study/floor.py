@@ -7,7 +7,14 @@ from typing import Literal
 from netdesign.checks import Standard
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.guideline.comparison import NetGeometry
-from netdesign.guideline.floor import Floor, FloorForce, NetRanges, find_floor
+from netdesign.guideline.floor import (
+    Floor,
+    FloorEnd,
+    FloorForce,
+    NetRanges,
+    bound_floor,
+    find_floor,
+)
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
 from netdesign.study.effects import (
@@ -27,22 +34,33 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
     """
     if standard.floor == "none":
         return None
+    model = read_load_model(load_guideline())
+    return find_floor(model, _list_nets(row, ranges), row.altitude)
+
+
+def bound_row_floor(
+    row: NetRow, ranges: Ranges, standard: Standard
+) -> tuple[FloorEnd, FloorEnd] | None:
+    """Ends between which the forces of `find_row_floor` lie; None where not known."""
+    if standard.floor == "none":
+        return None
+    model = read_load_model(load_guideline())
+    return bound_floor(model, _list_nets(row, ranges), row.altitude)
+
+
+def _list_nets(row: NetRow, ranges: Ranges) -> NetRanges:
     low, high = (_place_at(row, ranges, end) for end in ("low", "high"))
     span = ranges["inclination"]
-    return find_floor(
-        read_load_model(load_guideline()),
-        NetRanges(
-            net=build_geometry(row, span.low),
-            inclinations=(span.low, span.high),
-            thicknesses=(low.snow_thickness, high.snow_thickness),
-            stiffnesses=(low.net_stiffness_per_m, high.net_stiffness_per_m),
-            slacks=(low.slack, high.slack),
-            find_glide_factors=lambda thickness: (
-                find_glide_factors(low, thickness),
-                find_glide_factors(high, thickness),
-            ),
+    return NetRanges(
+        net=build_geometry(row, span.low),
+        inclinations=(span.low, span.high),
+        thicknesses=(low.snow_thickness, high.snow_thickness),
+        stiffnesses=(low.net_stiffness_per_m, high.net_stiffness_per_m),
+        slacks=(low.slack, high.slack),
+        find_glide_factors=lambda thickness: (
+            find_glide_factors(low, thickness),
+            find_glide_factors(high, thickness),
         ),
-        row.altitude,
     )
 
 

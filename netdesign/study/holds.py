@@ -224,7 +224,7 @@ class _Line:
             self._note = say("hold.no_result", value=self._parameter.show(value))
             return None
         coupled = lack * max(one for one in found if one is not None)
-        return max(coupled, self._target.use_least(move))
+        return self._target.use_more(coupled, move)
 
     def _refine(
         self, passing: tuple[float, float], failing: tuple[float, float]

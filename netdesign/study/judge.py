@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
+from typing import TypeVar
 
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.floor import Floor
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
@@ -19,7 +19,7 @@ from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.cases import CheckRun
 from netdesign.study.end_note import record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
-from netdesign.study.floor import find_row_floor, record_floor
+from netdesign.study.floor import bound_row_floor, find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
 from netdesign.study.member_loads import RowLoads, find_loads
 from netdesign.study.model_form import record_model_form
@@ -52,6 +52,8 @@ from netdesign.study.records import (
 from netdesign.study.row_checks import check_row, distrust
 from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message
+
+_Found = TypeVar("_Found")
 
 
 def judge_site(
@@ -93,7 +95,8 @@ def judge_site(
                 solved=of_row,
                 standard=standard,
                 law=run.creep_law,
-                find_floor=_remember_floor(row, standard),
+                find_floor=_remember(find_row_floor, row, standard),
+                bound_floor=_remember(bound_row_floor, row, standard),
                 probe=probe,
                 on_check=on_check,
             ),
@@ -116,11 +119,11 @@ def judge_site(
     )
 
 
-def _remember_floor(
-    row: NetRow, standard: Standard
-) -> Callable[[Ranges], Floor | None]:
-    """Floor of a row as a function of its ranges, each found once."""
-    return cache(lambda ranges: find_row_floor(row, ranges, standard))
+def _remember(
+    find: Callable[[NetRow, Ranges, Standard], _Found], row: NetRow, standard: Standard
+) -> Callable[[Ranges], _Found]:
+    """Function of a row's ranges that finds each once."""
+    return cache(lambda ranges: find(row, ranges, standard))
 
 
 def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:

@@ -12,7 +12,7 @@ from netdesign.checks import (
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
-from netdesign.guideline.floor import Floor
+from netdesign.guideline.floor import Floor, FloorEnd
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.row_position import LoadedWidth
@@ -26,7 +26,8 @@ class RowCheck:
     """One net row under one profile.
 
     ``find_floor`` gives the guideline's load over ranges in which something may be
-    moved; ``probe`` is None where nothing beyond the solved cases is to be solved;
+    moved, ``bound_floor`` two ends of it, or None where these are not known; ``probe``
+    is None where nothing beyond the solved cases is to be solved;
     ``on_check`` is called after each check of a force.
     """
 
@@ -36,6 +37,7 @@ class RowCheck:
     standard: Standard
     law: CreepLaw
     find_floor: Callable[[Ranges], Floor | None]
+    bound_floor: Callable[[Ranges], tuple[FloorEnd, FloorEnd] | None]
     probe: Probe | None
     on_check: Callable[[], None] = lambda: None
 

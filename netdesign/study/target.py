@@ -6,6 +6,7 @@ load is searched over, and in the row, whose end effect may follow it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -76,6 +77,8 @@ class Target:
     use_floor : callable
         Utilisation by the guideline's load alone, over some ranges of the row, on a
         support as wide as now, 0 without a floor [-].
+    bound_floor : callable
+        Two ends between which what ``use_floor`` finds lies, at a part of its cost.
     widen : callable
         Load of the support over some ranges of the row, in any unit: the end effect
         grows with the glide factor.
@@ -90,6 +93,7 @@ class Target:
     governing: Case
     results: Sequence[CaseResult]
     use_floor: Callable[[Ranges], float] = lambda _: 0.0
+    bound_floor: Callable[[Ranges], tuple[float, float]] = lambda _: (0.0, math.inf)
     widen: Callable[[Ranges], float] = lambda _: 1.0
     added: float = 0.0
     rise: float = 0.0
@@ -163,6 +167,21 @@ class Target:
         ranges = self.ranges if move is None else move.on(self.ranges)
         return self.use_floor(ranges) * self._compare_width(move)
 
+    def use_more(self, used: float, move: Move) -> float:
+        """Larger one of a utilisation and that by the guideline's load [-]."""
+        _, most = self.bound_floor(move.on(self.ranges))
+        if most * self._compare_width(move) <= used:
+            return used
+        return max(used, self.use_least(move))
+
+    def is_floor_met(self, move: Move) -> bool:
+        """The guideline's load alone lets the check pass, of what is moved."""
+        width = self._compare_width(move)
+        least, most = (width * one for one in self.bound_floor(move.on(self.ranges)))
+        if most <= 1.0 or least > 1.0:
+            return most <= 1.0
+        return self.use_least(move) <= 1.0
+
     def use(self, force: float) -> float:
         """Utilisation by a force of the member [-]."""
         added = self.added
@@ -196,15 +215,18 @@ def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
     A search crowds its cases around the largest force; what lies between those that
     are left is in the margin of the target.
     """
-    kept: list[Case] = []
+    reach = [_BESIDE * (span.high - span.low) for _, span in ranges.intervals]
+    kept: dict[Case, list[float]] = {}
     for case in cases:
-        if not any(_is_beside(case, other, ranges) for other in kept):
-            kept.append(case)
-    return kept
+        values = case.values
+        point = [values[axis] for axis, _ in ranges.intervals]
+        if not any(_is_beside(point, other, reach) for other in kept.values()):
+            kept[case] = point
+    return list(kept)
 
 
-def _is_beside(case: Case, other: Case, ranges: Ranges) -> bool:
-    return all(
-        abs(case.values[axis] - other.values[axis]) <= _BESIDE * (span.high - span.low)
-        for axis, span in ranges.intervals
-    )
+def _is_beside(
+    point: Sequence[float], other: Sequence[float], reach: Sequence[float]
+) -> bool:
+    sides = zip(point, other, reach, strict=True)
+    return all(abs(one - beside) <= most for one, beside, most in sides)

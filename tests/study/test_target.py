@@ -136,3 +136,36 @@ def test_at_an_end_the_largest_glide_factor_of_the_ranges_counts():
     ]
     assert widths[1] == pytest.approx(widths[2], rel=1e-12)
     assert widths[1] > 1.005 * widths[0]
+
+
+@pytest.mark.parametrize("ends", [(0.0, math.inf), (0.39, 0.44), (0.4, 0.4)])
+def test_two_ends_of_the_floor_change_no_answer(ends):
+    """The floor itself is found only where its ends leave the answer open."""
+    found = []
+
+    def use_floor(ranges):
+        found.append(ranges)
+        return 0.4
+
+    row, ranges = draw_row(random.Random(9)), draw_ranges(random.Random(9))
+    target = replace(
+        build_target(row, ranges), use_floor=use_floor, bound_floor=lambda _: ends
+    )
+    move = Move(name="slack", value=0.0213)
+    assert target.use_more(0.617, move) == 0.617
+    assert len(found) == (ends[1] > 0.617)
+    assert target.use_more(0.217, move) == 0.4
+    found.clear()
+    assert target.is_floor_met(move)
+    assert len(found) == (ends[1] > 1.0)
+
+
+@pytest.mark.parametrize("ends", [(0.0, math.inf), (0.97, 1.09), (1.003, 1.09)])
+def test_floor_that_is_not_met_is_so_by_its_ends_too(ends):
+    row, ranges = draw_row(random.Random(9)), draw_ranges(random.Random(9))
+    target = replace(
+        build_target(row, ranges),
+        use_floor=lambda _: 1.004,
+        bound_floor=lambda _: ends,
+    )
+    assert not target.is_floor_met(Move(name="slack", value=0.0213))
