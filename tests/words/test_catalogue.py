@@ -24,7 +24,7 @@ FAMILIES: tuple[str, ...] = (
     "creep_law.",
     *("winter_column.", "winter_outcome.", "day_outcome."),
     *("fit_page.", "fit_case.", "fit_parameter."),
-    *("label.", "load_case.", "load.", "load_name.", "show.load_"),
+    *("label.", "load_case.", "load_case_short.", "load.", "load_name.", "show.load_"),
     *("slab_ground.", "variant."),
     "floor.profile_",
     *("reference.", "case_kind.", "piece.", "verify_table."),

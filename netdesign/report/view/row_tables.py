@@ -345,7 +345,7 @@ def build_floor(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_member(words, force.member)),
-                text_cell(words.show(name("load_case", force.load_case))),
+                text_cell(words.show(name("load_case_short", force.load_case))),
                 *(number_cell(words, key, getattr(force, key)) for key in _FLOOR),
             )
             for force in (floor.forces if floor else ())
