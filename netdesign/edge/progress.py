@@ -301,10 +301,14 @@ def show_phases(
     )
     with Progress(*columns, console=console, transient=True, expand=True) as progress:
         task = progress.add_task("", total=sum(phase.cases for phase in phases))
+        last: Message | str = ""
 
         def show(standing: Standing) -> None:
+            nonlocal last
+            is_new, last = standing.stage != last, standing.stage
             progress.update(
                 task,
+                refresh=is_new,  # seen even where it is over before the next look
                 completed=standing.done,
                 total=standing.done + standing.open,
                 description=render(standing.bar, language),
