@@ -9,11 +9,9 @@ English reads no file.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
 
 from netdesign.words.catalogue import keep_together
 from netdesign.words.numerals import Language
@@ -86,6 +84,10 @@ def load_help(language: Language) -> HelpTexts | None:
     """Texts of help in a language; None for English, which the commands have."""
     if language == "en":
         return None
+    # every start of the program would pay for them, also where none asks for help
+    import tomllib
+    from importlib.resources import files
+
     file = files("netdesign.words") / "help" / f"{language}.toml"
     tables = tomllib.loads(file.read_text(encoding="utf-8"))
     if language == "fr":

@@ -178,25 +178,6 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         raise ValueError("a check without a demand has no target")
     member, load = one.given.member, demand.load
 
-    def use_floor(ranges: Ranges) -> float:
-        floor = task.find_floor(ranges)
-        least = floor.find(member) if floor else None
-        if floor is not None and least is None:
-            return math.inf
-        if floor is None or least is None:
-            return 0.0
-        pull = floor.head.pull if floor.head else 0.0
-        return use * (load.share * least.force + _add_by_floor(load, pull))
-
-    def bound_floor(ranges: Ranges) -> tuple[float, float]:
-        ends = task.bound_floor(ranges)
-        if ends is None:
-            return 0.0, math.inf
-        forces = (load.share * end.of_members[member] for end in ends)
-        added = (_add_by_floor(load, end.pull) for end in ends)
-        least, most = map(sum, zip(forces, added, strict=True))
-        return use * least, use * most
-
     pair: list[tuple[str, Band]] = [(member, demand.solved)]
     if demand.panel is not None:
         pair.append((name_in_panel(member), demand.panel))
@@ -216,11 +197,39 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         rise=use * load.rise,
         governing=extreme.governing.case,
         results=task.solved.results,
-        use_floor=use_floor,
-        bound_floor=bound_floor,
+        use_floor=partial(_use_floor, task, member, load, use),
+        bound_floor=partial(_bound_floor, task, member, load, use),
         widen=cache(partial(widen, task, one)),
         push=_find_push(task, one, demand),
     )
+
+
+def _use_floor(
+    task: RowCheck, member: str, load: MemberLoad, use: float, ranges: Ranges
+) -> float:
+    """Utilisation of a member by the guideline's load alone [-]."""
+    floor = task.find_floor(ranges)
+    if floor is None:
+        return 0.0
+    least = floor.find(member)
+    if least is None:
+        return math.inf
+    pull = floor.head.pull if floor.head else 0.0
+    return use * (load.share * least.force + _add_by_floor(load, pull))
+
+
+def _bound_floor(
+    task: RowCheck, member: str, load: MemberLoad, use: float, ranges: Ranges
+) -> tuple[float, float]:
+    """Ends of what `_use_floor` gives; no upper one where the bound is not known."""
+    ends = task.bound_floor(ranges)
+    if ends is None:
+        return 0.0, math.inf
+    least, most = (
+        use * (load.share * end.of_members[member] + _add_by_floor(load, end.pull))
+        for end in ends
+    )
+    return least, most
 
 
 def _find_push(task: RowCheck, one: MemberCheck, demand: Demand) -> Push | None:
