@@ -216,7 +216,7 @@ def test_consequence_class_3_is_stricter(folder):
             "document.toml",
             'floor = "guideline"',
             'floor = "margreth"',
-            "'load' 'floor' = 'margreth': Input should be 'guideline' or 'none'",
+            "'load' 'floor' = 'margreth': must be 'guideline' or 'none'",
         ),
         (
             "onr-24805-style",
