@@ -44,6 +44,9 @@ from netdesign.units import (
 )
 from netdesign.words.message import Message, say
 
+# Changes that are limits of single values, too, and the names of these.
+_SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness"}
+
 
 def find_row_holds(
     task: RowCheck,
@@ -63,7 +66,19 @@ def find_row_holds(
         for one, check in zip(judged, checks, strict=True)
         if one.ratio > 0.0 and _has_target(one) and is_worst(one, judged)
     }
-    return find_holds(held | dict(ends), task.probe)
+    told = {check.id: _list_told(check) for check in checks}
+    return find_holds(held | dict(ends), task.probe, told)
+
+
+def _list_told(check: CheckRecord) -> dict[str, float]:
+    """Largest values up to which a check passes, by the quantity's name [SI]."""
+    found = {}
+    for change in check.changes:
+        quantity = change.quantity
+        key = quantity.key if isinstance(quantity, Message) else ""
+        if key in _SOLVED and change.bound is not None:
+            found[_SOLVED[key]] = change.bound
+    return found
 
 
 def build_end_target(

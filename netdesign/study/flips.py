@@ -10,6 +10,8 @@ ranges; it limits the snow height by its closed form.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import product
 
 from netdesign.envelope.ranges import Case
@@ -28,6 +30,9 @@ _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
 _UNITS = {"density": "kg/m³", "thickness": "m"}  # of what is searched
 _MOST_ROUNDS, _MOST_STEPS = 4, 14
 _LEAST_POWER = 0.2  # of a force in a quantity, that a secant is taken with
+# Utilisation up to which a rival does not fail between two others of less and of more
+# friction: in 520 of such rivals it lay 0.07 % above the larger one of theirs at most.
+_ALONE = 0.998
 _NEAR = 2e-3  # a root is found when the utilisation lies this close below 1
 
 
@@ -284,7 +289,7 @@ def _search(
     active = target.governing
     value, power = start, _find_power(target, quantity, power)
     for _ in range(_MOST_ROUNDS):
-        found = _find_root(target, probe, quantity, active, value, limits, power)
+        found = _find_root(target, probe, quantity, active, value, limits, power, step)
         if isinstance(found, Message):
             return None, probe.count - before, found
         value = _round_down(found, step)
@@ -326,9 +331,31 @@ def _find_power(target: Target, quantity: str, usual: float) -> float:
 
 
 def _find_violator(target: Target, probe: Probe, move: Move) -> Case | Message | None:
-    """Rival case that still fails most at a value; a reason if one is unsolved."""
-    worst, largest = None, 1.0
+    """Rival case that still fails most at a value; a reason if one is unsolved.
+
+    Of rivals that differ in friction alone those between two others are asked last,
+    and only where one of their line nearly fails.
+    """
     rivals = _list_rivals(target, move)
+    first = _list_outer(rivals)
+    used = _use_rivals(target, probe, first, move)
+    if not isinstance(used, Message):
+        close = {_leave_out_friction(one) for one in first if used[one] > _ALONE}
+        left = [one for one in rivals if one not in used]
+        left = [one for one in left if _leave_out_friction(one) in close]
+        more = _use_rivals(target, probe, left, move)
+        used = more if isinstance(more, Message) else used | more
+    if isinstance(used, Message):
+        return used
+    worst = max(used, key=lambda one: used[one])
+    return worst if used[worst] > 1.0 else None
+
+
+def _use_rivals(
+    target: Target, probe: Probe, rivals: Sequence[Case], move: Move
+) -> dict[Case, float] | Message:
+    """Utilisation in each of some rivals; a reason if one has no result."""
+    used = {}
     results = target.solve(probe, rivals, move)
     for case, result in zip(rivals, results, strict=True):
         utilisation = target.utilisation(result, move)
@@ -337,9 +364,21 @@ def _find_violator(target: Target, probe: Probe, move: Move) -> Case | Message |
             return _refuse(
                 "change.rival_without_result", move.name, move.value, reason=reason
             )
-        if utilisation > largest:
-            worst, largest = case, utilisation
-    return worst
+        used[case] = utilisation
+    return used
+
+
+def _list_outer(rivals: Sequence[Case]) -> list[Case]:
+    """The first rival, and of each line along friction those at its ends."""
+    lines: dict[Case, list[Case]] = {}
+    for one in sorted(rivals, key=lambda case: case.friction_angle):
+        lines.setdefault(_leave_out_friction(one), []).append(one)
+    outer = {one for line in lines.values() for one in (line[0], line[-1])}
+    return [one for one in rivals if one in outer or one is rivals[0]]
+
+
+def _leave_out_friction(case: Case) -> Case:
+    return replace(case, friction_angle=0.0)
 
 
 def _list_rivals(target: Target, move: Move) -> list[Case]:
@@ -357,11 +396,13 @@ def _find_root(
     start: float,
     limits: tuple[float, float],
     power: float,
+    step: float,
 ) -> float | Message:
     """Largest value at which one case passes, by secants of the logarithms.
 
     The force grows about like a power of the value; ``power`` is the first guess. A
-    bracket keeps every step between a value that passes and one that fails.
+    bracket keeps every step between a value that passes and one that fails. Multiples
+    of ``step`` are tried, since one of them is told: the last one that passes.
     """
     passes, fails = limits[0], limits[1]
     known_pass, known_fail = False, False
@@ -374,7 +415,8 @@ def _find_root(
             return _refuse("change.case_without_result", quantity, value)
         if utilisation <= 0.0:
             return say("change.member_slack")
-        if 1.0 - _NEAR <= utilisation <= 1.0:
+        one_more = utilisation * (1.0 + step / value) ** power
+        if utilisation <= 1.0 and one_more >= 1.0 - _NEAR:
             return value
         if utilisation <= 1.0:
             passes, known_pass = value, True
@@ -392,7 +434,9 @@ def _find_root(
             power = slope if slope > _LEAST_POWER else power
         last = point
         aim = value * math.exp((math.log(1.0 - 0.5 * _NEAR) - point[1]) / power)
-        value = _keep_inside(aim, passes, fails, known_pass, known_fail)
+        aim = _keep_inside(aim, passes, fails, known_pass, known_fail)
+        told = _round_down(aim, step)
+        value = told if passes < told < fails else aim
     return say("change.not_settled")
 
 

@@ -30,8 +30,8 @@ _MORE_SLACK = 0.1
 _ANGLE = math.radians(15.0)
 _LEAST_GLIDE, _LEAST_LENGTH = 1.01, 0.3  # [-]; length over the snow thickness
 
-_SERVES = 0.9  # share of its largest force that a member carries in a case it shares
-_CLEAR = 0.85  # utilisation up to which the end of a search needs no confirmation
+_SERVES = 0.85  # share of its largest force that a member carries in a case it shares
+_CLEAR = 0.92  # utilisation up to which the end of a search needs no confirmation
 _AIM, _CLOSE = 0.975, 0.92  # utilisation aimed at, and near enough below 1
 _AIM_SHARE, _CLOSE_SHARE = 0.25, 0.6  # or these shares of what a check has left
 _LEAST_USED = 1e-3  # of a member that is slack at one end
@@ -54,7 +54,9 @@ class Span:
 
 
 def find_holds(
-    checks: Mapping[str, Target], probe: Probe
+    checks: Mapping[str, Target],
+    probe: Probe,
+    told: Mapping[str, Mapping[str, float]] | None = None,
 ) -> dict[str, list[HoldRecord]]:
     """Limits of every single quantity for every check of one row, by the check's id.
 
@@ -64,6 +66,9 @@ def find_holds(
         Checks of one row that have a force and a resistance.
     probe : Probe
         Solves what is asked for, each once.
+    told : mapping of str to mapping of str to float, optional
+        Largest values at which a check passes, by its id and the quantity's name, that
+        were found and confirmed before [SI]; they are not looked for again.
 
     Verified by
     -----------
@@ -75,25 +80,36 @@ def find_holds(
     spans = list_spans(one.row, one.ranges)
     serving = _choose_cases(checks)
     shared = list(dict.fromkeys(case.case for case in serving.values()))
-    probe.solve_all(
+    probe.solve_moved(
+        one.row,
         [
-            (one.row, case.with_value(span.name, value), probe.law)
+            (case, span.name, value)
             for span in spans
             for case in shared
             for value in (span.low, span.high)
-        ]
+            if value != span.now
+        ],
     )
     return {
-        name: _find_limits(check, spans, serving[name], probe)
+        name: _find_limits(
+            check, spans, serving[name], probe, (told or {}).get(name, {})
+        )
         for name, check in checks.items()
     }
 
 
 def _find_limits(
-    check: Target, spans: Sequence[Span], serving: CaseResult, probe: Probe
+    check: Target,
+    spans: Sequence[Span],
+    serving: CaseResult,
+    probe: Probe,
+    told: Mapping[str, float],
 ) -> list[HoldRecord]:
     near = list_near(check)[:_NEAREST]
-    return [_Line(check, near, span, serving, probe).record() for span in spans]
+    return [
+        _Line(check, near, span, serving, probe).record(told.get(span.name))
+        for span in spans
+    ]
 
 
 def list_spans(row: NetRow, ranges: Ranges) -> list[Span]:
@@ -145,14 +161,29 @@ def _find_ends(name: str, now: float, row: NetRow) -> tuple[float, float]:
 def _choose_cases(checks: Mapping[str, Target]) -> dict[str, CaseResult]:
     """For each check a case in which its member carries about its largest force.
 
-    As few as do: members share a case where they can.
+    As few as do: first the case that serves most checks, of several that one in which
+    they carry most.
     """
+    results = next(iter(checks.values())).results
+    shares = {
+        name: [check.share(one) for one in results] for name, check in checks.items()
+    }
+    least = {name: min(_SERVES, max(of_cases)) for name, of_cases in shares.items()}
     chosen: dict[str, CaseResult] = {}
-    for name, check in checks.items():
-        least, at = _SERVES * check.largest, check.governing
-        serves = (one for one in chosen.values() if check.force(one) >= least)
-        own = next(one for one in check.results if one.case == at)
-        chosen[name] = next(serves, own)
+    while len(chosen) < len(checks):
+        open_ = [name for name in checks if name not in chosen]
+        served = [
+            [name for name in open_ if shares[name][place] >= least[name]]
+            for place in range(len(results))
+        ]
+        best = max(
+            range(len(results)),
+            key=lambda place: (
+                len(served[place]),
+                sum(shares[name][place] for name in served[place]),
+            ),
+        )
+        chosen |= dict.fromkeys(served[best], results[best])
     return chosen
 
 
@@ -172,18 +203,20 @@ class _Line:
         self._parameter = PARAMETERS[span.name]
         self._serving = serving.case
         # what the serving case lacks of the largest force
-        carried = target.force(serving)
-        self._lack = target.largest / carried if carried else 1.0
+        self._lack = 1.0 / (target.share(serving) or 1.0)
         coupled = target.use(target.largest)
         self._used = max(coupled, self._target.use_least())
         self._passes = self._used <= 1.0
         self._note: Message | None = None
 
-    def record(self) -> HoldRecord:
-        """Limits to both sides, and how far they were searched."""
+    def record(self, told: float | None = None) -> HoldRecord:
+        """Limits to both sides, and how far they were searched.
+
+        ``told`` is the largest value at which the check passes, where that is known.
+        """
         span, before, show = self._span, self._probe.count, self._parameter.show
-        least, low = self._search(span.low)
-        most, high = self._search(span.high)
+        least, low = self._search(span.low, told)
+        most, high = self._search(span.high, told)
         if not self._passes:  # it turns beyond a limit, not before it
             least, most = most, least
         return HoldRecord(
@@ -197,39 +230,69 @@ class _Line:
             note=self._note,
         )
 
-    def _search(self, end: float) -> tuple[float | None, float]:
+    def _search(self, end: float, told: float | None) -> tuple[float | None, float]:
         """Limit towards an end, in the unit of its key, and how far was looked."""
         now = self._span.now
         if end == now:
             return None, now
+        if told is not None and self._is_between(told, end):
+            return self._parameter.show(told), end
         used = self._utilise([self._serving], end, self._lack)
-        if used is not None and used <= 1.0 and not (self._passes and used <= _CLEAR):
+        if used is not None and _CLEAR < used <= max(1.0, self._lack):
+            used = self._utilise(self._near[:1], end)
+        if used is not None and self._passes and _CLEAR < used <= 1.0:
             used = self._utilise(self._near, end)
         if used is None:
             return None, now
         if (used <= 1.0) is self._passes:
             return None, end
-        at_now = (now, self._used)
-        ends = (at_now, (end, used)) if self._passes else ((end, used), at_now)
-        return self._refine(*ends), end
+        if self._passes:
+            return self._refine((now, self._used), (end, used)), end
+        return self._refine_back((end, used))
+
+    def _refine_back(self, passing: tuple[float, float]) -> tuple[float | None, float]:
+        """Limit on the way back from an end where the check seems to pass."""
+        end, now = passing[0], self._span.now
+        found = self._refine(passing, (now, self._used))
+        if found != self._parameter.show(end):
+            return found, end
+        used = self._utilise(self._near, end)
+        if used is None:
+            return None, now
+        return (found if used <= 1.0 else None), end
+
+    def _is_between(self, value: float, end: float) -> bool:
+        """Value on the way to an end, which itself is no limit."""
+        now = self._span.now
+        return min(now, end) < value < max(now, end) and (value > now) is self._passes
 
     def _utilise(
         self, cases: Sequence[Case], value: float, lack: float = 1.0
     ) -> float | None:
-        """Largest utilisation in some cases with a value; None without a result."""
+        """Largest utilisation in some cases with a value; None without a result.
+
+        Once it exceeds 1 it is that of the cases so far.
+        """
         move = Move(name=self._span.name, value=value)
-        results = self._target.solve(self._probe, cases, move)
-        found = [self._target.utilisation(one, move) for one in results]
-        if any(one is None for one in found):
-            self._note = say("hold.no_result", value=self._parameter.show(value))
-            return None
-        coupled = lack * max(one for one in found if one is not None)
-        return self._target.use_more(coupled, move)
+        used = 0.0
+        for case in cases:
+            (result,) = self._target.solve(self._probe, [case], move)
+            found = self._target.utilisation(result, move)
+            if found is None:
+                self._note = say("hold.no_result", value=self._parameter.show(value))
+                return None
+            used = max(used, lack * found)
+            if used > 1.0:
+                break
+        return self._target.use_more(used, move)
 
     def _refine(
         self, passing: tuple[float, float], failing: tuple[float, float]
     ) -> float:
-        """Rounded value near the limit, on the passing side and confirmed."""
+        """Rounded value near the limit, on the passing side and confirmed.
+
+        The passing one that was given where none is found.
+        """
         left = 1.0 - passing[1]  # may be little: then less of it is given away
         goal = max(_AIM, 1.0 - _AIM_SHARE * left)
         close = max(_CLOSE, 1.0 - _CLOSE_SHARE * left)

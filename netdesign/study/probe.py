@@ -14,6 +14,8 @@ from netdesign.snow.law import Sides
 from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 
+_TWO_SIDED: Sides = "two-sided"
+
 
 def build_scene(
     row: NetRow, case: Case, law: CreepLaw, ground_contact: Sides = "two-sided"
@@ -64,11 +66,39 @@ class Probe:
         self._settings = settings
         self._runner = runner or Runner()
         self._known: dict[tuple[NetRow, Case, str, Sides], CaseResult] = {}
+        # of a row and a quantity all values that were asked for
+        self._tried: dict[tuple[NetRow, str], set[float]] = {}
 
     def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
         """Result of one case; a failed one is a result too."""
         (result,) = self.solve_all([(row, case, law or self.law)])
         return result
+
+    def solve_moved(
+        self, row: NetRow, wanted: Sequence[tuple[Case, str, float]]
+    ) -> list[CaseResult]:
+        """Results of some cases, each with another value of a named quantity [SI]."""
+        for _, name, value in wanted:
+            self._tried.setdefault((row, name), set()).add(value)
+        return self.solve_all(
+            [
+                (row, case.with_value(name, value), self.law)
+                for case, name, value in wanted
+            ]
+        )
+
+    def list_tried(self, row: NetRow, name: str, cases: Sequence[Case]) -> list[float]:
+        """Values of a quantity, ascending, at which all these cases were solved [SI]."""
+        tried = self._tried.get((row, name), set())
+        return sorted(
+            value
+            for value in tried
+            if all(
+                (row, case.with_value(name, value), self.law.name, _TWO_SIDED)
+                in self._known
+                for case in cases
+            )
+        )
 
     def solve_all(
         self,
@@ -79,8 +109,7 @@ class Probe:
 
         ``contacts`` are those of their grounds; two-sided unless told.
         """
-        two_sided: Sides = "two-sided"
-        sides = contacts or (two_sided,) * len(wanted)
+        sides = contacts or (_TWO_SIDED,) * len(wanted)
         keys: list[tuple[NetRow, Case, str, Sides]] = [
             (row, case, law.name, side)
             for (row, case, law), side in zip(wanted, sides, strict=True)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
@@ -51,7 +52,7 @@ class Push:
     ratio: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Target:
     """One check as a function of a solved case.
 
@@ -100,17 +101,41 @@ class Target:
     beside: tuple[tuple[str, float], ...] = ()
     push: Push | None = None
 
-    @property
+    @cached_property
     def largest(self) -> float:
         """Largest force of the member over the solved cases [N]."""
-        return max(self.force(one) for one in self.results if self.has_result(one))
+        return self._largest[self.member]
+
+    @cached_property
+    def _largest(self) -> dict[str, float]:
+        """Largest forces that the check follows, over the solved cases [N]."""
+        known = [one for one in self.results if self.has_result(one)]
+        names = (self.member, *(name for name, _ in self.beside))
+        return {name: max(self._read(one, name) for one in known) for name in names}
+
+    @cached_property
+    def _names(self) -> tuple[str, ...]:
+        """Names of all forces that the check follows."""
+        beside = tuple(name for name, _ in self.beside)
+        rope = (self.push.rope,) if self.push is not None else ()
+        return (self.member, *beside, *rope)
 
     def has_result(self, result: CaseResult) -> bool:
         """All forces are known that the check follows."""
-        names = [self.member, *(name for name, _ in self.beside)]
-        if self.push is not None:
-            names.append(self.push.rope)
-        return all(name in result.member_forces for name in names)
+        return all(name in result.member_forces for name in self._names)
+
+    def share(self, result: CaseResult) -> float:
+        """Share of their largest values that its forces have in a case, the least [-].
+
+        1 where they have none in any case, below 0 in a case without a result.
+        """
+        if not self.has_result(result):
+            return -1.0
+        largest = self._largest
+        return min(
+            self._read(result, name) / largest[name] if largest[name] else 1.0
+            for name in largest
+        )
 
     def force(self, result: CaseResult) -> float:
         """Upper end of the member's force in a case [N]."""
@@ -137,8 +162,8 @@ class Target:
         """
         known = {case: self._find_unmoved(case, move) for case in cases}
         moved = [case for case in cases if known[case] is None]
-        wanted = [case.with_value(move.name, move.value) for case in moved]
-        solved = probe.solve_all([(self.row, case, probe.law) for case in wanted])
+        wanted = [(case, move.name, move.value) for case in moved]
+        solved = probe.solve_moved(self.row, wanted)
         found = known | dict(zip(moved, solved, strict=True))
         return [one for case in cases if (one := found[case]) is not None]
 

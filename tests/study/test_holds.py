@@ -74,8 +74,10 @@ class MadeUpProbe:
         self.count, self._forces, self._fails = 0, forces, fails
         self._known, self.law = {}, BOUTILLIER_2004
 
-    def solve_all(self, wanted):
-        return [self._solve(row, case) for row, case, _ in wanted]
+    def solve_moved(self, row, wanted):
+        return [
+            self._solve(row, case.with_value(name, at)) for case, name, at in wanted
+        ]
 
     def _solve(self, row, case):
         if (row, case) not in self._known:
