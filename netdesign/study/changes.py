@@ -48,23 +48,37 @@ from netdesign.words.message import Message, say
 _SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness"}
 
 
+def list_targets(task: RowCheck, judged: Sequence[MemberCheck]) -> list[Target | None]:
+    """Checks as functions of a solved case; None of those that no solve may turn.
+
+    Of several supports that one which uses a member most: where that holds, the
+    others do.
+    """
+    if task.probe is None or task.solved.gap or task.row.is_overtopped:
+        return [None] * len(judged)
+    return [
+        _build_target(task, one) if _has_target(one) and is_worst(one, judged) else None
+        for one in judged
+    ]
+
+
 def find_row_holds(
     task: RowCheck,
-    judged: Sequence[MemberCheck],
     checks: Sequence[CheckRecord],
+    targets: Sequence[Target | None],
     ends: Mapping[str, Target],
 ) -> dict[str, list[HoldRecord]]:
     """Limits of single values for the checks that follow from forces, by their ids.
 
-    At the support that uses a member most: where that holds, the other one does.
-    ``ends`` are the checks of what holds the row along itself.
+    ``targets`` are those of the checks in their order, ``ends`` those of what holds
+    the row along itself.
     """
-    if task.probe is None or task.solved.gap or task.row.is_overtopped:
+    if task.probe is None:
         return {}
     held = {
-        check.id: _build_target(task, one)
-        for one, check in zip(judged, checks, strict=True)
-        if one.ratio > 0.0 and _has_target(one) and is_worst(one, judged)
+        check.id: target
+        for check, target in zip(checks, targets, strict=True)
+        if target is not None
     }
     told = {check.id: _list_told(check) for check in checks}
     return find_holds(held | dict(ends), task.probe, told)
@@ -129,12 +143,11 @@ def _find_end_factor(task: RowCheck, ranges: Ranges) -> float:
 
 
 def list_changes(
-    task: RowCheck, one: MemberCheck, effects: RowEffects, *, is_worst: bool
+    task: RowCheck, one: MemberCheck, effects: RowEffects, target: Target | None
 ) -> list[ChangeRecord]:
     """Changes that flip a failing, unproven or close check.
 
-    What needs a solve is looked for at the support that uses its member most: where
-    that passes, the other one does.
+    What needs a solve is looked for where there is a ``target``.
     """
     result, used = one.result, one.result.utilisation
     if result.demand is None or result.demand.high == 0.0 or task.row.is_overtopped:
@@ -155,9 +168,7 @@ def list_changes(
     if gap or one.doubt:
         note = say("change.as_far_as_solved" if gap else "change.if_law_accepted")
         return [replace(change, note=note) for change in changes]
-    if task.probe is None or not is_worst or not _has_target(one):
-        return changes
-    return changes + _list_solved_changes(task, _build_target(task, one))
+    return changes + (_list_solved_changes(task, target) if target else [])
 
 
 def _list_solved_changes(task: RowCheck, target: Target) -> list[ChangeRecord]:
@@ -178,7 +189,7 @@ def _has_target(one: MemberCheck) -> bool:
     A resistance that follows the snow does not, nor what is added to no force at all.
     """
     demand = one.demand
-    if demand is None or one.given.dimensions or one.use is None:
+    if demand is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
         return False
     return demand.largest.high > 0.0 or demand.load.added.high == 0.0
 

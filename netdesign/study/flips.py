@@ -20,6 +20,7 @@ from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.probe import Probe
 from netdesign.study.records import ChangeRecord
+from netdesign.study.root import LEAST_POWER, Root, refuse, round_down
 from netdesign.study.target import TRIED_DENSITIES, Move, Target, list_near
 from netdesign.units import degree_from_radian, radian_from_degree
 from netdesign.words.message import Message, say
@@ -27,13 +28,10 @@ from netdesign.words.message import Message, say
 CLOSE = 0.9  # utilisation from which a passing check is told where it flips
 _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
-_UNITS = {"density": "kg/m³", "thickness": "m"}  # of what is searched
-_MOST_ROUNDS, _MOST_STEPS = 4, 14
-_LEAST_POWER = 0.2  # of a force in a quantity, that a secant is taken with
+_MOST_ROUNDS = 4
 # Utilisation up to which a rival does not fail between two others of less and of more
 # friction: in 520 of such rivals it lay 0.07 % above the larger one of theirs at most.
 _ALONE = 0.998
-_NEAR = 2e-3  # a root is found when the utilisation lies this close below 1
 
 
 def find_spacing_change(
@@ -109,9 +107,9 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     least, most = _LEAST_SHARE * thickness, target.row.net_height
     highest = _find_floor_height(target, least, most)
     if highest is None:
-        bound, solves, note = None, 0, _refuse("change.not_even", "thickness", least)
+        bound, solves, note = None, 0, refuse("change.not_even", "thickness", least)
     elif target.is_slack:  # the floor alone decides
-        bound, solves, note = _round_down(highest, _STEPS["thickness"]), 0, None
+        bound, solves, note = round_down(highest, _STEPS["thickness"]), 0, None
     else:
         bound, solves, note = _search(
             target,
@@ -146,10 +144,6 @@ def _find_thinnest(target: Target) -> float:
     if "snow_height" in ranges.further:
         return compute_thickness(ranges["snow_height"].low, target.row.slope_angle)
     return 0.0
-
-
-def _round_down(value: float, step: float) -> float:
-    return round(math.floor(value / step + 1e-9) * step, 6)
 
 
 def _find_floor_height(target: Target, least: float, most: float) -> float | None:
@@ -289,10 +283,11 @@ def _search(
     active = target.governing
     value, power = start, _find_power(target, quantity, power)
     for _ in range(_MOST_ROUNDS):
-        found = _find_root(target, probe, quantity, active, value, limits, power, step)
+        root = Root(target, probe, quantity, active, limits, power, step)
+        found = root.find(value)
         if isinstance(found, Message):
             return None, probe.count - before, found
-        value = _round_down(found, step)
+        value = round_down(found, step)
         worst = _find_violator(target, probe, Move(name=quantity, value=value))
         if worst is None:
             at_end = found == limits[1]
@@ -302,11 +297,6 @@ def _search(
             return None, probe.count - before, worst
         active = worst
     return None, probe.count - before, say("change.not_settled")
-
-
-def _refuse(key: str, quantity: str, value: float, **more: Message) -> Message:
-    """Remark why a value is none, with its unit."""
-    return say(key, value=value, unit=_UNITS[quantity], **more)
 
 
 def _find_power(target: Target, quantity: str, usual: float) -> float:
@@ -326,7 +316,7 @@ def _find_power(target: Target, quantity: str, usual: float) -> float:
     for value in sorted(beside, key=lambda one: abs(one - at[quantity])):
         if used > 0.0 and beside[value] > 0.0:
             slope = math.log(used / beside[value]) / math.log(at[quantity] / value)
-            return slope if slope > _LEAST_POWER else usual
+            return slope if slope > LEAST_POWER else usual
     return usual
 
 
@@ -361,7 +351,7 @@ def _use_rivals(
         utilisation = target.utilisation(result, move)
         if utilisation is None:
             reason = result.reason or result.outcome.message
-            return _refuse(
+            return refuse(
                 "change.rival_without_result", move.name, move.value, reason=reason
             )
         used[case] = utilisation
@@ -386,68 +376,3 @@ def _list_rivals(target: Target, move: Move) -> list[Case]:
     near = list_near(target)
     moved = {case.with_value(move.name, move.value): case for case in reversed(near)}
     return list(reversed(moved.values()))
-
-
-def _find_root(
-    target: Target,
-    probe: Probe,
-    quantity: str,
-    case: Case,
-    start: float,
-    limits: tuple[float, float],
-    power: float,
-    step: float,
-) -> float | Message:
-    """Largest value at which one case passes, by secants of the logarithms.
-
-    The force grows about like a power of the value; ``power`` is the first guess. A
-    bracket keeps every step between a value that passes and one that fails. Multiples
-    of ``step`` are tried, since one of them is told: the last one that passes.
-    """
-    passes, fails = limits[0], limits[1]
-    known_pass, known_fail = False, False
-    value, last = min(max(start, passes), fails), None
-    for _ in range(_MOST_STEPS):
-        move = Move(name=quantity, value=value)
-        (result,) = target.solve(probe, [case], move)
-        utilisation = target.utilisation(result, move)
-        if utilisation is None:
-            return _refuse("change.case_without_result", quantity, value)
-        if utilisation <= 0.0:
-            return say("change.member_slack")
-        one_more = utilisation * (1.0 + step / value) ** power
-        if utilisation <= 1.0 and one_more >= 1.0 - _NEAR:
-            return value
-        if utilisation <= 1.0:
-            passes, known_pass = value, True
-            if value == limits[1]:
-                return value
-        else:
-            fails, known_fail = value, True
-            if value == limits[0]:
-                return _refuse("change.not_even", quantity, value)
-        if known_pass and known_fail and fails - passes < 1e-3 * fails:
-            return passes
-        point = (math.log(value), math.log(utilisation))
-        if last is not None and point[0] != last[0]:
-            slope = (point[1] - last[1]) / (point[0] - last[0])
-            power = slope if slope > _LEAST_POWER else power
-        last = point
-        aim = value * math.exp((math.log(1.0 - 0.5 * _NEAR) - point[1]) / power)
-        aim = _keep_inside(aim, passes, fails, known_pass, known_fail)
-        told = _round_down(aim, step)
-        value = told if passes < told < fails else aim
-    return say("change.not_settled")
-
-
-def _keep_inside(
-    aim: float, passes: float, fails: float, known_pass: bool, known_fail: bool
-) -> float:
-    """Aim, unless it leaves the bracket: then its middle, or its unproven end."""
-    if passes < aim < fails:
-        return aim
-    if aim >= fails and not known_fail:
-        return fails
-    if aim <= passes and not known_pass:
-        return passes
-    return 0.5 * (passes + fails)

@@ -66,8 +66,8 @@ class Probe:
         self._settings = settings
         self._runner = runner or Runner()
         self._known: dict[tuple[NetRow, Case, str, Sides], CaseResult] = {}
-        # of a row and a quantity all values that were asked for
-        self._tried: dict[tuple[NetRow, str], set[float]] = {}
+        # by row and quantity: cases and values that it was moved to
+        self._moved: dict[tuple[NetRow, str], dict[tuple[Case, float], CaseResult]] = {}
 
     def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
         """Result of one case; a failed one is a result too."""
@@ -78,27 +78,17 @@ class Probe:
         self, row: NetRow, wanted: Sequence[tuple[Case, str, float]]
     ) -> list[CaseResult]:
         """Results of some cases, each with another value of a named quantity [SI]."""
-        for _, name, value in wanted:
-            self._tried.setdefault((row, name), set()).add(value)
-        return self.solve_all(
-            [
-                (row, case.with_value(name, value), self.law)
-                for case, name, value in wanted
-            ]
-        )
+        moved = [case.with_value(name, value) for case, name, value in wanted]
+        results = self.solve_all([(row, case, self.law) for case in moved])
+        for (case, name, value), result in zip(wanted, results, strict=True):
+            self._moved.setdefault((row, name), {})[case, value] = result
+        return results
 
-    def list_tried(self, row: NetRow, name: str, cases: Sequence[Case]) -> list[float]:
-        """Values of a quantity, ascending, at which all these cases were solved [SI]."""
-        tried = self._tried.get((row, name), set())
-        return sorted(
-            value
-            for value in tried
-            if all(
-                (row, case.with_value(name, value), self.law.name, _TWO_SIDED)
-                in self._known
-                for case in cases
-            )
-        )
+    def list_moved(
+        self, row: NetRow, name: str
+    ) -> dict[tuple[Case, float], CaseResult]:
+        """Results so far of a row with a quantity moved, by case and value."""
+        return self._moved.get((row, name), {})
 
     def solve_all(
         self,

@@ -17,11 +17,13 @@ from netdesign.study.changes import (
     find_row_holds,
     list_changes,
     list_end_changes,
+    list_targets,
 )
 from netdesign.study.demand import tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects
-from netdesign.study.member_check import MemberCheck, RowCheck, is_worst
+from netdesign.study.holds import solve_ends
+from netdesign.study.member_check import MemberCheck, RowCheck
 from netdesign.study.member_loads import RowLoads, add_parts
 from netdesign.study.pulls import check_directions, find_pull
 from netdesign.study.record_cases import record_point
@@ -57,16 +59,18 @@ def check_row(
         _judge_member(task, given, width, extremes, loads)
         for width, given in list_checked(task.row, loads.effects)
     ]
+    ends = [_judge_end(task, given, loads) for given in list_end_members(task.row)]
+    end_targets = {one.id: one.target for one in ends if one.target}
+    targets = list_targets(task, judged)
+    if task.probe is not None:  # what is solved here serves changes and limits
+        known = [one for one in (*targets, *end_targets.values()) if one is not None]
+        solve_ends(known, task.probe)
     checks = []
-    for one in judged:
-        checks.append(
-            _record_member(task, one, loads.effects, is_worst=is_worst(one, judged))
-        )
+    for one, target in zip(judged, targets, strict=True):
+        checks.append(_record_member(task, one, loads.effects, target))
         task.on_check()
     before = task.probe.faults if task.probe else 0
-    ends = [_judge_end(task, given, loads) for given in list_end_members(task.row)]
-    targets = {one.id: one.target for one in ends if one.target}
-    holds = find_row_holds(task, judged, checks, targets)
+    holds = find_row_holds(task, checks, targets, end_targets)
     checks = [replace(one, holds=holds.get(one.id, [])) for one in checks]
     is_faulty = task.probe is not None and task.probe.faults > before
     if is_faulty:
@@ -226,7 +230,7 @@ def _find_doubt(task: RowCheck, extreme: Extreme) -> Message | None:
 
 
 def _record_member(
-    task: RowCheck, one: MemberCheck, effects: RowEffects, *, is_worst: bool
+    task: RowCheck, one: MemberCheck, effects: RowEffects, target: Target | None
 ) -> CheckRecord:
     given, result = one.given, one.result
     if one.extreme is None or one.demand is None:
@@ -234,7 +238,7 @@ def _record_member(
         return place_check(record_result(settled, given), one.width.position)
     before = task.probe.faults if task.probe else 0
     spreads = list_spreads(task, one, one.extreme)
-    changes = list_changes(task, one, effects, is_worst=is_worst)
+    changes = list_changes(task, one, effects, target)
     settled = settle_check(task.site, task.row, result, one.width.position)
     plain = one.demand.record(effects, given.member)
     action = add_parts(plain, one.extreme.governing, given.member)

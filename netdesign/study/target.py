@@ -19,6 +19,7 @@ from netdesign.study.probe import Probe
 TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 # Quantities that a glide factor follows from.
 ON_GLIDE = ("thickness", "snow_height", "slip_length", "glide_factor")
+SERVES = 0.85  # share of its largest force that a member carries in a case it shares
 _RIVAL = 0.9  # share of the governing force from which a case may take over
 _BESIDE = 0.13  # of every range: an eighth, and its rounding
 
@@ -169,8 +170,7 @@ class Target:
 
     def _find_unmoved(self, case: Case, move: Move) -> CaseResult | None:
         """Result of a solved case that already has the value; None of any other."""
-        of_row = self.row.snow_thickness if move.name == "thickness" else None
-        if case.values.get(move.name, of_row) != move.value:
+        if self._find_value(case, move.name) != move.value:
             return None
         same = (one for one in self.results if one.case == case)
         return next((one for one in same if self.has_result(one)), None)
@@ -186,6 +186,34 @@ class Target:
         for name, scale in self.beside:
             used = max(used, scale * self._read(result, name) + self.added)
         return used * self._compare_width(move)
+
+    def list_estimates(self, probe: Probe, name: str) -> dict[float, float]:
+        """Utilisation at values of a quantity that were solved, as far as known [-].
+
+        Each by the case in which the forces are nearest to their largest values, as if
+        they grew there as they do in that case.
+        """
+        now = self._find_value(self.governing, name)
+        shares = {
+            one.case: self.share(one)
+            for one in self.results
+            if self._find_value(one.case, name) == now
+        }
+        found: dict[float, tuple[float, float]] = {}
+        for (case, value), result in probe.list_moved(self.row, name).items():
+            share = shares.get(case, 0.0)
+            if share < SERVES or share <= found.get(value, (0.0, 0.0))[0]:
+                continue
+            used = self.utilisation(result, Move(name=name, value=value))
+            if used is not None:
+                found[value] = share, used / share
+        known = {value: used for value, (_, used) in found.items()}
+        return known if now is None else known | {now: self.use(self.largest)}
+
+    def _find_value(self, case: Case, name: str) -> float | None:
+        """Value that a case has, or the row as far as it may be asked for."""
+        of_row = self.row.snow_thickness if name == "thickness" else None
+        return case.values.get(name, of_row)
 
     def use_least(self, move: Move | None = None) -> float:
         """Utilisation by the guideline's load alone [-], of what is moved."""
