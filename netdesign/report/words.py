@@ -28,6 +28,8 @@ if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
 
 MISSING = "-"
 _FIGURES = 5  # of a number that nobody typed: what follows is right to a thousandth
+_BLANKS = re.compile("[ \n]+")
+_POINT = re.compile(r"(?<=\d)\.(?=\d)")
 _SAME = 1e-12  # relative; a typed number after its way through SI units
 
 
@@ -60,7 +62,7 @@ class Words:
 
     def write_formula(self, formula: str) -> str:
         """Formula of ours whose numbers have the decimal mark of the language."""
-        return re.sub(r"(?<=\d)\.(?=\d)", self.write("."), formula)
+        return _POINT.sub(self.write("."), formula)
 
     def show_number(self, key: str, value: float | None) -> str:
         """Value of the quantity ``key`` with its decimals, without unit.
@@ -216,7 +218,9 @@ def show_text(text: str) -> str:
 
     No-break spaces stay: French sets them before some marks.
     """
-    return re.sub("[ \n]+", " ", make_printable(text)).strip() or MISSING
+    if text.isprintable() and "  " not in text:
+        return text.strip() or MISSING
+    return _BLANKS.sub(" ", make_printable(text)).strip() or MISSING
 
 
 def _round_figures(value: float) -> str:

@@ -394,6 +394,10 @@ def stack_tables(
     return Table(
         caption=caption,
         columns=(text_column(words("heading.net_row")), *first.columns),
-        rows=tuple((text_cell(one), *row) for one, part in parts for row in part.rows),
+        rows=tuple(
+            (name, *row)
+            for name, part in ((text_cell(one), part) for one, part in parts)
+            for row in part.rows
+        ),
         empty=first.empty,
     )
