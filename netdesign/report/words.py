@@ -16,7 +16,13 @@ from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.site.columns.fields import normalise
-from netdesign.words.catalogue import Language, load_texts, render
+from netdesign.words.catalogue import (
+    Language,
+    fill_text,
+    load_tables,
+    load_texts,
+    render,
+)
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
 from netdesign.words.numerals import set_marks
@@ -41,7 +47,7 @@ class Words:
 
     def __call__(self, key: str, /, **arguments: Argument) -> str:
         """Text of a key with its gaps filled."""
-        return render(Message(key, arguments), self.language)
+        return fill_text(key, arguments, self.language)
 
     @property
     def semicolon(self) -> str:
@@ -294,14 +300,14 @@ def show_own(words: Words, text: str) -> str:
 
 
 _OWN = (
-    *("profile_title.", "profile_about.", "profile_text.", "profile_source."),
-    *("creep_law.", "reference.", "measured.", "model_source."),
+    *("profile_title", "profile_about", "profile_text", "profile_source"),
+    *("creep_law", "reference", "measured", "model_source"),
 )
 
 
 @lru_cache(maxsize=1)
 def _list_own_texts() -> dict[str, str]:
-    return {text: key for key, text in load_texts("en").items() if key.startswith(_OWN)}
+    return {text: key for key, text in load_tables("en", _OWN).items()}
 
 
 def number_format(key: str) -> str:

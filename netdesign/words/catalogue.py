@@ -16,7 +16,7 @@ from __future__ import annotations
 import re
 import string
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache, lru_cache
 from importlib.resources import files
 from types import MappingProxyType
@@ -44,11 +44,16 @@ def render(message: Message | str, language: Language) -> str:
     """
     if isinstance(message, str):
         return message
+    return fill_text(message.key, message.arguments, language)
+
+
+def fill_text(key: str, arguments: Mapping[str, Any], language: Language) -> str:
+    """Text of a key with its gaps filled; errors as of `render`."""
     written = []
-    for before, name, form, conversion in _open_text(language, message.key):
+    for before, name, form, conversion in _open_text(language, key):
         written.append(before)
         if name is not None:
-            value = message.arguments[name]
+            value = arguments[name]
             if conversion:
                 value = _convert(value, conversion, language)
             written.append(_fill(value, form or "", language))
@@ -106,6 +111,15 @@ def _count(count: int, one: str, many: str, *, language: Language) -> str:
 def load_texts(language: Language) -> Mapping[str, str]:
     """All texts of a language by key."""
     return _Texts(language)
+
+
+def load_tables(language: Language, tables: Iterable[str]) -> dict[str, str]:
+    """Texts of some tables by key, without those of the others."""
+    return {
+        key: text
+        for table in tables
+        for key, text in _load_table(language, table).items()
+    }
 
 
 class _Texts(Mapping[str, str]):

@@ -382,7 +382,9 @@ def hash_results(study: Study) -> str:
         "profile": study.profile.sha256,
         "rows": study.rows,
     }
-    text = json.dumps(content, default=list_fields, allow_nan=False)
+    text = json.dumps(
+        content, default=list_fields, allow_nan=False, check_circular=False
+    )
     return hashlib.sha256(text.encode()).hexdigest()
 
 
