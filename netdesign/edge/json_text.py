@@ -24,7 +24,7 @@ MAX_JSON_BYTES = 32 * 2**20
 MAX_VALUES = 800_000
 MAX_OBJECTS = 150_000
 _SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
-_PLAIN = frozenset({str, int, float, bool, type(None)})
+_FEW = 4  # values below which the encoder takes longer to set up than to write
 _MOST_KEYS = 200  # of one object
 
 
@@ -55,20 +55,22 @@ def _write_value(value: Any, margin: str) -> str:
     (1e-07 as 1e-7, 1e-05 as 0.00001, 1e+22 as 1e22); studies have the same bytes.
     """
     inside = f"{margin} "
-    encode = _build_encoder(inside).encode
-    if is_dataclass(value) or isinstance(value, MappingProxyType):
+    if not isinstance(value, dict | list | tuple):
+        if not (is_dataclass(value) or isinstance(value, MappingProxyType)):
+            return _build_encoder(inside).encode(value)
         value = list_fields(value)
-    if not value or not isinstance(value, dict | list | tuple):
-        return encode(value)
-    parts = value.values() if isinstance(value, dict) else value
-    if _PLAIN.issuperset(map(type, parts)):
-        flat = encode(value)
+    is_object = isinstance(value, dict)
+    if not value:
+        return "{}" if is_object else "[]"
+    parts = value.values() if is_object else value
+    if len(value) > _FEW and _PLAIN.issuperset(map(type, parts)):
+        flat = _build_encoder(inside).encode(value)
         return f"{flat[0]}{inside}{flat[1:-1]}{margin}{flat[-1]}"
     written = [
-        _write_plain(one) if type(one) in _PLAIN else _write_value(one, inside)
+        write(one) if (write := _WRITE.get(type(one))) else _write_value(one, inside)
         for one in parts
     ]
-    if not isinstance(value, dict):
+    if not is_object:
         return f"[{inside}{f',{inside}'.join(written)}{margin}]"
     members = [
         f"{_write_key(key)}: {text}" for key, text in zip(value, written, strict=True)
@@ -76,18 +78,25 @@ def _write_value(value: Any, margin: str) -> str:
     return f"{{{inside}{f',{inside}'.join(members)}{margin}}}"
 
 
-def _write_plain(value: str | float | None) -> str:
+def _write_float(value: float) -> str:
     """Text as the encoder writes it, without what it sets up for each value."""
-    if type(value) is str:
-        return encode_basestring(value)
-    if type(value) is float and isfinite(value):
-        return repr(value)
-    return _build_encoder("").encode(value)
+    return repr(value) if isfinite(value) else _build_encoder("").encode(value)
 
 
-@lru_cache(maxsize=1024)
+_WRITE: dict[type, Callable[[Any], str]] = {
+    str: encode_basestring,
+    float: _write_float,
+    int: repr,
+    bool: {True: "true", False: "false"}.__getitem__,
+    type(None): lambda _: "null",
+}
+_PLAIN = frozenset(_WRITE)
+
+
+@lru_cache(maxsize=1024, typed=True)
 def _write_key(key: str) -> str:
-    return json.dumps(key, ensure_ascii=False)
+    """Key as the encoder writes it, in quotes whatever it is."""
+    return json.dumps({key: None}, ensure_ascii=False)[1 : -len(": null}")]
 
 
 def list_fields(value: Any) -> dict[str, Any]:
@@ -118,7 +127,10 @@ def _open_shape(shape: type) -> tuple[tuple[str, ...], Callable[[object], Any]]:
 @lru_cache
 def _build_encoder(margin: str) -> json.JSONEncoder:
     return json.JSONEncoder(
-        ensure_ascii=False, allow_nan=False, separators=(f",{margin}", ": ")
+        ensure_ascii=False,
+        allow_nan=False,
+        check_circular=False,  # what is written is made of frozen values
+        separators=(f",{margin}", ": "),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Callable, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -75,38 +75,88 @@ def render_files(
     return contents
 
 
+def render_kind(
+    kind: str, study: Study, style: ReportStyle, view: ReportView | None = None
+) -> bytes:
+    """Content of one file of a study, independent of the others.
+
+    Another process can make it: function, arguments and result are pickled by name and
+    value. A view takes longer to pickle and to read than to build: there it is left out.
+
+    Parameters
+    ----------
+    kind : str
+        Suffix of the file, as ``.xlsx``; modules of the others are not imported.
+    study : Study
+        What is shown.
+    style : ReportStyle
+        Language, detail and look.
+    view : ReportView, optional
+        Of this study in the language of the style, where it is there already.
+    """
+    return _KINDS[kind](study, style, view)
+
+
 def _render(
     study: Study, wanted: Set[str], style: ReportStyle, view: ReportView | None
 ) -> dict[str, bytes]:
-    """Wanted formats of a study; modules of the others are not imported."""
-    rendered: dict[str, bytes] = {}
-    if view is None and wanted & {".html", ".pdf", ".xlsx", ".docx"}:
+    """Wanted formats of a study; what several of them need is made once."""
+    if view is None and wanted & _OF_A_VIEW:
         from netdesign.report.view.whole import build_view
 
         view = build_view(study, style.language)
-    if wanted & {".html", ".pdf"}:
-        from netdesign.report.page.html import render_html
-
-        page = render_html(study, style.language, style.detail, view)
-        rendered[".html"] = page.encode()
+    alone = sorted(wanted - {".pdf"})
+    rendered = {kind: render_kind(kind, study, style, view) for kind in alone}
     if ".pdf" in wanted:
-        from netdesign.report.page.pdf import render_pdf
-
-        rendered[".pdf"] = render_pdf(page)
-    if ".docx" in wanted:
-        from netdesign.report.document.word import render_document
-
-        rendered[".docx"] = render_document(
-            study, style.language, style.detail, view, style.template
-        )
-    if ".xlsx" in wanted:
-        from netdesign.report.workbook.excel import render_workbook
-
-        rendered[".xlsx"] = render_workbook(study, style.language, view)
-    if ".csv" in wanted:
-        from netdesign.report.view.case_table import render_cases
-
-        rendered[".csv"] = render_cases(study, style.language)
-    if ".json" in wanted:
-        rendered[".json"] = write_document(study).encode()
+        page = rendered.get(".html") or _render_page(study, style, view)
+        rendered[".pdf"] = _print_page(page)
     return rendered
+
+
+def _render_page(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
+    from netdesign.report.page.html import render_html
+
+    return render_html(study, style.language, style.detail, view).encode()
+
+
+def _render_pdf(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
+    return _print_page(_render_page(study, style, view))
+
+
+def _print_page(page: bytes) -> bytes:
+    from netdesign.report.page.pdf import render_pdf
+
+    return render_pdf(page.decode())
+
+
+def _render_docx(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
+    from netdesign.report.document.word import render_document
+
+    return render_document(study, style.language, style.detail, view, style.template)
+
+
+def _render_xlsx(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
+    from netdesign.report.workbook.excel import render_workbook
+
+    return render_workbook(study, style.language, view)
+
+
+def _render_csv(study: Study, style: ReportStyle, _: ReportView | None) -> bytes:
+    from netdesign.report.view.case_table import render_cases
+
+    return render_cases(study, style.language)
+
+
+def _render_json(study: Study, _: ReportStyle, __: ReportView | None) -> bytes:
+    return write_document(study).encode()
+
+
+_KINDS: dict[str, Callable[[Study, ReportStyle, ReportView | None], bytes]] = {
+    ".html": _render_page,
+    ".pdf": _render_pdf,
+    ".docx": _render_docx,
+    ".xlsx": _render_xlsx,
+    ".csv": _render_csv,
+    ".json": _render_json,
+}
+_OF_A_VIEW = {".html", ".pdf", ".docx", ".xlsx"}

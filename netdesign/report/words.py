@@ -16,7 +16,13 @@ from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.site.columns.fields import normalise
-from netdesign.words.catalogue import Language, load_texts, render
+from netdesign.words.catalogue import (
+    Language,
+    fill_text,
+    load_tables,
+    load_texts,
+    render,
+)
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
 from netdesign.words.numerals import set_marks
@@ -28,6 +34,8 @@ if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
 
 MISSING = "-"
 _FIGURES = 5  # of a number that nobody typed: what follows is right to a thousandth
+_BLANKS = re.compile("[ \n]+")
+_POINT = re.compile(r"(?<=\d)\.(?=\d)")
 _SAME = 1e-12  # relative; a typed number after its way through SI units
 
 
@@ -39,7 +47,7 @@ class Words:
 
     def __call__(self, key: str, /, **arguments: Argument) -> str:
         """Text of a key with its gaps filled."""
-        return render(Message(key, arguments), self.language)
+        return fill_text(key, arguments, self.language)
 
     @property
     def semicolon(self) -> str:
@@ -60,7 +68,7 @@ class Words:
 
     def write_formula(self, formula: str) -> str:
         """Formula of ours whose numbers have the decimal mark of the language."""
-        return re.sub(r"(?<=\d)\.(?=\d)", self.write("."), formula)
+        return _POINT.sub(self.write("."), formula)
 
     def show_number(self, key: str, value: float | None) -> str:
         """Value of the quantity ``key`` with its decimals, without unit.
@@ -216,7 +224,9 @@ def show_text(text: str) -> str:
 
     No-break spaces stay: French sets them before some marks.
     """
-    return re.sub("[ \n]+", " ", make_printable(text)).strip() or MISSING
+    if text.isprintable() and "  " not in text:
+        return text.strip() or MISSING
+    return _BLANKS.sub(" ", make_printable(text)).strip() or MISSING
 
 
 def _round_figures(value: float) -> str:
@@ -290,14 +300,14 @@ def show_own(words: Words, text: str) -> str:
 
 
 _OWN = (
-    *("profile_title.", "profile_about.", "profile_text.", "profile_source."),
-    *("creep_law.", "reference.", "measured.", "model_source."),
+    *("profile_title", "profile_about", "profile_text", "profile_source"),
+    *("creep_law", "reference", "measured", "model_source"),
 )
 
 
 @lru_cache(maxsize=1)
 def _list_own_texts() -> dict[str, str]:
-    return {text: key for key, text in load_texts("en").items() if key.startswith(_OWN)}
+    return {text: key for key, text in load_tables("en", _OWN).items()}
 
 
 def number_format(key: str) -> str:

@@ -57,7 +57,8 @@ def _write_open(key: _Itself) -> tuple[str, str]:
 def _digest(text: str) -> str:
     # 2 and 2.0 are one number, and become one when a document is read
     values = json.loads(text, parse_int=float)
-    return hashlib.sha256(json.dumps(values).encode()).hexdigest()
+    text = json.dumps(values, check_circular=False)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def write_document(study: Study) -> str:

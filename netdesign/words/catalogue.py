@@ -16,7 +16,7 @@ from __future__ import annotations
 import re
 import string
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache, lru_cache
 from importlib.resources import files
 from types import MappingProxyType
@@ -30,6 +30,7 @@ from netdesign.words.numerals import set_marks, write_day
 _CLAUSE, _DATE, _ONE_OR_MANY = "clause", "date", "|"
 _GAP = re.compile(r"(\{[^{}]*\})")
 _TABLE = re.compile(r"^\[([\w-]+)", re.MULTILINE)  # first name in its heading
+_FORMATTER = string.Formatter()
 _BEFORE_SIGN = re.compile(r" (?=[:;?!%»])|(?<=«) ")  # French sets these apart
 
 
@@ -43,53 +44,82 @@ def render(message: Message | str, language: Language) -> str:
     """
     if isinstance(message, str):
         return message
-    return _Gaps(language).vformat(
-        load_texts(language)[message.key], (), message.arguments
-    )
+    return fill_text(message.key, message.arguments, language)
 
 
-class _Gaps(string.Formatter):
-    """Fills the gaps of one language's text."""
+def fill_text(key: str, arguments: Mapping[str, Any], language: Language) -> str:
+    """Text of a key with its gaps filled; errors as of `render`."""
+    written = []
+    for before, name, form, conversion in _open_text(language, key):
+        written.append(before)
+        if name is not None:
+            value = arguments[name]
+            if conversion:
+                value = _convert(value, conversion, language)
+            written.append(_fill(value, form or "", language))
+    return "".join(written)
 
-    def __init__(self, language: Language) -> None:
-        self.language = language
 
-    def convert_field(self, value: Any, conversion: str | None) -> Any:
-        """An argument before it is text: ``!r`` is a number to its last digit."""
-        text = super().convert_field(value, conversion)
-        is_number = conversion and isinstance(value, int | float)
-        return set_marks(text, self.language) if is_number else text
+@cache
+def _open_text(
+    language: Language, key: str
+) -> tuple[tuple[str, str | None, str | None, str | None], ...]:
+    """Parts of a text: what stands before a gap, its name, form and conversion.
 
-    def format_field(self, value: Any, format_spec: str) -> str:
-        """An argument as text: words of ours in the language of the whole."""
-        if format_spec == _CLAUSE:
-            return self.format_field(value, "").rstrip(".")
-        if isinstance(value, str) and format_spec.startswith(_DATE):
-            return write_day(value, self.language)
-        if isinstance(value, int) and _ONE_OR_MANY in format_spec:
-            return self._count(value, *format_spec.split(_ONE_OR_MANY))
-        if isinstance(value, Message):
-            return render(value, self.language)
-        if isinstance(value, tuple):
-            inner = _DATE if format_spec.startswith(_DATE) else ""
-            format_spec = format_spec.removeprefix(inner)
-            parts = (self.format_field(one, inner) for one in value)
-            joint = format_spec or ", "
-            return (_set_apart(joint) if self.language == "fr" else joint).join(parts)
-        text = str(super().format_field(value, format_spec))
-        return (
-            set_marks(text, self.language) if isinstance(value, int | float) else text
-        )
+    A gap has one argument by its name, and nothing is filled into its form.
+    """
+    return tuple(_FORMATTER.parse(load_texts(language)[key]))
 
-    def _count(self, count: int, one: str, many: str) -> str:
-        """Noun with its number: French has the singular for none, too."""
-        is_one = count == 1 or (count == 0 and self.language == "fr")
-        return (one if is_one else many).replace("#", self.format_field(count, ""))
+
+def _convert(value: Any, conversion: str, language: Language) -> Any:
+    """An argument before it is text: ``!r`` is a number to its last digit."""
+    text = _FORMATTER.convert_field(value, conversion)
+    return set_marks(text, language) if isinstance(value, int | float) else text
+
+
+def _fill(value: Any, form: str, language: Language) -> str:
+    """An argument as text: words of ours in the language of the whole."""
+    if form == _CLAUSE:
+        return _fill(value, "", language).rstrip(".")
+    if isinstance(value, str):
+        is_day = form.startswith(_DATE)
+        return write_day(value, language) if is_day else format(value, form)
+    if isinstance(value, Message):
+        return render(value, language)
+    if isinstance(value, tuple):
+        return _join(value, form, language)
+    if isinstance(value, int) and _ONE_OR_MANY in form:
+        return _count(value, *form.split(_ONE_OR_MANY), language=language)
+    text = format(value, form)
+    return set_marks(text, language) if isinstance(value, int | float) else text
+
+
+def _join(values: tuple[Any, ...], form: str, language: Language) -> str:
+    """List as text; French sets a semicolon between its parts apart."""
+    inner = _DATE if form.startswith(_DATE) else ""
+    joint = form.removeprefix(inner) or ", "
+    parts = (_fill(one, inner, language) for one in values)
+    return (_set_apart(joint) if language == "fr" else joint).join(parts)
+
+
+def _count(count: int, one: str, many: str, *, language: Language) -> str:
+    """Noun with its number: French has the singular for none, too."""
+    is_one = count == 1 or (count == 0 and language == "fr")
+    return (one if is_one else many).replace("#", _fill(count, "", language))
 
 
 def load_texts(language: Language) -> Mapping[str, str]:
     """All texts of a language by key."""
     return _Texts(language)
+
+
+def load_tables(language: Language, tables: Iterable[str]) -> dict[str, str]:
+    """Texts of some tables by key, without those of the others."""
+    return {
+        key: text
+        for table in tables
+        for key, text in _load_table(language, table).items()
+    }
 
 
 class _Texts(Mapping[str, str]):
@@ -162,4 +192,4 @@ def _list_texts(table: Mapping[str, Any], above: str) -> Iterator[tuple[str, str
 
 def list_gaps(text: str) -> frozenset[str]:
     """Names of the arguments that a text asks for."""
-    return frozenset(name for _, name, _, _ in string.Formatter().parse(text) if name)
+    return frozenset(name for _, name, _, _ in _FORMATTER.parse(text) if name)

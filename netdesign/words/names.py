@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 
 
+@lru_cache(maxsize=1024)
 def name(family: str, key: str) -> Message:
     """Name of one of a family: text ``family.key``, or the key as it was given."""
     text = f"{family}.{key}"

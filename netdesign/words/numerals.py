@@ -32,7 +32,8 @@ def set_marks(number: str, language: Language) -> str:
     >>> set_marks("12.50", "en"), set_marks("12.50", "fr"), set_marks("3.8e-16", "de")
     ('12.50', '12,50', '3,8e-16')
     """
-    return number.translate(_MARKS.get(language, {}))
+    marks = _MARKS.get(language)
+    return number.translate(marks) if marks else number
 
 
 def write_day(day: str, language: Language) -> str:

@@ -9,7 +9,7 @@ import pytest
 
 import netdesign
 from netdesign.edge.resources import find_resource
-from netdesign.words.catalogue import LANGUAGES, _Gaps, list_gaps, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, _fill, list_gaps, load_texts, render
 from netdesign.words.message import say
 
 PACKAGE = Path(netdesign.__file__).parent
@@ -142,10 +142,9 @@ def test_an_argument_that_lacks_is_a_fault():
 @pytest.mark.parametrize("spec", ["; ", " ; ", ": ", ", ", "\n"])
 def test_french_sets_the_semicolons_of_a_list_apart(spec):
     """Whatever the text has between the parts of a list."""
-    gaps = _Gaps("fr")
-    joint = gaps.format_field(("a", "b"), spec)[1:-1]
+    joint = _fill(("a", "b"), spec, "fr")[1:-1]
     assert (joint == "\u00a0; ") is (";" in spec)
-    assert _Gaps("de").format_field(("a", "b"), spec) == f"a{spec}b"
+    assert _fill(("a", "b"), spec, "de") == f"a{spec}b"
 
 
 def test_no_text_of_a_page_joins_its_parts_by_itself():

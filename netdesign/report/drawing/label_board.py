@@ -111,7 +111,7 @@ class LabelBoard:
         return box, (box.right, box.top + tall / 2), math.inf
 
     def _list_places(self, label: Label) -> Iterator[tuple[Box, Point, float]]:
-        best = math.atan2(label.toward[1], label.toward[0])
+        best, size = math.atan2(label.toward[1], label.toward[0]), label.size
         for reach in _REACHES:
             for turn in _TURNS:
                 angle = best + math.pi / 8 * turn
@@ -119,7 +119,7 @@ class LabelBoard:
                     label.at[0] + reach * math.cos(angle),
                     label.at[1] + reach * math.sin(angle),
                 )
-                yield _hang(label.size, foot, angle), foot, reach
+                yield _hang(size, foot, angle), foot, reach
 
     def _is_free(self, box: Box, *, avoids_lines: bool) -> bool:
         if box.left < 0 or box.top < 0:
@@ -128,9 +128,13 @@ class LabelBoard:
             return False
         if any(box.meets(other, _AIR) for other in self.taken):
             return False
-        return not avoids_lines or not any(
-            box.left - 1 < x < box.right + 1 and box.top - 1 < y < box.bottom + 1
-            for x, y in self.lines
+        return not (avoids_lines and self._crosses_line(box))
+
+    def _crosses_line(self, box: Box) -> bool:
+        left, right = box.left - 1, box.right + 1
+        top, bottom = box.top - 1, box.bottom + 1
+        return any(
+            [True for x, y in self.lines if left < x < right and top < y < bottom]
         )
 
 

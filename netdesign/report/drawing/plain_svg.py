@@ -20,6 +20,8 @@ _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
 _TICK = 2.5  # length of a tick [pt]
 _APART = 3.0  # least space between the numbers of two ticks [pt]
 SHADES = 16  # greys from white to the darkest: as many as a print tells apart
+_GREYS = tuple(f"#{250 - 11 * level:02x}" + 2 * f"{250 - 11 * level:02x}"
+               for level in range(SHADES))  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -204,23 +206,24 @@ def drop_straight(points: Sequence[tuple[float, float]]) -> list[tuple[float, fl
     """
     kept, start = list(points[:1]), 0
     for end in range(2, len(points)):
-        between = points[start + 1 : end]
-        if any(
-            _measure_off(one, points[start], points[end]) > _STRAIGHT for one in between
-        ):
+        if _bends(points[start : end + 1]):
             start = end - 1
             kept.append(points[start])
     return [*kept, *points[1:][-1:]]
 
 
-def _measure_off(
-    point: tuple[float, float], start: tuple[float, float], end: tuple[float, float]
-) -> float:
-    """Distance of a point from the line through two others [pt]."""
-    x, y = point[0] - start[0], point[1] - start[1]
-    dx, dy = end[0] - start[0], end[1] - start[1]
+def _bends(points: Sequence[tuple[float, float]]) -> bool:
+    """A point lies off the line from the first to the last one, so far that it shows.
+
+    A page has a hundred thousand of these distances: they are worked out in place.
+    """
+    (x0, y0), (x1, y1) = points[0], points[-1]
+    dx, dy = x1 - x0, y1 - y0
     length = math.hypot(dx, dy)
-    return abs(x * dy - y * dx) / length if length else math.hypot(x, y)
+    if not length:
+        return any(math.hypot(x - x0, y - y0) > _STRAIGHT for x, y in points)
+    off = max([abs((x - x0) * dy - (y - y0) * dx) for x, y in points[1:-1]])
+    return off / length > _STRAIGHT
 
 
 def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
@@ -257,8 +260,7 @@ def list_loose_ticks(frame: Frame) -> list[float]:
 def shade(value: float, low: float, high: float) -> str:
     """Grey for a value, white at the low end; prints without colour."""
     share = (value - low) / (high - low) if high > low else 0.0
-    level = 250 - 11 * round((SHADES - 1) * min(1.0, max(0.0, share)))
-    return f"#{level:02x}{level:02x}{level:02x}"
+    return _GREYS[round((SHADES - 1) * min(1.0, max(0.0, share)))]
 
 
 def bounds_of(values: Iterable[Sequence[float]]) -> tuple[float, float]:

@@ -93,6 +93,7 @@ class Sketch(Chart):
 
 def _write_segment(start: Point, end: Point) -> str:
     """Line of a path, its end counted from its start: fewer digits."""
-    (x0, y0), (x1, y1) = ((round(x, 1), round(y, 1)) for x, y in (start, end))
-    numbers = (show_place(one) for one in (x0, y0, x1 - x0, y1 - y0))
-    return "M{} {}l{} {}".format(*numbers)
+    x, y = round(start[0], 1), round(start[1], 1)
+    along, down = round(end[0], 1) - x, round(end[1], 1) - y
+    line = f"{show_place(along)} {show_place(down)}"
+    return f"M{show_place(x)} {show_place(y)}l{line}"

@@ -16,6 +16,8 @@ from netdesign.words.text_field import Text
 _MOST_USED = 3  # lines of a row that its summary shows
 _PLAIN = "check.passes"  # what the table's numbers and its caption say already
 
+_Viewed = tuple[CheckRecord, CheckView]  # a check and itself in words
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckLine:
@@ -36,12 +38,20 @@ class CheckLine:
     remarks: tuple[str, ...]
 
 
-def list_lines(checks: Sequence[CheckRecord], words: Words) -> tuple[CheckLine, ...]:
-    """Checks of forces, in their order; those of one resistance share a line."""
-    places: dict[tuple[object, ...], list[CheckRecord]] = {}
-    for check in checks:
+def list_lines(
+    checks: Sequence[CheckRecord],
+    words: Words,
+    views: Sequence[CheckView] = (),
+) -> tuple[CheckLine, ...]:
+    """Checks of forces, in their order; those of one resistance share a line.
+
+    ``views`` are the same checks in words, if they are known.
+    """
+    known = views or [view_check(check, words) for check in checks]
+    places: dict[tuple[object, ...], list[_Viewed]] = {}
+    for check, view in zip(checks, known, strict=True):
         if check.action is not None:
-            places.setdefault(_name_resistance(check), []).append(check)
+            places.setdefault(_name_resistance(check), []).append((check, view))
     return tuple(
         _build_line(group, words)
         for together in places.values()
@@ -57,10 +67,14 @@ def choose_lines(lines: Sequence[CheckLine]) -> tuple[CheckLine, ...]:
 
 
 def list_requirements(
-    checks: Sequence[CheckRecord], words: Words
+    checks: Sequence[CheckRecord],
+    words: Words,
+    views: Sequence[CheckView] = (),
 ) -> tuple[CheckView, ...]:
     """Checks without a force: of geometry and directions, and those not solved."""
-    return tuple(view_check(one, words) for one in checks if one.action is None)
+    known = views or [view_check(check, words) for check in checks]
+    pairs = zip(checks, known, strict=True)
+    return tuple(view for check, view in pairs if check.action is None)
 
 
 def _name_resistance(check: CheckRecord) -> tuple[object, ...]:
@@ -75,14 +89,15 @@ def _name_resistance(check: CheckRecord) -> tuple[object, ...]:
     )
 
 
-def _split(together: list[CheckRecord]) -> list[list[CheckRecord]]:
+def _split(together: list[_Viewed]) -> list[list[_Viewed]]:
     """One inside and one at the end belong together; more never share a line."""
-    places = [one.position == "edge" for one in together]
+    places = [one.position == "edge" for one, _ in together]
     return [together] if places == [False, True] else [[one] for one in together]
 
 
-def _build_line(group: list[CheckRecord], words: Words) -> CheckLine:
-    shown = {one.position == "edge": view_check(one, words) for one in group}
+def _build_line(viewed: list[_Viewed], words: Words) -> CheckLine:
+    shown = {one.position == "edge": view for one, view in viewed}
+    group = [one for one, _ in viewed]
     worst = min((one.verdict for one in group), key=SEVERITY.index)
     first = next(iter(shown.values()))
     return CheckLine(

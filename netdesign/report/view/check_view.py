@@ -153,6 +153,15 @@ def view_check(check: CheckRecord, words: Words) -> CheckView:
     )
 
 
+def pick_view(
+    check: CheckRecord | None,
+    checks: Sequence[CheckRecord],
+    views: Sequence[CheckView],
+) -> CheckView | None:
+    """One of several checks in words, by these words in the same order."""
+    return None if check is None else views[checks.index(check)]
+
+
 def find_case(check: CheckRecord) -> CasePoint | None:
     """Case of the ranges that brings the demand; None where the guideline does."""
     action = check.action

@@ -382,7 +382,9 @@ def hash_results(study: Study) -> str:
         "profile": study.profile.sha256,
         "rows": study.rows,
     }
-    text = json.dumps(content, default=list_fields, allow_nan=False)
+    text = json.dumps(
+        content, default=list_fields, allow_nan=False, check_circular=False
+    )
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -394,6 +396,10 @@ def stack_tables(
     return Table(
         caption=caption,
         columns=(text_column(words("heading.net_row")), *first.columns),
-        rows=tuple((text_cell(one), *row) for one, part in parts for row in part.rows),
+        rows=tuple(
+            (name, *row)
+            for name, part in ((text_cell(one), part) for one, part in parts)
+            for row in part.rows
+        ),
         empty=first.empty,
     )

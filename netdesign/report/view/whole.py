@@ -42,6 +42,7 @@ from netdesign.report.view.check_view import (
     find_governing,
     find_highest,
     find_shown,
+    pick_view,
     rank_check,
     view_check,
     work_out,
@@ -277,21 +278,22 @@ def _view_row(
 ) -> RowView:
     """One row in words, but for the notes that are ``told`` elsewhere."""
     governing, highest = find_governing(row.checks), find_highest(row.checks)
-    shown, lines = find_shown(row), list_lines(row.checks, words)
+    checks = tuple(view_check(check, words) for check in row.checks)
+    shown, lines = find_shown(row), list_lines(row.checks, words, checks)
     return RowView(
         anchor=f"row-{number}",
         id=show_text(row.id),
         verdict=show_verdict(row.verdict, words),
         counts=_count_verdicts((check.verdict for check in row.checks), words),
-        governing=view_check(governing, words) if governing else None,
-        highest=view_check(highest, words)
-        if highest and highest != governing
+        governing=pick_view(governing, row.checks, checks),
+        highest=pick_view(highest, row.checks, checks)
+        if highest != governing
         else None,
         reasons=tuple(words.show(reason) for reason in row.reasons),
-        checks=tuple(view_check(check, words) for check in row.checks),
+        checks=checks,
         lines=lines,
         main_lines=choose_lines(lines),
-        requirements=list_requirements(row.checks, words),
+        requirements=list_requirements(row.checks, words, checks),
         worked=work_out(shown, words) if shown else None,
         drawn_case=words.name_case(row.drawing.case if row.drawing else None),
         unloaded=_name_unloaded(row, words),

@@ -7,6 +7,7 @@ calculate show the study's numbers.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from netdesign.outcome import Verdict
@@ -24,7 +25,7 @@ from netdesign.report.view.check_formulas import (
     write_verdict,
 )
 from netdesign.report.view.check_view import CheckView, find_case
-from netdesign.report.view.table import Cell, Column, number_cell
+from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import (
@@ -57,7 +58,7 @@ CHANGED = "caption.changed"
 _WANTED = {True: "caption.above_zero", False: "caption.at_least_zero"}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Field:
     """Column of the sheet: letter, key of its quantity, key of its heading, width.
 
@@ -73,16 +74,21 @@ class _Field:
     end: str = ""
     is_of_study: bool = False
 
-    @property
+    @cached_property
     def index(self) -> int:
         """Place of the column, from zero."""
         *tens, ones = (ord(sign) - ord("A") for sign in self.letter)
         return ones + 26 * sum(ten + 1 for ten in tens)
 
-    @property
+    @cached_property
     def is_number(self) -> bool:
         """True if its cells are numbers."""
         return bool(self.quantity) or self.heading == "heading.no"
+
+    @cached_property
+    def bare(self) -> Column:
+        """The column without a heading."""
+        return Column(heading="", quantity=self.quantity, is_number=self.is_number)
 
     def name(self, words: Words) -> Column:
         """The column under its heading."""
@@ -339,10 +345,10 @@ class _CheckLine:
         )
         held = write_held(formula, self._list_conditions(check), words)
         form = self._book.text(bold=True, text_wrap=True)
-        self._sheet.write_formula(self._at(_VERDICT), held, form, shown)
+        self._sheet.write_formula(*self._place(_VERDICT), held, form, shown)
         rank = write_rank(self._at(_LEAD[0]), self._at(_VERDICT), ends[1], words)
         value = compute_rank(number, check.verdict, check.utilisation)
-        self._sheet.write_formula(self._at(_RANK), rank, None, value)
+        self._sheet.write_formula(*self._place(_RANK), rank, None, value)
 
     def _list_conditions(self, check: CheckRecord) -> list[str]:
         """Conditions under which the cells that are no formulas hold."""
@@ -375,22 +381,23 @@ class _CheckLine:
             [(at(_VERDICT), at(_STUDY_VERDICT))],
             self._list_conditions(check),
         )
-        self._sheet.write_formula(at(_UNCHANGED), formula, None, 1)
+        self._sheet.write_formula(*self._place(_UNCHANGED), formula, None, 1)
 
     def _write_sentences(self, texts: tuple[str, str]) -> None:
         """Write sentences of the study, shown as long as they hold."""
         form, changed = self._book.text(text_wrap=True), self._book.words(CHANGED)
         for field, stored, text in zip(_TAIL, _STUDY_TEXTS, texts, strict=True):
             formula = f'=IF({self._at(_UNCHANGED)}=1,{self._at(stored)},"{changed}")'
-            self._sheet.write_formula(self._at(field), formula, form, text)
+            self._sheet.write_formula(*self._place(field), formula, form, text)
 
     def _at(self, field: _Field) -> str:
         return f"{field.letter}{self._line + 1}"
 
+    def _place(self, field: _Field) -> tuple[int, int]:
+        return self._line, field.index
+
     def _put(self, field: _Field, cell: Cell) -> None:
-        place = (self._line, field.index)
-        column = Column(heading="", quantity=field.quantity, is_number=field.is_number)
-        self._book.write_cell(self._sheet, place, column, cell)
+        self._book.write_cell(self._sheet, self._place(field), field.bare, cell)
 
     def _put_factor(
         self, field: _Field, value: float | None, link: ProfileCell | None
@@ -402,21 +409,22 @@ class _CheckLine:
         form = self._book.format(
             align="right", num_format=number_format(field.quantity)
         )
-        self._sheet.write_formula(self._at(field), f"={link.place}", form, value)
+        place = self._place(field)
+        self._sheet.write_formula(*place, f"={link.place}", form, value)
 
     def _put_number(
         self, field: _Field, value: float | None, formula: str = ""
     ) -> None:
         """Write a number; with ``formula`` it is live, and "-" without its parts."""
-        if not formula:
-            self._put(field, number_cell(self._book.words, field.quantity, value))
+        if not formula:  # its text stands only where no number does
+            self._put(field, Cell(text=MISSING, number=value))
             return
         form = self._book.format(
             align="right", num_format=number_format(field.quantity)
         )
         live = f'=IFERROR({formula},"{MISSING}")'
         cached = MISSING if value is None else value
-        self._sheet.write_formula(self._at(field), live, form, cached)
+        self._sheet.write_formula(*self._place(field), live, form, cached)
 
 
 def show_load(check: CheckRecord, view: CheckView, words: Words) -> str:

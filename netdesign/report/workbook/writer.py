@@ -6,6 +6,8 @@ import math
 import re
 import textwrap
 from collections.abc import Sequence
+from functools import lru_cache
+from types import MappingProxyType
 from typing import Any
 
 from netdesign.outcome import Verdict
@@ -31,14 +33,16 @@ _COLOURS = {
 }
 # Widths are in digits of the default font. Every program must have it, or one as wide:
 # LibreOffice prints a sheet a third smaller that names one which it lacks.
-DEFAULT_FONT = {"font_name": "Arial", "font_size": 10}
+DEFAULT_FONT = MappingProxyType({"font_name": "Arial", "font_size": 10})
 _NARROWEST, _WIDEST = 6.0, 50.0  # columns
 _CHARACTER, _CAPITAL = 0.82, 0.3  # width of one of ours; what a capital has beyond it
+_WIDEST_LETTER = 1.13  # above that of a capital, whatever is rounded
 _BOLD = 1.1  # width of bold letters over that of others
 _INDENT = 1.5  # of a text
 _DIGIT_PT = 5.56  # width of a digit
 _LINE_PT = 11.5  # height of a line of text
 _DECIMAL = re.compile(r"-?\d+(?:[.,](\d+))?")  # with the mark of any language
+_WRAPPED = "text"  # no quantity: cells of words
 _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
@@ -98,7 +102,7 @@ class Book:
         self.verdicts = {verdict: show_verdict(verdict, words) for verdict in Verdict}
         self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
-        self._forms: dict[tuple[bool, tuple[str, Any] | None], Any] = {}
+        self._forms: dict[tuple[bool, str | int | None], Any] = {}
         self._papers: dict[str, Paper] = {}
 
     def format(self, **properties: Any) -> Any:
@@ -130,6 +134,7 @@ class Book:
     def add_sheet(self, name: str, title: str, *, paper: int = A4) -> Any:
         """Sheet with a title in its first cell, ready to print on one page width."""
         sheet = self.workbook.add_worksheet(self.name(name))
+        sheet._prepare_formula = _take_as_is
         sheet.hide_gridlines(2)
         sheet.set_landscape()
         sheet.set_paper(paper)
@@ -190,24 +195,20 @@ class Book:
     ) -> None:
         """Write a number as a number with its format, all else as text."""
         if cell.number is None or not math.isfinite(cell.number):
-            form = self._form(column, ("text_wrap", True))
+            form = self._form(column, _WRAPPED)
             sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
             return
-        shown = None
-        if column.quantity:
-            shown = ("num_format", number_format(column.quantity))
-        elif found := _DECIMAL.fullmatch(cell.text):  # as many digits as the page shows
-            decimals = len(found[1] or "")
-            shown = ("num_format", f"0.{'0' * decimals}".rstrip("."))
+        shown = column.quantity or _count_decimals(cell.text)
         sheet.write_number(*place, cell.number, self._form(column, shown))
 
-    def _form(self, column: Column, more: tuple[str, Any] | None) -> Any:
-        """Format of a column's cells, with one more property."""
-        key = (column.is_number, more)
-        if key not in self._forms:
-            properties = {} if more is None else dict([more])
-            self._forms[key] = self.format(**_align(column), **properties)
-        return self._forms[key]
+    def _form(self, column: Column, shown: str | int | None) -> Any:
+        """Format of a column's cells: of a text, of a quantity, or with decimals."""
+        key = (column.is_number, shown)
+        form = self._forms.get(key)
+        if form is None:
+            form = self.format(**_align(column), **_find_look(shown))
+            self._forms[key] = form
+        return form
 
     def write_table(
         self, sheet: Any, table: Table, top: int, widths: Sequence[float]
@@ -316,6 +317,32 @@ class Book:
         sheet.conditional_format(*area, rule)
 
 
+def _take_as_is(formula: str, *_: object) -> str:
+    """Formula of ours as the file has it: it needs no prefix, and has no braces.
+
+    XlsxWriter looks in each for some thirty functions newer than the format, one after
+    the other: a third of the time of a workbook. Where it has no such step any more,
+    nobody calls this.
+    """
+    return formula.removeprefix("=")
+
+
+def _count_decimals(text: str) -> int | None:
+    """Digits behind the mark of a number, as many as the page shows; None of none."""
+    found = _DECIMAL.fullmatch(text)
+    return len(found[1] or "") if found else None
+
+
+def _find_look(shown: str | int | None) -> dict[str, Any]:
+    """Property of a format, by what `_count_decimals` or a column says of its cells."""
+    if shown is None:
+        return {}
+    if shown == _WRAPPED:
+        return {"text_wrap": True}
+    decimals = f"0.{'0' * shown}".rstrip(".") if isinstance(shown, int) else ""
+    return {"num_format": decimals or number_format(str(shown))}
+
+
 def _align(column: Column) -> dict[str, Any]:
     """Numbers to the right; texts keep a distance from a number before them."""
     return {"align": "right"} if column.is_number else {"align": "left", "indent": 1}
@@ -329,7 +356,7 @@ def count_lines(
     ``look`` is the width of its letters over that of plain ones.
     """
     return max(
-        _wrap(text, width / look) for text, width in zip(texts, widths, strict=False)
+        [_wrap(text, width / look) for text, width in zip(texts, widths, strict=False)]
     )
 
 
@@ -350,15 +377,25 @@ def _measure_longest(heading: str) -> float:
 
 def _wrap(text: str, width: float) -> int:
     """Lines of a text in a column; a part of it is the distance from the one before."""
+    if _WIDEST_LETTER * len(text) + _INDENT <= width:
+        return 1
     wide = _measure(text)
     if wide + _INDENT <= width:
         return 1
     letters = (width - _INDENT) * len(text) / wide
-    return len(textwrap.wrap(text, max(int(letters), 1)))
+    return _fold(text, max(int(letters), 1))
+
+
+@lru_cache(maxsize=1024)
+def _fold(text: str, letters: int) -> int:
+    """Lines of so many letters; kept, for most long texts stand at many checks."""
+    return len(textwrap.wrap(text, letters))
 
 
 def _measure(text: str) -> float:
     """Width of a text in digits of the default font; capitals are wider than others."""
+    if text.isascii() and text == text.lower():
+        return _CHARACTER * len(text)
     return _CHARACTER * len(text) + _CAPITAL * sum(map(str.isupper, text))
 
 
