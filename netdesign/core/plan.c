@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEEPEST = 20, KEYS = 4 };
+enum { DEEPEST = 20, KEYS = 6 };
 
 typedef struct {
     int32_t n_nodes, n_triangles, n_net, depth;
@@ -38,7 +38,8 @@ static int compare(const void *one, const void *other) {
     return (a->item > b->item) - (a->item < b->item);
 }
 
-/* Where to cut: along X, along Y, around the net's foot or around its head. */
+/* Where to cut: along X, along Y, around the net's foot or around its head, or on a ray
+ * from either. A ray's key grows with its angle from the net. */
 static double find_key(const Plan *to, int32_t triangle, int which) {
     const int32_t *corner = to->triangles + TRIANGLE * triangle;
     double x = 0.0, y = 0.0;
@@ -49,7 +50,8 @@ static double find_key(const Plan *to, int32_t triangle, int which) {
     if (which == 0) return x;
     if (which == 1) return y;
     if (which == 2) return x * x + y * y;
-    return x * x + (1.0 - y) * (1.0 - y);
+    if (which == 3) return x * x + (1.0 - y) * (1.0 - y);
+    return x / (x + (which == 4 ? y : 1.0 - y)); /* inside: x and either y are above 0 */
 }
 
 /* Number of nodes that both halves of some triangles share. */
