@@ -48,7 +48,7 @@ _ITERATED_SHARE = 0.04
 _INNER_SHARE = 0.1
 _LOOSEST_INNER = 1e-2
 # How far a net that was found on a coarser mesh may still move.
-_REFINED = 4e-3
+_REFINED = 2e-3
 # Flows of corrected rounds leave this much less, so that a miss is the step's own.
 _CORRECTED = 0.1
 # Iterations on the first mesh may leave more: it is only compared with the next.
