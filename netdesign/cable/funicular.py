@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -190,8 +191,7 @@ def linearise_curve(
     unit = np.eye(2)[:, :, None, None]
     across = unit - np.einsum("iqe,jqe->ijqe", direction, direction)
     give = across / size + unit / stiffness  # slope dx/dS per tension vector
-    loads = np.eye(2 * count).reshape(2 * count, 2, count)
-    offsets = tension_offsets(loads, -0.75 * loads[..., 1::2])
+    offsets = _offset_units(count)
     slopes = np.einsum("ijqe,kjqe->kiqe", give, offsets)
     closing = np.linalg.solve(
         np.einsum("ijqe,e->ij", give, lengths),
@@ -200,6 +200,15 @@ def linearise_curve(
     slopes -= np.einsum("ijqe,jk->kiqe", give, closing)
     moved = integrate_curve(slopes, lengths).reshape(2, count, 2, count)
     return np.asarray(moved.transpose(2, 3, 0, 1))
+
+
+@lru_cache(maxsize=8)
+def _offset_units(count: int) -> Floats:
+    """Offsets of a unit force at each node, shape (2 n_nodes, 2, 2, n_elements)."""
+    loads = np.eye(2 * count).reshape(2 * count, 2, count)
+    offsets = tension_offsets(loads, -0.75 * loads[..., 1::2])
+    offsets.setflags(write=False)
+    return offsets
 
 
 def tension_offsets(forces: Floats, bend: Floats) -> Floats:

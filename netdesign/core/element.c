@@ -78,7 +78,7 @@ static void turn(const Mesh *mesh, const int32_t *nodes, double *values, int ste
 }
 
 /* Stresses of unit velocities at a point times its weight, (3, 12). */
-static void weigh_strains(const Mesh *mesh, const double *moduli, int32_t point,
+WIDE static void weigh_strains(const Mesh *mesh, const double *moduli, int32_t point,
                           double *to) {
     const double *dx = mesh->gradients + (ptrdiff_t)TRIANGLE * point;
     const double *dy = dx + (ptrdiff_t)TRIANGLE * POINTS * mesh->n_triangles;

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { PANEL = 8 }; /* pivots that are eliminated together, 2 to the power of 3 */
+
 typedef struct {
     int32_t pivots, size, left;   /* unknowns: eliminated here, all, the others */
     const int32_t *nodes, *map;   /* (size / 2,), and of the others in the parent */
@@ -51,7 +53,7 @@ WIDE static void add_block(const Front *front, double *factor, double *update,
 }
 
 /* Adds what a child has left. */
-static void add_child(const Front *front, double *factor, double *update,
+WIDE static void add_child(const Front *front, double *factor, double *update,
                       const Front *child, const double *given) {
     int32_t count = child->left / 2;
     for (int32_t a = 0; a < child->left; a++) {
@@ -85,7 +87,14 @@ static inline void take(double *restrict row, const double *restrict pivot, doub
     for (int32_t j = from; j < to; j++) row[j] -= by * pivot[j];
 }
 
-/* Takes the products of four rows of pivots at once: rows are read less often. */
+/* Takes the products of some rows of pivots at once: the row is read less often. */
+static inline void take_two(double *restrict row, double *const *pivot, int32_t i,
+                            int32_t to) {
+    const double *restrict p = pivot[0], *restrict q = pivot[1];
+    double a = p[i], b = q[i];
+    for (int32_t j = i; j < to; j++) row[j] = (row[j] - a * p[j]) - b * q[j];
+}
+
 static inline void take_four(double *restrict row, double *const *pivot, int32_t i,
                              int32_t to) {
     const double *restrict p = pivot[0], *restrict q = pivot[1];
@@ -95,32 +104,57 @@ static inline void take_four(double *restrict row, double *const *pivot, int32_t
         row[j] = (((row[j] - a * p[j]) - b * q[j]) - c * r[j]) - d * s[j];
 }
 
-/* Eliminates the pivots of a front. */
+static inline void take_eight(double *restrict row, double *const *pivot, int32_t i,
+                              int32_t to) {
+    const double *restrict p = pivot[0], *restrict q = pivot[1];
+    const double *restrict r = pivot[2], *restrict s = pivot[3];
+    const double *restrict t = pivot[4], *restrict u = pivot[5];
+    const double *restrict v = pivot[6], *restrict w = pivot[7];
+    double a = p[i], b = q[i], c = r[i], d = s[i];
+    double e = t[i], f = u[i], g = v[i], h = w[i];
+    for (int32_t j = i; j < to; j++)
+        row[j] = (((((((row[j] - a * p[j]) - b * q[j]) - c * r[j]) - d * s[j])
+                    - e * t[j]) - f * u[j]) - g * v[j]) - h * w[j];
+}
+
+/* Takes an even number of pivots from a row. */
+static inline void take_pivots(double *restrict row, double *const *pivot, int32_t count,
+                               int32_t i, int32_t to) {
+    if (count == PANEL) {
+        take_eight(row, pivot, i, to);
+        return;
+    }
+    if (count & 4) take_four(row, pivot, i, to);
+    if (count & 2) take_two(row, pivot + (count & 4), i, to);
+}
+
+/* Eliminates a few pivots within their own rows. */
+WIDE static int eliminate_panel(const Front *front, double *const *pivot, double *load,
+                                int32_t k, int32_t count, const uint8_t *is_free) {
+    for (int32_t c = 0; c < count; c++) {
+        take_pivots(pivot[c], pivot, c & ~1, k + c, front->size);
+        if (c & 1) take(pivot[c], pivot[c - 1], pivot[c - 1][k + c], k + c, front->size);
+        for (int32_t e = 0; e < c; e++) load[k + c] -= pivot[e][k + c] * load[k + e];
+        int32_t unknown = 2 * front->nodes[(k + c) / 2] + (k + c) % 2;
+        if (scale_row(pivot[c], load, k + c, front->size, is_free[unknown]))
+            return SINGULAR;
+    }
+    return FINE;
+}
+
+/* Eliminates the pivots of a front, which are even in number. */
 WIDE static int eliminate(const Front *front, double *factor, double *update, double *load,
                      const uint8_t *is_free) {
-    for (int32_t k = 0; k < front->pivots; k += 4) {
-        int32_t count = front->pivots - k < 4 ? front->pivots - k : 4;
-        double *pivot[4] = {NULL, NULL, NULL, NULL};
-        for (int32_t c = 0; c < count; c++) {
+    for (int32_t k = 0; k < front->pivots; k += PANEL) {
+        int32_t count = front->pivots - k < PANEL ? front->pivots - k : PANEL;
+        double *pivot[PANEL] = {NULL};
+        for (int32_t c = 0; c < count; c++)
             pivot[c] = row_of(front, factor, update, k + c);
-            for (int32_t e = 0; e < c; e++) {
-                take(pivot[c], pivot[e], pivot[e][k + c], k + c, front->size);
-                load[k + c] -= pivot[e][k + c] * load[k + e];
-            }
-            int32_t unknown = 2 * front->nodes[(k + c) / 2] + (k + c) % 2;
-            if (scale_row(pivot[c], load, k + c, front->size, is_free[unknown]))
-                return SINGULAR;
-        }
+        if (eliminate_panel(front, pivot, load, k, count, is_free)) return SINGULAR;
         for (int32_t i = k + count; i < front->size; i++) {
+            for (int32_t c = 0; c < count; c++) load[i] -= pivot[c][i] * load[k + c];
             double *row = row_of(front, factor, update, i);
-            for (int32_t c = 0; c < count; c++)
-                load[i] -= pivot[c][i] * load[k + c];
-            if (count == 4) {
-                take_four(row, pivot, i, front->size);
-                continue;
-            }
-            for (int32_t c = 0; c < count; c++)
-                take(row, pivot[c], pivot[c][i], i, front->size);
+            take_pivots(row, pivot, count, i, front->size);
         }
     }
     return FINE;

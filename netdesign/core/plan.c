@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEEPEST = 20, KEYS = 4 };
+enum { DEEPEST = 20, KEYS = 6 };
+enum { CUTS = 3, TWENTIETHS = 20, LEAST_UNEVEN = 16 }; /* where parts are cut */
 
 typedef struct {
     int32_t n_nodes, n_triangles, n_net, depth;
@@ -38,7 +39,8 @@ static int compare(const void *one, const void *other) {
     return (a->item > b->item) - (a->item < b->item);
 }
 
-/* Where to cut: along X, along Y, around the net's foot or around its head. */
+/* Where to cut: along X, along Y, around the net's foot or around its head, or on a ray
+ * from either. A ray's key grows with its angle from the net. */
 static double find_key(const Plan *to, int32_t triangle, int which) {
     const int32_t *corner = to->triangles + TRIANGLE * triangle;
     double x = 0.0, y = 0.0;
@@ -49,16 +51,18 @@ static double find_key(const Plan *to, int32_t triangle, int which) {
     if (which == 0) return x;
     if (which == 1) return y;
     if (which == 2) return x * x + y * y;
-    return x * x + (1.0 - y) * (1.0 - y);
+    if (which == 3) return x * x + (1.0 - y) * (1.0 - y);
+    return x / (x + (which == 4 ? y : 1.0 - y)); /* inside: x and either y are above 0 */
 }
 
-/* Number of nodes that both halves of some triangles share. */
-static int32_t count_shared(Plan *to, const Sorted *part, int32_t count) {
+/* Number of nodes that the first triangles of a part share with its others. */
+static int32_t count_shared(Plan *to, const Sorted *part, int32_t count,
+                            int32_t first_count) {
     int32_t shared = 0, first = ++to->stamp, second = ++to->stamp;
     for (int32_t i = 0; i < count; i++) {
         const int32_t *node = to->triangles + TRIANGLE * part[i].item;
         for (int k = 0; k < TRIANGLE; k++) {
-            if (i < (count + 1) / 2) {
+            if (i < first_count) {
                 to->mark[node[k]] = first;
             } else if (to->mark[node[k]] == first) {
                 to->mark[node[k]] = second;
@@ -69,9 +73,16 @@ static int32_t count_shared(Plan *to, const Sorted *part, int32_t count) {
     return shared;
 }
 
-/* Triangles of a part, its first half in front. */
-static void halve(Plan *to, int32_t *part, int32_t count, Sorted *work) {
-    int32_t least = INT32_MAX;
+/* Triangles of the first half if a part is cut in the middle, or a twentieth beside it.
+ * Small parts are cut in the middle: none may be left without triangles. */
+static int32_t count_first(int32_t count, int cut) {
+    if (cut == 0 || count < LEAST_UNEVEN) return (count + 1) / 2;
+    return count * (TWENTIETHS / 2 + (cut == 1 ? -1 : 1)) / TWENTIETHS;
+}
+
+/* Triangles of a part, its first half in front; the number of these. */
+static int32_t halve(Plan *to, int32_t *part, int32_t count, Sorted *work) {
+    int32_t least = INT32_MAX, half = 0;
     Sorted *best = work + count;
     for (int which = 0; which < KEYS; which++) {
         for (int32_t i = 0; i < count; i++) {
@@ -79,13 +90,17 @@ static void halve(Plan *to, int32_t *part, int32_t count, Sorted *work) {
             work[i].key = find_key(to, part[i], which);
         }
         qsort(work, (size_t)count, sizeof *work, compare);
-        int32_t shared = count_shared(to, work, count);
-        if (shared < least) {
+        for (int cut = 0; cut < (count < LEAST_UNEVEN ? 1 : CUTS); cut++) {
+            int32_t first = count_first(count, cut);
+            int32_t shared = count_shared(to, work, count, first);
+            if (shared >= least) continue;
             least = shared;
+            half = first;
             memcpy(best, work, (size_t)count * sizeof *work);
         }
     }
     for (int32_t i = 0; i < count; i++) part[i] = best[i].item;
+    return half;
 }
 
 static int split_triangles(Plan *to) {
@@ -97,9 +112,8 @@ static int split_triangles(Plan *to) {
         int32_t last = (part & (part + 1)) == 0; /* of its level */
         int32_t end = last ? to->n_triangles : to->starts[part + 1];
         int32_t start = to->starts[part], count = end - start;
-        halve(to, to->order + start, count, work);
         to->starts[2 * part] = start;
-        to->starts[2 * part + 1] = start + (count + 1) / 2;
+        to->starts[2 * part + 1] = start + halve(to, to->order + start, count, work);
     }
     free(work);
     return FINE;

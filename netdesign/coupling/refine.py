@@ -121,7 +121,7 @@ STEADY_ERROR = ErrorModel(
     slip_share=0.3,
     lift_share=0.5,
     lift_floor=3e-3,
-    memory=0.5,
+    memory=0.45,
     kinship=0.5,
 )
 

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Mask, gather
-from netdesign.snow.ordering import Blocks, Ordering, list_entries
+from netdesign.snow.ordering import Blocks, Ordering, Pattern
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
     from scipy.sparse.linalg import SuperLU
 
 
-# Above these half bandwidths SuperLU is faster (measured at 470 to 4100 unknowns).
-_WIDEST_CHOLESKY, _WIDEST_LU = 220, 120
+# Above these half bandwidths SuperLU is faster (measured at 470 to 6800 unknowns).
+_WIDEST_CHOLESKY, _WIDEST_LU = 160, 90
 # Slipping nodes, over the half bandwidth, whose friction is cheaper beside a Cholesky
 # factor than in an LU one.
 _MOST_SLIPPING = 0.15
@@ -207,32 +207,33 @@ def _solve_sparse(
 ) -> Floats:
     from scipy.sparse.linalg import splu
 
-    sum_up = _sum_by_pattern if ordering.is_layered else _sum_anew
-    matrix = sum_up(ordering, parts, held)
+    pattern = ordering.find_pattern(parts)
+    matrix = _sum_up(pattern, parts, held)
     try:
         factors = splu(
             matrix,
-            permc_spec="MMD_AT_PLUS_A",
+            permc_spec="NATURAL",  # the pattern has it in order
             diag_pivot_thresh=0.01,
             options={"SymmetricMode": True},
         )
     except RuntimeError as error:  # how SuperLU tells of a singular matrix
         raise SingularError(str(error)) from None
+    rhs = np.empty_like(load, order="F")
+    rhs[pattern.place] = load
     if load.ndim == 1:
-        return _solve_refined(factors, matrix, load)
-    pieces = np.split(load, range(_COLUMNS, load.shape[1], _COLUMNS), axis=1)
+        return _solve_refined(factors, matrix, rhs)[pattern.place]
+    pieces = np.split(rhs, range(_COLUMNS, load.shape[1], _COLUMNS), axis=1)
     if ordering.is_layered:  # only a derivative has several: it needs few digits
-        return np.hstack([factors.solve(piece) for piece in pieces])
-    return np.hstack([_solve_refined(factors, matrix, piece) for piece in pieces])
+        found = [factors.solve(piece) for piece in pieces]
+    else:
+        found = [_solve_refined(factors, matrix, piece) for piece in pieces]
+    return np.asarray(np.hstack(found)[pattern.place])
 
 
-def _sum_by_pattern(
-    ordering: Ordering, parts: Sequence[Blocks], held: Mask
-) -> sparse.csc_matrix:
-    """Sum of the parts where it was stored before."""
+def _sum_up(pattern: Pattern, parts: Sequence[Blocks], held: Mask) -> sparse.csc_matrix:
+    """Sum of the parts in the pattern's order."""
     import scipy.sparse as sparse
 
-    pattern = ordering.find_pattern(parts)
     values = np.concatenate([part.values.ravel() for part in parts])
     stored = gather(pattern.slots, values, pattern.rows.size)
     stored[pattern.diagonal[held]] = _scale_of(values)
@@ -241,21 +242,6 @@ def _sum_by_pattern(
     )
     matrix.has_canonical_format = True  # else it is looked through each time
     return matrix
-
-
-def _sum_anew(_: Ordering, parts: Sequence[Blocks], held: Mask) -> sparse.csc_matrix:
-    """The same in scipy's order, on which last digits of uniform snow hang."""
-    import scipy.sparse as sparse
-
-    rows, columns = list_entries([part.dofs for part in parts])
-    values = np.concatenate([part.values.ravel() for part in parts])
-    fixed = np.flatnonzero(held)
-    diagonal = np.full(fixed.size, _scale_of(values))
-    entries = (
-        np.concatenate([values, diagonal]),
-        (np.concatenate([rows, fixed]), np.concatenate([columns, fixed])),
-    )
-    return sparse.csc_matrix(entries, shape=(held.size, held.size))
 
 
 def _solve_refined(factors: SuperLU, matrix: sparse.csc_matrix, load: Floats) -> Floats:

@@ -101,6 +101,8 @@ class Pattern(NamedTuple):
 
     Attributes
     ----------
+    place : ndarray of int, shape (n_dofs,)
+        Row of each unknown in an order that fills in little.
     slots : ndarray of int, shape (n,)
         Place of each entry of the blocks among the stored ones.
     rows : ndarray of int, shape (n_stored,)
@@ -108,9 +110,10 @@ class Pattern(NamedTuple):
     starts : ndarray of int, shape (n_dofs + 1,)
         First stored entry of each column, and the end.
     diagonal : ndarray of int, shape (n_dofs,)
-        Stored entries on the diagonal.
+        Stored entry of each unknown on the diagonal.
     """
 
+    place: Ints
     slots: Ints
     rows: Ints
     starts: Ints
@@ -120,14 +123,29 @@ class Pattern(NamedTuple):
 def _build_pattern(groups: Sequence[Ints], size: int) -> Pattern:
     """Pattern of blocks of these unknowns."""
     rows, columns = list_entries(groups)
-    stored, slots = np.unique(columns * size + rows, return_inverse=True)
-    each = np.arange(size + 1)
+    place = _find_least_degrees(rows, columns, size)
+    stored, slots = np.unique(place[columns] * size + place[rows], return_inverse=True)
     return Pattern(
+        place=place,
         slots=slots,
         rows=(stored % size).astype(np.int32),
-        starts=np.searchsorted(stored, each * size).astype(np.int32),
-        diagonal=np.searchsorted(stored, each[:-1] * (size + 1)),
+        starts=np.searchsorted(stored, np.arange(size + 1) * size).astype(np.int32),
+        diagonal=np.searchsorted(stored, place * (size + 1)),
     )
+
+
+def _find_least_degrees(rows: Ints, columns: Ints, size: int) -> Ints:
+    """Places of the unknowns in SuperLU's order of least degrees."""
+    import scipy.sparse as sparse
+    from scipy.sparse.linalg import splu
+
+    each = np.arange(size)
+    # a heavy diagonal: the order is that of the entries, pivots do not change it
+    values = np.append(np.ones(rows.size), np.full(size, float(rows.size)))
+    entries = np.append(rows, each), np.append(columns, each)
+    matrix = sparse.csc_matrix((values, entries), shape=(size, size))
+    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+    return np.asarray(factors.perm_c, dtype=np.int64)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

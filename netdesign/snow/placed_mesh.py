@@ -268,13 +268,20 @@ def turn_normals(mesh: PlacedMesh) -> Floats:
     ndarray, shape (n_net, 2, n_net)
         Counter-clockwise [rad per thickness].
     """
-    count = mesh.template.net.size
-    weights = np.zeros((count, count))
-    for first in range(0, count - 2, 2):
-        weights[first : first + 3, first : first + 3] += _EDGE_TANGENT
+    weights = _weigh_tangents(mesh.template.net.size)
     tangent = mesh.nodes[:, mesh.template.net] @ weights.T
     unit = tangent / (tangent**2).sum(axis=0)
     return np.stack([-unit[1][:, None] * weights, unit[0][:, None] * weights], axis=1)
+
+
+@lru_cache(maxsize=32)
+def _weigh_tangents(count: int) -> Floats:
+    """Tangents of the net integrated with the shape functions of its nodes, (n, n)."""
+    weights = np.zeros((count, count))
+    for first in range(0, count - 2, 2):
+        weights[first : first + 3, first : first + 3] += _EDGE_TANGENT
+    weights.setflags(write=False)
+    return weights
 
 
 def _build_base(template: MeshTemplate, nodes: Floats) -> BaseEdges:

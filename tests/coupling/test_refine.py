@@ -41,12 +41,12 @@ def test_error_is_the_last_step_and_a_floor():
     assert estimate.error == pytest.approx(0.072 + floor * 1.18, rel=1e-12)
 
 
-@pytest.mark.parametrize("step", [0.0, 0.0137, 0.049])
-def test_meshes_that_agree_by_accident_keep_half_the_last_difference(step):
+@pytest.mark.parametrize("step", [0.0, 0.0137, 0.0449])
+def test_meshes_that_agree_by_accident_keep_a_part_of_the_last_difference(step):
     """Even if two meshes in turn give the very same number."""
     found = run([1.0, 1.1, 1.1 + step], accuracy=1e-4, levels=MESH_LEVELS[:3])[1]
     size = 1.1 + step
-    assert found.error == pytest.approx(0.045 + 0.8 * MODEL.floor * size, rel=1e-12)
+    assert found.error == pytest.approx(0.0405 + 0.8 * MODEL.floor * size, rel=1e-12)
 
 
 @settings(max_examples=60)
@@ -54,7 +54,7 @@ def test_meshes_that_agree_by_accident_keep_half_the_last_difference(step):
     st.lists(st.floats(0.5, 2.0), min_size=3, max_size=5),
     st.floats(0.0, 1.0),
 )
-def test_error_never_falls_by_more_than_half_from_mesh_to_mesh(sizes, slip):
+def test_error_falls_no_faster_than_meshes_do_in_theory(sizes, slip):
     meshes = [[size * DIRECTION] for size in sizes]
     (before,), (last,) = (
         MODEL.estimate(meshes[:n], Looseness(slip=slip)) for n in (-1, None)

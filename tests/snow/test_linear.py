@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.sparse.linalg import splu
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import linear
 from netdesign.snow.kernel import build_stiffness
 from netdesign.snow.linear import SingularError, solve_blocks
 from netdesign.snow.mesh import build_template
-from netdesign.snow.ordering import _narrow, build_ordering
+from netdesign.snow.ordering import Blocks, _narrow, build_ordering
 
 MU = 0.6
 
@@ -84,7 +85,7 @@ def test_all_ways_give_the_dense_solution(
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * np.abs(truth).max())
 
 
-def test_pattern_is_kept_and_sums_alike(problem):
+def test_pattern_is_kept_and_sums_the_blocks_in_its_order(problem):
     mesh, blocks, _, (free, _) = problem
     ordering = build_ordering(mesh.template, has_pressures=False, couples_net=False)
     ordering = replace(ordering, patterns={})
@@ -92,13 +93,30 @@ def test_pattern_is_kept_and_sums_alike(problem):
         parts = [
             linear._mask(b._replace(values=share * b.values), free) for b in blocks
         ]
-        summed, anew = (
-            way(ordering, parts, ~free)
-            for way in (linear._sum_by_pattern, linear._sum_anew)
-        )
-        np.testing.assert_allclose(summed.toarray(), anew.toarray(), rtol=1e-13)
+        pattern = ordering.find_pattern(parts)
+        summed = linear._sum_up(pattern, parts, ~free)
+        wanted = sum(part.to_matrix(mesh.n_dofs).toarray() for part in parts)
+        wanted[~free, ~free] = max(np.abs(part.values).max() for part in parts)
+        found = summed.toarray()[np.ix_(pattern.place, pattern.place)]
+        np.testing.assert_allclose(found, wanted, rtol=1e-13, atol=1e-13)
         assert summed.has_sorted_indices
     assert len(ordering.patterns) == 1
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_order_of_least_degrees_fills_in_less_than_the_band(level):
+    """A permutation, whose factor has less than the band of the narrow order."""
+    template = build_template(5.3, MESH_LEVELS[level])
+    ordering = build_ordering(template, has_pressures=False, couples_net=False)
+    corners = template.triangles.T
+    dofs = np.concatenate([2 * corners, 2 * corners + 1], axis=1)
+    values = np.where(np.eye(12, dtype=bool), 12.0, 1.0) * np.ones((len(dofs), 1, 1))
+    parts = [Blocks(dofs=dofs, values=values, n_paired=12)]
+    pattern = ordering.find_pattern(parts)
+    assert np.array_equal(np.sort(pattern.place), np.arange(ordering.place.size))
+    matrix = linear._sum_up(pattern, parts, np.zeros(ordering.place.size, dtype=bool))
+    factors = splu(matrix, permc_spec="NATURAL", options={"SymmetricMode": True})
+    assert factors.L.nnz < 0.5 * ordering.place.size * ordering.band
 
 
 @pytest.mark.parametrize("tops", [(), (0.37,)])

@@ -48,7 +48,7 @@ _ITERATED_SHARE = 0.04
 _INNER_SHARE = 0.1
 _LOOSEST_INNER = 1e-2
 # How far a net that was found on a coarser mesh may still move.
-_REFINED = 4e-3
+_REFINED = 2e-3
 # Flows of corrected rounds leave this much less, so that a miss is the step's own.
 _CORRECTED = 0.1
 # Iterations on the first mesh may leave more: it is only compared with the next.
@@ -64,8 +64,10 @@ _SETTLED = 5.0
 # Change of layered snow's pulls over that of the net [1/thickness] up to which a finer
 # mesh behaves as the coarser one.
 _CALM = 10.0
-# Rounds that leave more than this share of the last one's movement are slow.
+# Rounds that leave more than this share of the last one's movement are slow. So is the
+# first of all, where snow slips along so much of a net that is as near as this to rest.
 _SLOW = 0.2
+_MOST_SLIPS, _NEAR_REST = 0.8, 0.01
 # Linear solves after which rounds on one mesh are given up: so many, of layered snow
 # fewer, or so many over its triangles (some 1 s).
 _LEAST_WORK, _LEAST_WORK_LAYERED, _MOST_WORK = 100, 40, 4e4
@@ -186,7 +188,7 @@ def couple(
             gain = _measure_gain(problem, played, guess)
             return Coupled.of_round(problem, now, tangent, gain, solves, tried)
         # a net that is still, whose pulls are not, is worth no derivative
-        corrects = corrects or (not is_still and _is_slow(played))
+        corrects = corrects or (not is_still and _is_slow(played, guess))
         if corrects:
             correction = correct_round(problem, now, correction, carried)
             curve, carried = correction.target, None
@@ -355,11 +357,12 @@ def _fail(problem: SteadyProblem, outcome: Outcome, what: Message) -> SolveError
     )
 
 
-def _is_slow(played: Sequence[Round]) -> bool:
-    """Snow slips along the net, and the last round gained little."""
-    if len(played) < 2 or not played[-1].flow.state.contact.sign.any():
-        return False
-    return played[-1].moved > _SLOW * played[-2].moved
+def _is_slow(played: Sequence[Round], guess: Coupled | None) -> bool:
+    """Snow slips along the net, and the last round gained little, or the next would."""
+    slips = float((played[-1].flow.state.contact.sign != 0).mean())
+    if len(played) > 1:
+        return slips > 0.0 and played[-1].moved > _SLOW * played[-2].moved
+    return guess is None and slips > _MOST_SLIPS and played[-1].moved < _NEAR_REST
 
 
 def _place_between(
