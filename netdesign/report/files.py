@@ -7,14 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from netdesign.study.document import write_document
-from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     from netdesign.report.view.whole import Detail, ReportView
-
-STUDY_FILE = "study.json"
+    from netdesign.study.records import Study
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,5 +105,7 @@ def _render(
 
         rendered[".csv"] = render_cases(study, style.language)
     if ".json" in wanted:
+        from netdesign.study.document import write_document
+
         rendered[".json"] = write_document(study).encode()
     return rendered
