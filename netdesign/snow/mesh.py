@@ -448,10 +448,15 @@ def _is_clear(points: Floats, line: Floats) -> Mask:
     return np.asarray((distance > radius * (1.0 + 1e-9)) & (off > _LEAST_OFF * radius))
 
 
-def _connect(points: Floats) -> Ints:
+def load_delaunay() -> Any:
+    """SciPy's triangulation: a quarter of a second, the first time it is asked for."""
     from scipy.spatial import Delaunay
 
-    triangles = Delaunay(points).simplices
+    return Delaunay
+
+
+def _connect(points: Floats) -> Ints:
+    triangles = load_delaunay()(points).simplices
     # collinear boundary points may leave triangles without area
     solid = np.abs(_twice_area(points[triangles])) > 1e-15
     triangles = triangles[solid]
