@@ -75,7 +75,7 @@ def render_workbook(
         "strings_to_formulas": False,
         "strings_to_urls": False,
         "strings_to_numbers": False,
-        "default_format_properties": DEFAULT_FONT,
+        "default_format_properties": dict(DEFAULT_FONT),  # it is altered there
     }
     with xlsxwriter.Workbook(buffer, options) as workbook:
         workbook.set_properties(
