@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.numerics.scipy_start import importing_scipy
 from netdesign.outcome import Outcome
 from netdesign.snow.triangulation import Triangulation, number_nodes
 from netdesign.words.message import say
@@ -449,8 +450,9 @@ def _is_clear(points: Floats, line: Floats) -> Mask:
 
 
 def load_delaunay() -> Any:
-    """SciPy's triangulation: a quarter of a second, the first time it is asked for."""
-    from scipy.spatial import Delaunay
+    """SciPy's triangulation: the longest import of a solve, when first asked for."""
+    with importing_scipy():
+        from scipy.spatial import Delaunay
 
     return Delaunay
 

@@ -89,6 +89,8 @@ def judge_rows(
     if isinstance(pool, ProcessPool) and len(jobs) > 1 and pool.is_at_hand:
         told: dict[Message, None] = {}  # once, however many workers say it
         for place, judged in pool.spread(judge_away, list(enumerate(jobs))[::-1]):
+            if judged is None:
+                continue
             found[place] = judged.studies
             for message in judged.told:
                 if message not in told:
@@ -97,7 +99,8 @@ def judge_rows(
             runner.take(judged.counts, judged.faults)
             for _ in range(judged.checks):
                 on_check()
-    # those that a worker died of, too: here each of their cases is given to a worker
+    # Where a worker died, each case is now given to a worker; where it failed, it fails
+    # here, by name and place.
     of_jobs = [
         found[k] if k in found else _judge(job, runner, on_check)
         for k, job in enumerate(jobs)
@@ -105,8 +108,15 @@ def judge_rows(
     return [studies for of_job in of_jobs for studies in of_job]
 
 
-def judge_away(job: RowsJob) -> JudgedRows:
-    """Studies of the rows of a job, made by a worker."""
+def judge_away(job: RowsJob) -> JudgedRows | None:
+    """Studies of the rows of a job, made by a worker; None where it fails."""
+    try:
+        return _judge_away(job)
+    except Exception:  # whatever it is: it is met again where it can be told
+        return None
+
+
+def _judge_away(job: RowsJob) -> JudgedRows:
     told: list[Message] = []
     checks = 0
 

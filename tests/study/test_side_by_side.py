@@ -9,7 +9,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.fault import Fault
+from netdesign.fault import Fault, describe_fault
 from netdesign.snow.ground import GroundLaw
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
@@ -115,6 +115,16 @@ def test_a_row_that_kills_its_worker_is_judged_again(in_turn, pool, monkeypatch)
     monkeypatch.setattr(side_by_side, "judge_away", die_of_one)
     studies, _ = in_turn
     assert check_site(SITE, STANDARDS, RUN, Runner(workers=pool)) == studies
+
+
+def test_what_fails_in_a_worker_is_told_as_if_it_failed_here(pool):
+    """A profile that no check can be judged by; the place is that of the fault."""
+    spoilt = [replace(STANDARDS[0], values=(None,))]
+    with pytest.raises(AttributeError) as here:
+        check_site(SITE, spoilt, RUN)
+    with pytest.raises(AttributeError) as there:
+        check_site(SITE, spoilt, RUN, Runner(workers=pool))
+    assert describe_fault(there.value).place == describe_fault(here.value).place
 
 
 def test_what_a_worker_counted_and_met_is_counted_once_more():
