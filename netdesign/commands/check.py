@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.check_outputs import plan_outputs, render_outputs
+from netdesign.commands.check_end import CheckEnd, CheckTask
+from netdesign.commands.check_outputs import plan_outputs
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.dry_run import announce
-from netdesign.commands.faults import tell_faults
 from netdesign.commands.next_steps import tell_next_steps
 from netdesign.commands.options import (
     accuracy_option,
@@ -24,25 +24,15 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.report_options import report_options
-from netdesign.commands.running import (
-    find_exit_code,
-    own_command,
-    report_places,
-    tell_time,
-)
+from netdesign.commands.running import own_command, report_places, tell_time
 from netdesign.commands.site_input import (
     open_site,
     require_effect,
     site_options,
     temporary_example,
 )
-from netdesign.commands.sizing import (
-    check_and_size,
-    print_sized,
-    require_one,
-    what_if_options,
-)
-from netdesign.commands.solving import open_run, solving_options
+from netdesign.commands.sizing import require_one, what_if_options
+from netdesign.commands.solving import solving_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.edge.streams import print_json
 from netdesign.errors import StandardError
@@ -53,9 +43,8 @@ if TYPE_CHECKING:
 
     from netdesign.checks import Standard
     from netdesign.checks.schema import Floor
-    from netdesign.report.view.whole import Detail, ReportView
+    from netdesign.report.view.whole import Detail
     from netdesign.site.model import Site
-    from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
@@ -147,8 +136,8 @@ def check(
     site = _read_site(site_file, instead, **reading)
 
     # behind the reading: a faulty workbook is refused without a solver
+    from netdesign.commands.check_steps import find_or_check
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.edge.output import write_files
     from netdesign.study.cases import CheckRun
 
     profiles = _choose_profiles(standards, site, floor)
@@ -171,31 +160,25 @@ def check(
         is_what_if=instead,
         overwrite=force,
     )
-    read = partial(_read_site, site_file, **reading | {"annotate": None})
-    with open_run(
-        site,
-        run,
+    task = CheckTask(
+        site=site,
+        profiles=profiles,
+        run=run,
         executor=executor,
-        cache=cache,
-        quiet=quiet,
-        profiles=len(profiles) * (2 if size else 1),
-        language=language,
-    ) as (runner, progress):
-        studies, sized = check_and_size(
-            site, profiles, run, read if size else None, runner, progress
-        )
-        progress.enter("reports")
-        views = [] if as_json else _view_studies(studies, language)
-        files = render_outputs(outputs, studies, sized, views)
-    failed = tell_faults(runner.faults, language)
-    write_files(files, overwrite=force)
-    _show(studies, views, language, as_json=as_json, explain=explain)
+        outputs=outputs,
+        size=size,
+        explain=explain,
+        as_json=as_json,
+    )
+    read = partial(_read_site, site_file, **reading | {"annotate": None})
+    end = find_or_check(task, read, cache=cache, quiet=quiet, overwrite=force)
+    _show(end)
     if not as_json:
-        print_sized(sized, studies, language)
-        report_places([list(files)], language, quiet=quiet)
+        report_places([list(end.files)], language, quiet=quiet)
     if not (quiet or as_json):
-        tell_next_steps(studies, str(site_file or "--example"), language, is_sized=size)
-    sys.exit(failed or find_exit_code(studies))
+        site_name = str(site_file or "--example")
+        tell_next_steps(end.verdicts, site_name, language, is_sized=size)
+    sys.exit(end.exit_code)
 
 
 def _read_site(
@@ -247,37 +230,14 @@ def _load_profiles(names: Sequence[str]) -> list[Standard]:
     return profiles
 
 
-def _view_studies(studies: Sequence[Study], language: Language) -> list[ReportView]:
-    """Views of the studies, once for reports and terminal."""
-    from netdesign.report.view.whole import build_view
+def _show(end: CheckEnd) -> None:
+    """Print the documents of ``--json``, else the summaries."""
+    if end.document:
+        print_json(end.document)
+        return
+    from netdesign.report.terminal import open_console, print_lines, print_summary
 
-    return [build_view(study, language) for study in studies]
-
-
-def _show(
-    studies: Sequence[Study],
-    views: Sequence[ReportView],
-    language: Language,
-    *,
-    as_json: bool,
-    explain: bool,
-) -> None:
-    from netdesign.study.document import write_document
-
-    if not as_json:
-        from netdesign.report.terminal import (
-            open_console,
-            print_changes,
-            print_summary,
-        )
-
-        console = open_console()
-        for study, view in zip(studies, views, strict=True):
-            print_summary(study, console, language, view)
-            if explain:
-                print_changes(study, console, language)
-    elif len(studies) == 1:
-        print_json(write_document(studies[0]))
-    else:
-        documents = ",\n".join(write_document(study) for study in studies)
-        print_json(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
+    console = open_console()
+    for summary in end.summaries:
+        print_summary(summary, console)
+    print_lines(end.sized, console)

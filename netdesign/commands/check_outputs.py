@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.commands.report_options import choose_style, list_wanted
 from netdesign.commands.sizing import Sized, mark_names, mark_paths, render_sized
+from netdesign.edge.file_names import PROFILES_FILE, STUDY_FILE
 
 if TYPE_CHECKING:
     from netdesign.report.files import ReportStyle
@@ -22,6 +23,8 @@ class Outputs:
 
     Attributes
     ----------
+    folder : Path or None
+        Of all files; None where none are written.
     of_studies : list of list of Path
         Of each profile.
     sized : list of list of Path
@@ -32,6 +35,7 @@ class Outputs:
         Of the reports.
     """
 
+    folder: Path | None
     of_studies: list[list[Path]]
     sized: list[list[Path]]
     together: list[Path]
@@ -58,16 +62,16 @@ def plan_outputs(
         Where something is there.
     """
     from netdesign.edge.output import require_free
-    from netdesign.report.files import STUDY_FILE, name_files
-    from netdesign.report.page.comparison_page import PAGE_FILE
+    from netdesign.report.files import name_files
 
     kinds = list_wanted({**reports, "template": looks["template"]})
     names = name_files(
         folder, profiles, mark_names([STUDY_FILE, *kinds], is_what_if=is_what_if)
     )
     is_compared = folder is not None and "report.html" in kinds and len(profiles) > 1
-    page = mark_names([PAGE_FILE], is_what_if=is_what_if)
+    page = mark_names([PROFILES_FILE], is_what_if=is_what_if)
     outputs = Outputs(
+        folder=folder,
         of_studies=names,
         sized=mark_paths(names) if size else [],
         together=[folder / name for name in page] if folder and is_compared else [],

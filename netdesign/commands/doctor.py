@@ -100,7 +100,11 @@ def _run_tests() -> list[Probe]:
         (say("doctor.workbook"), _round_trip_example),
         (say("doctor.solver"), _solve_small_scene),
     )
-    return [_look_at_core(), *(_try(what, test) for what, test in tests)]
+    return [
+        _look_at_core(),
+        _measure_store(),
+        *(_try(what, test) for what, test in tests),
+    ]
 
 
 def _try(what: Message | str, test: Callable[[], Message | str]) -> Probe:
@@ -132,6 +136,19 @@ def _look_at_core() -> Probe:
         return Probe(what=what, shows=name_core())
     why = "doctor.switched_off" if is_switched_off() else "doctor.not_compiled"
     return Probe(what=what, shows=say(why))
+
+
+def _measure_store() -> Probe:
+    """Place and size of the store; one that is damaged is set aside by the next run."""
+    from netdesign.edge.given_files import is_there
+    from netdesign.solving.store import find_store
+
+    path, what = find_store(), say("doctor.store")
+    if not is_there(path):
+        return Probe(what=what, shows=say("doctor.no_store", path=str(path)))
+    megabytes = path.stat().st_size / 1e6
+    told = say("doctor.store_size", path=str(path), megabytes=megabytes)
+    return Probe(what=what, shows=told)
 
 
 def _load_profiles() -> str:

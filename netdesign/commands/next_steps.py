@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Set
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,26 +12,25 @@ from netdesign.outcome import Verdict
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
-    from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
 
 TUTORIAL = Path(__file__).resolve().parent.parent / "TUTORIAL.md"
 
 
 def tell_next_steps(
-    studies: Sequence[Study], site: str, language: Language, *, is_sized: bool
+    verdicts: Set[Verdict], site: str, language: Language, *, is_sized: bool
 ) -> None:
     """Tell what to do about rows that do not pass; nothing where all do.
 
-    ``site`` is what was checked, as on the command line.
+    ``verdicts`` are those of all rows, ``site`` is what was checked, as on the command
+    line.
     """
-    verdicts = {row.verdict for study in studies for row in study.rows}
     for message in list_next_steps(verdicts, site, is_sized=is_sized):
         tell(message, language, err=True)
 
 
 def list_next_steps(
-    verdicts: set[Verdict], site: str, *, is_sized: bool
+    verdicts: Set[Verdict], site: str, *, is_sized: bool
 ) -> list[Message]:
     """Sentences for rows of these verdicts."""
     fails, is_open = Verdict.FAIL in verdicts, Verdict.NOT_PROVEN in verdicts

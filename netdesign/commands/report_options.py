@@ -62,16 +62,18 @@ def list_wanted(options: dict[str, Any]) -> list[str]:
     NetDesignError
         If one of them cannot be written on this machine.
     """
-    from netdesign.report.document.template import require_docx
     from netdesign.report.files import list_reports
-    from netdesign.report.page.pdf import require_pdf
 
     names = ("html", "excel", "csv", "pdf", "docx")
     wanted = {name: options.pop(name) for name in names}
     wanted["docx"] = wanted["docx"] or options["template"] is not None
     if wanted["pdf"]:
+        from netdesign.report.page.pdf import require_pdf
+
         require_pdf()
     if wanted["docx"]:
+        from netdesign.report.document.template import require_docx
+
         require_docx()
     return list_reports(**wanted)
 
@@ -84,9 +86,12 @@ def choose_style(options: dict[str, Any]) -> ReportStyle:
     NetDesignError
         If the template is no document.
     """
-    from netdesign.report.document.template import read_template
     from netdesign.report.files import ReportStyle
 
     template: Path | None = options.pop("template")
-    content = read_template(template) if template else None
+    content: bytes | None = None
+    if template:
+        from netdesign.report.document.template import read_template
+
+        content = read_template(template)
     return ReportStyle(**options, template=content)

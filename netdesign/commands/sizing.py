@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.usage import UsageRefusal, ValueRefusal
+from netdesign.edge.file_names import WHAT_IF_MARK
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -94,9 +95,7 @@ def require_one(
 
 def mark_names(names: Sequence[str], *, is_what_if: object) -> list[str]:
     """Names of outputs; those of a what-if say so."""
-    from netdesign.report.view.what_if import FILE_MARK
-
-    return [f"{FILE_MARK}{name}" if is_what_if else name for name in names]
+    return [f"{WHAT_IF_MARK}{name}" if is_what_if else name for name in names]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -168,10 +167,9 @@ def write_command(command: str, instead: Mapping[str, str]) -> str:
 
 def mark_paths(names: Sequence[Sequence[Path]]) -> list[list[Path]]:
     """Places of what-if outputs beside those of each study."""
-    from netdesign.report.view.what_if import FILE_MARK
-
     return [
-        [path.with_name(f"{FILE_MARK}{path.name}") for path in group] for group in names
+        [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in group]
+        for group in names
     ]
 
 
@@ -189,23 +187,20 @@ def render_sized(
     )
 
 
-def print_sized(
+def tell_sized(
     sized: Sequence[Sized], studies: Sequence[Study], language: Language
-) -> None:
-    """Print what was found for each profile, and what the what-if studies come to."""
-    from rich.text import Text
-
-    from netdesign.report.terminal import open_console
+) -> list[str]:
+    """Lines of what was found for each profile, and what those what-if studies say."""
     from netdesign.report.view.what_if import list_sized, tell_overall
     from netdesign.report.words import Words
 
-    words, console = Words(language), open_console()
+    words = Words(language)
+    lines: list[str] = []
     for one, built in zip(sized, studies, strict=False):  # none, if not asked for
-        lines = [words("what_if.sized_for", profile=built.profile.id)]
+        lines.append(words("what_if.sized_for", profile=built.profile.id))
         lines += list_sized(one.cells, words) or [words("what_if.nothing")]
         if one.study is not None:
             lines.append(tell_overall(one.study, words))
         elif one.cells:
             lines.append(words("what_if.no_study"))
-        for line in lines:
-            console.print(Text(line), soft_wrap=True)
+    return lines

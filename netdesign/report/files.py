@@ -7,14 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from netdesign.study.document import write_document
-from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     from netdesign.report.view.whole import Detail, ReportView
-
-STUDY_FILE = "study.json"
+    from netdesign.study.records import Study
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +78,7 @@ def render_kind(
     """Content of one file of a study, independent of the others.
 
     Another process can make it: function, arguments and result are pickled by name and
-    value. A view takes longer to pickle and to read than to build: there it is left out.
+    value. A view takes longer to pickle and to read than to build: none is sent there.
 
     Parameters
     ----------
@@ -148,6 +145,8 @@ def _render_csv(study: Study, style: ReportStyle, _: ReportView | None) -> bytes
 
 
 def _render_json(study: Study, _: ReportStyle, __: ReportView | None) -> bytes:
+    from netdesign.study.document import write_document
+
     return write_document(study).encode()
 
 

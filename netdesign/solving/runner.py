@@ -10,7 +10,7 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.fault import Fault
 from netdesign.search.known_search import KnownSearch
 from netdesign.solving.state import CaseEnd, is_stuck
-from netdesign.solving.store import CaseStore, name_case, name_search
+from netdesign.solving.store import FORGOTTEN, CaseStore, name_case, name_search
 from netdesign.solving.workers import Batch, Ends, Job, OwnProcess, Workers
 from netdesign.words.message import Message, say
 
@@ -22,6 +22,7 @@ class Counts:
     solved: int = 0
     reused: int = 0
     failed: int = 0
+    lost: int = 0  # with their worker or by a fault: no other run can rely on this one
 
 
 @dataclass(slots=True, kw_only=True)
@@ -94,6 +95,7 @@ class Runner:
         self.counts.solved += 1
         if isinstance(end, FailedSolution):
             self.counts.failed += 1
+            self.counts.lost += end.outcome in FORGOTTEN
             self.keep_fault(end.fault)
         self.on_done(end)
 
@@ -102,6 +104,7 @@ class Runner:
         self.counts.solved += theirs.solved
         self.counts.reused += theirs.reused
         self.counts.failed += theirs.failed
+        self.counts.lost += theirs.lost
         for _ in range(theirs.solved + theirs.reused):
             self.on_done(None)
         for fault, rows in faults.items():

@@ -16,9 +16,10 @@ import zlib
 from collections.abc import Callable, Hashable, Iterable
 from contextlib import suppress
 from dataclasses import is_dataclass
+from datetime import date
 from functools import lru_cache
 from pathlib import Path
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Any
 
 from netdesign import __version__
@@ -31,13 +32,13 @@ from netdesign.solving.state import CaseEnd, decode_end, encode_end
 from netdesign.words.message import Message, say
 
 _LAYOUT = 3  # of the tables
-_BUSY_S = 30.0  # how long another run may hold the file
+BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _SOLVER_PARTS = ("numerics", "core", "snow", "cable", "coupling", "solving")
 _PACKAGE = Path(__file__).resolve().parent.parent
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 # They say nothing about the case itself.
-_FORGOTTEN = (Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT)
+FORGOTTEN = (Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT)
 
 
 class StoreError(NetDesignError):
@@ -84,14 +85,14 @@ def _identify(parts: tuple[str, ...], package: Path, core: str) -> str:
 
 def name_case(scene: object, settings: Hashable) -> str:
     """Key of a case: equal for equal inputs, whoever asks."""
-    text = f"[{_write_parts(scene)}, {_write_settings(settings)}]"
+    text = f"[{write_parts(scene)}, {_write_settings(settings)}]"
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 @lru_cache(maxsize=32)
 def _write_settings(settings: Hashable) -> str:
     """Text of settings, kept: all cases of a search have the same, and it is long."""
-    return _write_parts(settings)
+    return write_parts(settings)
 
 
 def name_search(task: object) -> str:
@@ -102,26 +103,39 @@ def name_search(task: object) -> str:
     TypeError
         If a part of the task is no plain value, for instance a function.
     """
-    text = _write_parts([identify_program(), task])
+    text = write_parts([identify_program(), task])
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _write_parts(value: object) -> str:
-    return json.dumps(value, sort_keys=True, default=_describe)
-
-
-def _describe(value: Any) -> Any:
-    """Name and fields of a dataclass; ``json`` asks for those of its parts, too.
+def write_parts(value: object) -> str:
+    """Text of plain values, and of dataclasses with all their fields; equal for equal.
 
     Raises
     ------
     TypeError
-        For anything else that is no plain value: it cannot be told from its like.
+        For anything else: it cannot be told from its like.
     """
-    if not is_dataclass(value) or isinstance(value, type):
-        raise TypeError(f"{value!r:.60}: no part of a name")
-    fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
-    return [type(value).__name__, fields]
+    return json.dumps(value, sort_keys=True, default=_describe)
+
+
+def _describe(value: Any) -> Any:
+    """Plain values of one that is no plain value itself; ``json`` asks for its parts.
+
+    Raises
+    ------
+    TypeError
+        If it cannot be told from its like.
+    """
+    if is_dataclass(value) and not isinstance(value, type):
+        fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
+        return [type(value).__name__, fields]
+    if isinstance(value, MappingProxyType):
+        return dict(value)
+    if isinstance(value, date):  # a datetime is one, too
+        return [type(value).__name__, value.isoformat()]
+    if isinstance(value, bytes):
+        return ["bytes", hashlib.sha256(value).hexdigest()]
+    raise TypeError(f"{value!r:.60}: no part of a name")
 
 
 class CaseStore:
@@ -179,7 +193,7 @@ class CaseStore:
 
     def _open(self) -> Message | None:
         """Connect; why the file there cannot be used, or None."""
-        self._base = sqlite3.connect(self.path, timeout=_BUSY_S, isolation_level=None)
+        self._base = sqlite3.connect(self.path, timeout=BUSY_S, isolation_level=None)
         try:
             self._base.execute("PRAGMA journal_mode = WAL")
             self._base.execute("PRAGMA synchronous = NORMAL")
@@ -243,12 +257,12 @@ class CaseStore:
 
     def keep(self, name: str, end: CaseEnd) -> None:
         """Store one finished case, in a transaction of its own."""
-        if end.outcome in _FORGOTTEN:
+        if end.outcome in FORGOTTEN:
             return
         numbers, shape = encode_end(end)
         self._base.execute(
             "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?)",
-            (name, numbers, shape, _seal(name, numbers, shape)),
+            (name, numbers, shape, seal_entry(name, numbers, shape)),
         )
 
     def find_search(self, name: str) -> KnownSearch | None:
@@ -256,7 +270,7 @@ class CaseStore:
         query = "SELECT text, seal FROM searches WHERE name = ?"
         for text, seal in self._base.execute(query, (name,)).fetchall():
             with suppress(ValueError, KeyError, TypeError):
-                if _seal(name, text) == seal:
+                if seal_entry(name, text) == seal:
                     return decode_search(text)
             self._tell_damaged("store.search_damaged", name)
         return None
@@ -266,18 +280,19 @@ class CaseStore:
         text = encode_search(known)
         self._base.execute(
             "INSERT OR REPLACE INTO searches VALUES (?, ?, ?)",
-            (name, text, _seal(name, text)),
+            (name, text, seal_entry(name, text)),
         )
 
 
-def _seal(name: str, numbers: str, shape: bytes = b"") -> str:
+def seal_entry(name: str, numbers: str, shape: bytes = b"") -> str:
+    """Digest of an entry, by which a change of any part of it is seen."""
     return hashlib.sha256(f"{name} {numbers}".encode() + shape).hexdigest()
 
 
 def _unseal(name: str, numbers: str, shape: bytes, seal: str) -> CaseEnd | None:
     """Case of an entry; None if anything in it was changed."""
     with suppress(ValueError, KeyError, TypeError, zlib.error):
-        if _seal(name, numbers, shape) == seal:
+        if seal_entry(name, numbers, shape) == seal:
             return decode_end(numbers, shape)
     return None
 

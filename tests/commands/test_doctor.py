@@ -17,6 +17,18 @@ def test_the_doctor_names_versions_and_finds_the_program_sound(call):
     assert shown["site workbook"]["shows"].endswith("7 net rows")
 
 
+def test_the_doctor_says_where_the_store_is_and_how_large(call, monkeypatch, tmp_path):
+    monkeypatch.setattr(doctor, "_list_versions", list)
+    monkeypatch.setattr(doctor, "_solve_small_scene", lambda: "")
+    monkeypatch.setattr(doctor, "_round_trip_example", lambda: "")
+    place = tmp_path / "Wächte" / "cases.sqlite"
+    monkeypatch.setenv("NETDESIGN_STORE", str(place))
+    assert f"{place}: not begun yet" in call("doctor").out
+    place.parent.mkdir()
+    place.write_bytes(bytes(2_340_000))
+    assert f"{place}: 2.3 MB" in call("doctor").out
+
+
 @pytest.mark.parametrize("broken", ["_solve_small_scene", "_round_trip_example"])
 def test_a_fault_is_told_and_ends_with_5(call, monkeypatch, broken):
     def fail():

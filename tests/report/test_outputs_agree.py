@@ -9,6 +9,7 @@ import pytest
 from rich.console import Console
 
 from netdesign.report.page.html import render_html
+from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import ENGLISH
@@ -141,7 +142,7 @@ def test_figures_agree(page, book, sheet, attribute):
 
 def test_verdicts_agree(page, book):
     stream = io.StringIO()
-    print_summary(STUDY, Console(file=stream, width=200))
+    print_summary(build_summary(STUDY), Console(file=stream, width=200))
     lines = stream.getvalue().splitlines()
     summary = read_rows(book["Summary"], "No.")
     shown = [cells for cells in page.tables["summary"][1][1:] if len(cells) > 2]
@@ -165,7 +166,7 @@ def as_cell(value):
 def test_json_document_and_stdout_agree_with_page_and_workbook(page, book):
     document = json.loads(write_document(STUDY))
     stream = io.StringIO()
-    print_summary(STUDY, Console(file=stream, width=200))
+    print_summary(build_summary(STUDY), Console(file=stream, width=200))
     printed = stream.getvalue().splitlines()[1:]
     sheet = iter(read_rows(book["Checks"], "No."))
     summary = [cells for cells in page.tables["summary"][1][1:] if len(cells) > 2]

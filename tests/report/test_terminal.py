@@ -3,6 +3,7 @@ import re
 
 from rich.console import Console
 
+from netdesign.report.summary import build_summary
 from netdesign.report.terminal import open_console, print_summary
 from netdesign.report.view.whole import build_view
 from tests.report.build_study import SCRIPT, build_study
@@ -10,7 +11,7 @@ from tests.report.build_study import SCRIPT, build_study
 
 def printed(study, **options):
     stream = io.StringIO()
-    print_summary(study, Console(file=stream, width=160, **options))
+    print_summary(build_summary(study), Console(file=stream, width=160, **options))
     return stream.getvalue()
 
 
@@ -31,7 +32,7 @@ def test_one_line_for_each_net_row_then_reasons_and_assumed_values():
 def test_summary_in_french_has_the_same_numbers():
     stream = io.StringIO()
     console = Console(file=stream, width=200)
-    print_summary(build_study(), console, "fr")
+    print_summary(build_summary(build_study(), "fr"), console)
     lines = stream.getvalue().splitlines()
     assert lines[-1].startswith("Verdict\u00a0: NON SATISFAIT - ")
     english = printed(build_study()).splitlines()
@@ -55,7 +56,7 @@ def test_texts_of_the_site_are_not_markup():
 
 def test_a_narrow_terminal_breaks_no_number_and_no_word():
     stream = io.StringIO()
-    print_summary(build_study(), Console(file=stream, width=80))
+    print_summary(build_summary(build_study()), Console(file=stream, width=80))
     text = stream.getvalue()
     for check in (row.governing for row in build_view(build_study()).rows):
         for part in (*check.title.split(), check.demand, check.utilisation):

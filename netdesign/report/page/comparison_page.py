@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from netdesign.edge.file_names import PROFILES_FILE
 from netdesign.edge.given_files import make_printable
 from netdesign.report.page.render import build_environment, load_style
 from netdesign.report.view.comparison import compare_profiles
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
-
-PAGE_FILE = "profiles.html"
 
 
 def render_comparison(studies: Sequence[Study], language: Language = "en") -> bytes:
@@ -24,7 +23,7 @@ def render_comparison(studies: Sequence[Study], language: Language = "en") -> by
         Of the page.
     """
     view = compare_profiles(studies, language)
-    template = build_environment(language).get_template("profiles.html")
+    template = build_environment(language).get_template(PROFILES_FILE)
     css = load_style("report.css", "study.css")
     page = template.render(language=language, css=css, view=view)
     return make_printable(page).encode()

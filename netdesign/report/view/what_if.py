@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from netdesign.edge.file_names import STUDY_FILE, WHAT_IF_MARK
 from netdesign.report.view.table import Table, name_columns, text_cell
 from netdesign.report.words import (
     MISSING,
@@ -17,12 +18,10 @@ from netdesign.report.words import (
 from netdesign.study.records import Study
 from netdesign.study.sizing import SizedCell
 
-FILE_MARK = "what-if-"  # before the name of every file of a what-if
-
 
 def name_study(study: Study) -> str:
     """Name of a study's file, as ``check`` writes it."""
-    return f"{FILE_MARK if study.what_if else ''}study.json"
+    return f"{WHAT_IF_MARK if study.what_if else ''}{STUDY_FILE}"
 
 
 def mark_verdict(study: Study, words: Words) -> VerdictWords:

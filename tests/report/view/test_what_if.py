@@ -9,6 +9,7 @@ from rich.console import Console
 
 from netdesign.report.document.word import render_document
 from netdesign.report.page.html import render_html
+from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
 from netdesign.report.view.whole import build_view
 from netdesign.report.workbook.excel import render_workbook
@@ -53,7 +54,7 @@ def unpack(content, part):
 
 def print_out(view, language):
     console = Console(file=io.StringIO(), width=400)
-    print_summary(STUDY, console, language, view)
+    print_summary(build_summary(STUDY, language, view), console)
     return console.file.getvalue()
 
 
