@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,10 @@ from netdesign.edge.file_names import PROFILES_FILE, STUDY_FILE
 if TYPE_CHECKING:
     from netdesign.report.files import ReportStyle
     from netdesign.report.view.whole import ReportView
+    from netdesign.solving.runner import Runner
     from netdesign.study.records import Study
+
+_APART = (".xlsx", ".docx")  # each takes as long as the page
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,18 +85,40 @@ def plan_outputs(
     return outputs
 
 
+def begin_outputs(
+    outputs: Outputs, studies: Sequence[Study], runner: Runner
+) -> dict[Path, Callable[[], bytes]]:
+    """Reports that processes of the run make while this one makes the others.
+
+    What is returned for each waits for it.
+    """
+    from netdesign.report.files import render_kind
+    from netdesign.solving.workers import ProcessPool
+
+    pool = runner.workers
+    if not (isinstance(pool, ProcessPool) and pool.is_at_hand):
+        return {}
+    return {
+        path: pool.begin(render_kind, path.suffix, study, outputs.style)
+        for study, paths in zip(studies, outputs.of_studies, strict=True)
+        for path in paths
+        if path.suffix in _APART and len(paths) > 1
+    }
+
+
 def render_outputs(
     outputs: Outputs,
     studies: Sequence[Study],
     sized: Sequence[Sized],
     views: Sequence[ReportView],
+    begun: Mapping[Path, Callable[[], bytes]],
 ) -> dict[Path, bytes]:
-    """Contents of all files."""
+    """Contents of all files; ``begun`` are those of `begin_outputs`."""
     from netdesign.report.files import render_files
     from netdesign.report.page.comparison_page import render_comparison
 
     style = outputs.style
-    files = render_files(studies, outputs.of_studies, style, views)
+    files = render_files(studies, outputs.of_studies, style, views, begun)
     files |= render_sized(sized, outputs.sized, style)
     for place in outputs.together:
         files[place] = render_comparison(studies, style.language)

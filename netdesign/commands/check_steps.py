@@ -13,7 +13,7 @@ from netdesign.commands.check_end import (
     keep_end,
     name_end,
 )
-from netdesign.commands.check_outputs import render_outputs
+from netdesign.commands.check_outputs import begin_outputs, render_outputs
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.language import tell
 from netdesign.commands.sizing import check_and_size, tell_sized
@@ -82,8 +82,9 @@ def _calculate(
             progress,
         )
         progress.enter("reports")
+        begun = begin_outputs(task.outputs, studies, runner)
         views = [] if task.as_json else _view_studies(studies, task.language)
-        files = render_outputs(task.outputs, studies, sized, views)
+        files = render_outputs(task.outputs, studies, sized, views, begun)
     lines = tell_sized(sized, studies, task.language)
     return conclude(task, studies, views, lines, files), runner
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence, Set
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from netdesign.words.catalogue import Language
@@ -58,18 +59,20 @@ def render_files(
     paths: Sequence[Sequence[Path]],
     style: ReportStyle | None = None,
     views: Sequence[ReportView] = (),
+    begun: Mapping[Path, Callable[[], bytes]] = MappingProxyType({}),
 ) -> dict[Path, bytes]:
     """Contents of all files; the suffix says what each of them is.
 
-    ``views`` are those of the studies in the language of the style, if they are known.
+    ``views`` are those of the studies in the language of the style, if they are known;
+    ``begun`` are files that other processes make, and what waits for them.
     """
     contents: dict[Path, bytes] = {}
     known: Sequence[ReportView | None] = views or [None] * len(studies)
     for study, of_study, view in zip(studies, paths, known, strict=True):
-        wanted = {path.suffix for path in of_study}
+        wanted = {path.suffix for path in of_study if path not in begun}
         rendered = _render(study, wanted, style or ReportStyle(), view)
-        contents |= {path: rendered[path.suffix] for path in of_study}
-    return contents
+        contents |= {path: rendered.get(path.suffix, b"") for path in of_study}
+    return contents | {path: finish() for path, finish in begun.items()}
 
 
 def render_kind(

@@ -179,6 +179,21 @@ class ProcessPool:
         """Hand out batches until all are done or the pool breaks; returns the lost."""
         return (yield from self.spread(solve_batch, waiting))
 
+    def begin(self, work: Callable[..., Found], *given: Any) -> Callable[[], Found]:
+        """Call that a worker makes meanwhile; its result is that of what is returned.
+
+        Where the worker dies or fails, the call is made here when it is asked for.
+        """
+        future = self._start().submit(work, *given)
+
+        def finish() -> Found:
+            try:
+                return future.result()
+            except Exception:  # whatever it is: it is met again where it can be told
+                return work(*given)
+
+        return finish
+
     def spread(
         self, work: Callable[[Item], Found], waiting: list[tuple[int, Item]]
     ) -> Generator[tuple[int, Found], None, list[tuple[int, Item]]]:

@@ -126,6 +126,32 @@ def test_a_worker_that_dies_costs_one_case_by_name(alone):
     assert multiprocessing.active_children() == []
 
 
+def die_elsewhere(own, value):
+    """A call that only the test's own process survives."""
+    if os.getpid() != own:
+        os._exit(9)
+    return value
+
+
+def raise_elsewhere(own, value):
+    if os.getpid() != own:
+        raise MemoryError
+    return value
+
+
+@pytest.mark.parametrize("work", [die_elsewhere, raise_elsewhere])
+def test_a_call_that_a_worker_does_not_end_is_made_here(work):
+    pool = ProcessPool(2)
+    try:
+        waiting = [
+            pool.begin(math.hypot, 3.0, 4.0),
+            pool.begin(work, os.getpid(), 0.31),
+        ]
+        assert [finish() for finish in waiting] == [5.0, 0.31]
+    finally:
+        pool.close()
+
+
 def test_a_bug_in_one_case_is_its_outcome():
     end = solve_job(job(300.0, FaultyScene))
     assert (end.outcome, end.reason) == (Outcome.PROGRAM_FAULT, SENTENCE)
