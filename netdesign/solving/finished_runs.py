@@ -139,6 +139,7 @@ def keep_run(path: Path, name: str, run: FinishedRun) -> None:
         return
     with _open(path) as base:
         base.execute("BEGIN IMMEDIATE")
+        base.execute("SELECT 1 FROM origin")  # else it is no store, or none yet
         base.execute(_TABLE)
         base.execute(
             "INSERT OR REPLACE INTO runs (name, text, files, seal) VALUES (?, ?, ?, ?)",

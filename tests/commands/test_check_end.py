@@ -26,6 +26,7 @@ from netdesign.report.terminal import dump_summary, restore_summary
 from netdesign.site.reader import read_site
 from netdesign.solving import finished_runs
 from netdesign.solving.runner import Counts, Runner
+from netdesign.solving.store import CaseStore
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 from tests.short_example import write_short_example
@@ -50,7 +51,7 @@ def place(tmp_path, monkeypatch):
 def calculated(place, monkeypatch):
     """List of calculations, each of which writes its number; nothing is solved."""
     done, runner = [], Runner(store=object())
-    (place / "cases.sqlite").touch()
+    CaseStore(place / "cases.sqlite", print).__exit__(None, None, None)
 
     def calculate(task, _read, **_):
         done.append(task)
