@@ -31,6 +31,7 @@ from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 from tests.short_example import write_short_example
 from tests.small_site import RUN
+from tests.test_startup import imported
 
 SITE = ("check", "site", "--accuracy", "0.1", "--jobs", "1")
 TOLD = "nothing has changed since the run of"
@@ -423,9 +424,9 @@ def read_outputs(folder):
 def test_a_real_run_is_told_without_any_solver(place, call, monkeypatch):
     """Bytes and words of a run without a store, whose time was chosen."""
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
-    command = "netdesign check site"
+    asked = (*SITE, "--explain")
+    command = " ".join(("netdesign", *asked, "--out", "alone"))
     monkeypatch.setattr("netdesign.commands.check.own_command", lambda: command)
-    asked = ("check", "site", "--accuracy", "0.1", "--jobs", "1", "--explain")
     bare = call(*asked, "--no-cache", "--out", "bare")
     kept = call(*asked, "--out", "kept")
     monkeypatch.setattr(check_steps, "_calculate", None)
@@ -435,6 +436,12 @@ def test_a_real_run_is_told_without_any_solver(place, call, monkeypatch):
     outputs = read_outputs(place / "bare")
     assert set(outputs) == {"study.json", "report.html", "report.xlsx"}
     assert read_outputs(place / "kept") == read_outputs(place / "again") == outputs
+    modules = imported(*asked, "--out", "alone", cwd=place, whole=True, code=kept.code)
+    assert read_outputs(place / "alone") == outputs
+    assert "netdesign.solving.finished_runs" in modules
+    unused = {"scipy.linalg", "scipy.special", "jinja2", "xlsxwriter", "pandas"}
+    unused |= {"matplotlib", "netdesign.study.judge", "netdesign.report.view.whole"}
+    assert not modules & unused
 
 
 @pytest.mark.robustness
