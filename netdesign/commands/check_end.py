@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from netdesign.report.view.whole import ReportView
     from netdesign.site.model import Site
     from netdesign.solving.finished_runs import FinishedRun
-    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_run import CheckRun
     from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
 
