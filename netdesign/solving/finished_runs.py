@@ -154,7 +154,7 @@ def _open(path: Path) -> Iterator[sqlite3.Connection]:
     """Store that is there already, until the end of a ``with``."""
     if not path.is_file():
         raise FileNotFoundError(path)
-    with closing(sqlite3.connect(path, BUSY_S, isolation_level=None)) as base:
+    with closing(sqlite3.connect(path, timeout=BUSY_S, isolation_level=None)) as base:
         yield base
 
 

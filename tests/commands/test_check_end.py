@@ -377,6 +377,7 @@ def test_a_damaged_run_is_told_and_calculated_anew(place, call, calculated):
         ("[]", {}),
         ("{}", {}),
         ('{"started": "x", "exit_code": "one"}', {}),
+        (None, {}),
         (None, {"../../elsewhere": b"x"}),
         (None, {"/tmp/elsewhere": b"x"}),
     ],
