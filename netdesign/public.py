@@ -27,5 +27,5 @@ from netdesign.snow.snowpack import Layer as Layer
 from netdesign.snow.snowpack import Snowpack as Snowpack
 from netdesign.snow.snowpack import build_layered_snowpack as build_layered_snowpack
 from netdesign.snow.wall import Wall as Wall
-from netdesign.study.cases import CheckRun as CheckRun
+from netdesign.study.check_run import CheckRun as CheckRun
 from netdesign.study.check_site import check_site as check_site

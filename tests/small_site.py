@@ -16,7 +16,7 @@ from netdesign.site.model import (
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.splay import Guys
-from netdesign.study.cases import CheckRun
+from netdesign.study.check_run import CheckRun
 from netdesign.words.message import say
 from netdesign.words.names import as_given
 

@@ -138,7 +138,7 @@ def check(
     # behind the reading: a faulty workbook is refused without a solver
     from netdesign.commands.check_steps import find_or_check
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_run import CheckRun
 
     profiles = _choose_profiles(standards, site, floor)
     run = CheckRun(

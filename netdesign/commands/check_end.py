@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from netdesign.report.view.whole import ReportView
     from netdesign.site.model import Site
     from netdesign.solving.finished_runs import FinishedRun
-    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_run import CheckRun
     from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
 
@@ -182,12 +182,12 @@ def find_end(
     if found is None:
         return None
     with suppress(ValueError, KeyError, TypeError):
-        return _restore(found, _name_files(task.outputs))
+        return _restore(found, task)
     tell(say("store.run_damaged", path=str(find_store()), name=name[:12]))
     return None
 
 
-def _restore(found: FinishedRun, places: Mapping[str, Path]) -> CheckEnd:
+def _restore(found: FinishedRun, task: CheckTask) -> CheckEnd:
     """End of a check from what the store has of it, with the places of this run.
 
     Raises
@@ -196,14 +196,21 @@ def _restore(found: FinishedRun, places: Mapping[str, Path]) -> CheckEnd:
         If it is not what `keep_end` keeps.
     """
     told, contents = json.loads(found.text), dict(found.files)
+    document = contents.pop(_DOCUMENT, b"").decode()
+    places = _name_files(task.outputs)
+    files = {places[key]: content for key, content in contents.items()}
+    wanted = (*task.outputs.of_studies, task.outputs.together)
+    is_whole = all(path in files for group in wanted for path in group)
+    if not is_whole or task.as_json is not bool(document):
+        raise ValueError("outputs are missing")
     return CheckEnd(
         started=str(told["started"]),
         exit_code=int(told["exit_code"]),
         verdicts=frozenset(map(Verdict, told["verdicts"])),
         summaries=tuple(map(restore_summary, told["summaries"])),
         sized=tuple(told["sized"]),
-        document=contents.pop(_DOCUMENT, b"").decode(),
-        files={places[key]: content for key, content in contents.items()},
+        document=document,
+        files=files,
     )
 
 

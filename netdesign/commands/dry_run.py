@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from netdesign.edge.progress import Phase
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
-    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_run import CheckRun
 
 
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from netdesign.report.files import ReportStyle
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
-    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_run import CheckRun
     from netdesign.study.check_site import SolvedSite, Watch
     from netdesign.study.records import Study
     from netdesign.study.sizing import ReadInstead, SizedCell

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.solving.workers import Job
-    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_run import CheckRun
 
 
 def solving_options(command: Any) -> Any:

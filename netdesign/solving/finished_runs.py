@@ -139,6 +139,7 @@ def keep_run(path: Path, name: str, run: FinishedRun) -> None:
         return
     with _open(path) as base:
         base.execute("BEGIN IMMEDIATE")
+        base.execute("SELECT 1 FROM origin")  # else it is no store, or none yet
         base.execute(_TABLE)
         base.execute(
             "INSERT OR REPLACE INTO runs (name, text, files, seal) VALUES (?, ?, ?, ?)",
@@ -153,7 +154,7 @@ def _open(path: Path) -> Iterator[sqlite3.Connection]:
     """Store that is there already, until the end of a ``with``."""
     if not path.is_file():
         raise FileNotFoundError(path)
-    with closing(sqlite3.connect(path, BUSY_S, isolation_level=None)) as base:
+    with closing(sqlite3.connect(path, timeout=BUSY_S, isolation_level=None)) as base:
         yield base
 
 

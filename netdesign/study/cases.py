@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Literal, cast, get_args
 
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import Scene
 from netdesign.edge.progress import Phase
 from netdesign.envelope.confirm import (
     build_history_settings,
@@ -22,8 +21,9 @@ from netdesign.errors import ModelError
 from netdesign.search.maxima import SearchSettings
 from netdesign.search.questions import list_first_design
 from netdesign.site.model import NetRow, Site
-from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
+from netdesign.snow.creep_law import CreepLaw
 from netdesign.solving.runner import Runner
+from netdesign.study.check_run import CheckRun
 from netdesign.study.probe import build_scene
 from netdesign.words.message import Message, say
 
@@ -37,35 +37,6 @@ _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
 HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take
 _CLOSEST_GAP = 1e-3  # however accurate the cases are
-
-
-Method = Literal["steady", "transient"]
-
-
-def read_method(name: str) -> Method:
-    """Method of a name in a document.
-
-    Raises
-    ------
-    ValueError
-        If no method has it.
-    """
-    for method in get_args(Method):
-        if name == method:
-            return cast(Method, method)
-    raise ValueError(f"no method {name!r:.60}")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CheckRun:
-    """Settings of the solves of a site."""
-
-    settings: SolverSettings
-    method: Method = "steady"
-    creep_law: CreepLaw = BOUTILLIER_2004
-    jobs: int = 1
-    command: str = "netdesign check"
-    started: str = ""  # ISO 8601, UTC; given, so that equal input gives equal bytes
 
 
 def count_cases(site: Site) -> int:

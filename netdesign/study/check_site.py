@@ -13,13 +13,8 @@ from netdesign.envelope.search import Wave
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import ProcessPool
-from netdesign.study.cases import (
-    CheckRun,
-    have_same_forces,
-    list_alike,
-    search_site,
-    solve_site,
-)
+from netdesign.study.cases import have_same_forces, list_alike, search_site, solve_site
+from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import gather_study
 from netdesign.study.records import Study
 from netdesign.study.side_by_side import RowsJob, Studies, judge_rows

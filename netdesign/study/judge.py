@@ -16,7 +16,7 @@ from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
 from netdesign.study.case_records import CaseRecord, ExtremeRecord
-from netdesign.study.cases import CheckRun
+from netdesign.study.check_run import CheckRun
 from netdesign.study.end_note import record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.floor import bound_row_floor, find_row_floor, record_floor

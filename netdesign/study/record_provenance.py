@@ -12,7 +12,7 @@ from netdesign.checks.schema import GLIDE_FACTORS
 from netdesign.core.library import name_core
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
-from netdesign.study.cases import CheckRun
+from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import load_glide_limits, load_guideline
 from netdesign.study.records import ProfileRecord, ProfileValue, Provenance
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.errors import StudyError
-from netdesign.study.cases import CheckRun, read_method
+from netdesign.study.check_run import CheckRun, read_method
 from netdesign.study.record_provenance import name_law
 from netdesign.study.records import Study
 from netdesign.study.values import Difference, compare_values, list_values

@@ -18,7 +18,8 @@ from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError
 from netdesign.solving.workers import ProcessPool
-from netdesign.study.cases import CheckRun, search_site
+from netdesign.study.cases import search_site
+from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_row
 from netdesign.study.probe import Probe
 from netdesign.study.records import RowStudy

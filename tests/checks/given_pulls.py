@@ -14,7 +14,7 @@ from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site
 from netdesign.structure import compute_anchor_forces, place_support
-from netdesign.study.cases import CheckRun
+from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 
 NETS = {

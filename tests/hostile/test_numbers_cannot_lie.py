@@ -25,7 +25,8 @@ from netdesign.solving.runner import Runner
 from netdesign.solving.solve import solve_scene
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import OwnProcess
-from netdesign.study.cases import CheckRun, search_site, solve_site
+from netdesign.study.cases import search_site, solve_site
+from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from tests import small_site
 from tests.small_site import RANGES as GRID

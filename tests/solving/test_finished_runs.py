@@ -160,6 +160,14 @@ def test_runs_that_end_at_once_do_no_harm(path, said):
     assert all(find_run(path, name, said.append) == RUN for name in names)
 
 
+@pytest.mark.parametrize("content", [b"", b"no database"])
+def test_what_is_no_store_is_not_made_one(tmp_path, content):
+    (tmp_path / "other").write_bytes(content)
+    with pytest.raises(sqlite3.Error):
+        keep_run(tmp_path / "other", "a", RUN)
+    assert (tmp_path / "other").read_bytes() == content
+
+
 def test_a_store_that_cannot_take_it_says_so(path):
     with closing(sqlite3.connect(path)) as base:
         base.execute("CREATE VIEW runs AS SELECT 1 AS number")

@@ -11,7 +11,8 @@ from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
 from netdesign.study.audit.study_audit import audit_study
-from netdesign.study.cases import CheckRun, search_site
+from netdesign.study.cases import search_site
+from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.verification.untidy_site import PROFILE, draw_site

@@ -11,7 +11,8 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES, Project, Resistance
 from netdesign.snow.ground import GroundLaw
-from netdesign.study.cases import CheckRun, solve_site
+from netdesign.study.cases import solve_site
+from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe
 from tests.small_site import build_row, build_site

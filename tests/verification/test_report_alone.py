@@ -16,7 +16,8 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.report.page.html import render_html
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import write_site_workbook
-from netdesign.study.cases import CheckRun, search_site
+from netdesign.study.cases import search_site
+from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.printing import (

@@ -17,7 +17,8 @@ from netdesign.evidence.benchmark.whole_site import build_bench_site
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.site.model import BorderRope, NetRow, RowPanel, Site
 from netdesign.solving.runner import Runner
-from netdesign.study.cases import CheckRun, search_site
+from netdesign.study.cases import search_site
+from netdesign.study.check_run import CheckRun
 from netdesign.words.message import say
 
 SCHEMA = "netdesign.bench-panel/1"

@@ -16,7 +16,7 @@ from netdesign.site.template.workbook import write_site_workbook
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import build_workers
-from netdesign.study.cases import CheckRun
+from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import check_site
 from netdesign.study.records import Study
 
