@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import product
+from itertools import count, product
 
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
@@ -28,6 +28,7 @@ from netdesign.words.message import Message, say
 CLOSE = 0.9  # utilisation from which a passing check is told where it flips
 _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
+_LEAST_FLOOR = 1e-3  # utilisation by a floor, that a secant is taken with
 _MOST_ROUNDS = 4
 # Utilisation up to which a rival does not fail between two others of less and of more
 # friction: in 520 of such rivals it lay 0.07 % above the larger one of theirs at most.
@@ -152,16 +153,26 @@ def _find_floor_height(target: Target, least: float, most: float) -> float | Non
     The floor rises with the height.
     """
 
-    def is_met(thickness: float) -> bool:
-        return target.is_floor_met(Move(name="thickness", value=thickness))
+    def use(thickness: float) -> float:
+        return target.use_about(Move(name="thickness", value=thickness))
 
-    if is_met(most):
+    if (fails := use(most)) <= 1.0:
         return most
-    if not is_met(least):
+    if (passes := use(least)) > 1.0:
         return None
-    while most - least > 0.1 * _STEPS["thickness"]:
-        middle = 0.5 * (least + most)
-        least, most = (middle, most) if is_met(middle) else (least, middle)
+    step = 0.1 * _STEPS["thickness"]
+    for number in count():
+        if most - least <= step:
+            break
+        low, high = max(passes, _LEAST_FLOOR), min(fails, 1.0 / _LEAST_FLOOR)
+        share = math.log(low) / math.log(low / high)
+        share = 0.5 if number % 3 == 2 else share  # a kink misleads a secant
+        value = least * (most / least) ** share
+        value = min(max(value, least + 0.45 * step), most - 0.45 * step)
+        if (found := use(value)) <= 1.0:
+            least, passes = value, found
+        else:
+            most, fails = value, found
     return least
 
 
