@@ -172,7 +172,7 @@ class Target:
 
     def _find_unmoved(self, case: Case, move: Move) -> CaseResult | None:
         """Result of a solved case that already has the value; None of any other."""
-        if self._find_value(case, move.name) != move.value:
+        if self.find_value(case, move.name) != move.value:
             return None
         same = (one for one in self.results if one.case == case)
         return next((one for one in same if self.has_result(one)), None)
@@ -195,11 +195,11 @@ class Target:
         Each by the case in which the forces are nearest to their largest values, as if
         they grew there as they do in that case.
         """
-        now = self._find_value(self.governing, name)
+        now = self.find_value(self.governing, name)
         shares = {
             one.case: self.share(one)
             for one in self.results
-            if self._find_value(one.case, name) == now
+            if self.find_value(one.case, name) == now
         }
         found: dict[float, tuple[float, float]] = {}
         for (case, value), result in probe.list_moved(self.row, name).items():
@@ -212,7 +212,16 @@ class Target:
         known = {value: used for value, (_, used) in found.items()}
         return known if now is None else known | {now: self.use(self.largest)}
 
-    def _find_value(self, case: Case, name: str) -> float | None:
+    @cached_property
+    def _shares_of_use(self) -> dict[Case, float]:
+        used = {one.case: self.utilisation(one) or 0.0 for one in self.results}
+        return {case: one / (max(used.values()) or 1.0) for case, one in used.items()}
+
+    def compare(self, case: Case) -> float:
+        """Utilisation in a solved case over the largest one [-], as things are."""
+        return self._shares_of_use[case]
+
+    def find_value(self, case: Case, name: str) -> float | None:
         """Value that a case has, or the row as far as it may be asked for."""
         of_row = self.row.snow_thickness if name == "thickness" else None
         return case.values.get(name, of_row)
