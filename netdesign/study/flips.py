@@ -10,8 +10,6 @@ ranges; it limits the snow height by its closed form.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
 from itertools import count, product
 
 from netdesign.envelope.ranges import Case
@@ -20,6 +18,7 @@ from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.probe import Probe
 from netdesign.study.records import ChangeRecord
+from netdesign.study.rivals import bound_rival, put_outer_first
 from netdesign.study.root import LEAST_POWER, Root, refuse, round_down
 from netdesign.study.target import TRIED_DENSITIES, Move, Target, list_near
 from netdesign.units import degree_from_radian, radian_from_degree
@@ -32,6 +31,8 @@ _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
 # moved quantity, and for none. At most 0.57 of thickness (1,023 rivals) and 0.09 of
 # density (358) were seen, taken higher; assumed.
 _DRIFTS, _STILL_DRIFT = {"thickness": 1.0, "density": 0.3}, 0.01
+_LEAST_FLOOR = 1e-3  # utilisation by a floor, that a secant is taken with
+_MOST_ROUNDS = 4
 _LEAST_FLOOR = 1e-3  # utilisation by a floor, that a secant is taken with
 _MOST_ROUNDS = 4
 # Utilisation up to which a rival does not fail between two others of less and of more
@@ -338,31 +339,13 @@ def _find_power(target: Target, quantity: str, usual: float) -> float:
 def _find_violator(target: Target, probe: Probe, move: Move) -> Case | Message | None:
     """Rival case that still fails most at a value; a reason if one is unsolved.
 
-    Of rivals that differ in friction alone those between two others are asked last,
-    and only where one of their line nearly fails.
+    One after the other, unless those before leave no doubt that it passes.
     """
-    rivals = _list_rivals(target, move)
-    first = _list_outer(rivals)
-    used = _use_rivals(target, probe, first, move)
-    if not isinstance(used, Message):
-        close = {_leave_out_friction(one) for one in first if used[one] > _ALONE}
-        left = [one for one in rivals if one not in used]
-        left = [one for one in left if _leave_out_friction(one) in close]
-        more = _use_rivals(target, probe, left, move)
-        used = more if isinstance(more, Message) else used | more
-    if isinstance(used, Message):
-        return used
-    worst = max(used, key=lambda one: used[one])
-    return worst if used[worst] > 1.0 else None
-
-
-def _use_rivals(
-    target: Target, probe: Probe, rivals: Sequence[Case], move: Move
-) -> dict[Case, float] | Message:
-    """Utilisation in each of some rivals; a reason if one has no result."""
-    used = {}
-    results = target.solve(probe, rivals, move)
-    for case, result in zip(rivals, results, strict=True):
+    used: dict[Case, float] = {}
+    for case in put_outer_first(_list_rivals(target, move)):
+        if bound_rival(target, case, move, used) < 1.0:
+            continue
+        (result,) = target.solve(probe, [case], move)
         utilisation = target.utilisation(result, move)
         if utilisation is None:
             reason = result.reason or result.outcome.message
@@ -370,36 +353,12 @@ def _use_rivals(
                 "change.rival_without_result", move.name, move.value, reason=reason
             )
         used[case] = utilisation
-    return used
-
-
-def _list_outer(rivals: Sequence[Case]) -> list[Case]:
-    """The first rival, and of each line along friction those at its ends."""
-    lines: dict[Case, list[Case]] = {}
-    for one in sorted(rivals, key=lambda case: case.friction_angle):
-        lines.setdefault(_leave_out_friction(one), []).append(one)
-    outer = {one for line in lines.values() for one in (line[0], line[-1])}
-    return [one for one in rivals if one in outer or one is rivals[0]]
-
-
-def _leave_out_friction(case: Case) -> Case:
-    return replace(case, friction_angle=0.0)
+    worst = max(used, key=lambda one: used[one])
+    return worst if used[worst] > 1.0 else None
 
 
 def _list_rivals(target: Target, move: Move) -> list[Case]:
-    """Cases that may take over, those that the move makes equal only once."""
-    near = [case for case in list_near(target) if _may_overtake(target, case, move)]
+    """Cases near to governing, those that the move makes equal only once."""
+    near = list_near(target)
     moved = {case.with_value(move.name, move.value): case for case in reversed(near)}
     return list(reversed(moved.values()))
-
-
-def _may_overtake(target: Target, case: Case, move: Move) -> bool:
-    """The case may carry as much as the governing one once both are moved.
-
-    Both at the same value now: where they are not, or nothing is known, it may.
-    """
-    now, drift = target.find_value(target.governing, move.name), _DRIFTS.get(move.name)
-    if drift is None or not now or target.find_value(case, move.name) != now:
-        return True
-    most = drift * abs(math.log(move.value / now)) + _STILL_DRIFT
-    return target.compare(case) * math.exp(most) >= 1.0
