@@ -20,6 +20,8 @@ TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 # Quantities that a glide factor follows from.
 ON_GLIDE = ("thickness", "snow_height", "slip_length", "glide_factor")
 SERVES = 0.85  # share of its largest force that a member carries in a case it shares
+# What the guideline's load does not know; it has densities of its own.
+_NOT_IN_FLOOR = ("density", "friction_angle", "upslope_length")
 _RIVAL = 0.9  # share of the governing force from which a case may take over
 _BESIDE = 0.13  # of every range: an eighth, and its rounding
 
@@ -170,7 +172,7 @@ class Target:
 
     def _find_unmoved(self, case: Case, move: Move) -> CaseResult | None:
         """Result of a solved case that already has the value; None of any other."""
-        if self._find_value(case, move.name) != move.value:
+        if self.find_value(case, move.name) != move.value:
             return None
         same = (one for one in self.results if one.case == case)
         return next((one for one in same if self.has_result(one)), None)
@@ -193,11 +195,11 @@ class Target:
         Each by the case in which the forces are nearest to their largest values, as if
         they grew there as they do in that case.
         """
-        now = self._find_value(self.governing, name)
+        now = self.find_value(self.governing, name)
         shares = {
             one.case: self.share(one)
             for one in self.results
-            if self._find_value(one.case, name) == now
+            if self.find_value(one.case, name) == now
         }
         found: dict[float, tuple[float, float]] = {}
         for (case, value), result in probe.list_moved(self.row, name).items():
@@ -210,30 +212,44 @@ class Target:
         known = {value: used for value, (_, used) in found.items()}
         return known if now is None else known | {now: self.use(self.largest)}
 
-    def _find_value(self, case: Case, name: str) -> float | None:
+    @cached_property
+    def _shares_of_use(self) -> dict[Case, float]:
+        used = {one.case: self.utilisation(one) or 0.0 for one in self.results}
+        return {case: one / (max(used.values()) or 1.0) for case, one in used.items()}
+
+    def compare(self, case: Case) -> float:
+        """Utilisation in a solved case over the largest one [-], as things are."""
+        return self._shares_of_use[case]
+
+    def find_value(self, case: Case, name: str) -> float | None:
         """Value that a case has, or the row as far as it may be asked for."""
         of_row = self.row.snow_thickness if name == "thickness" else None
         return case.values.get(name, of_row)
 
     def use_least(self, move: Move | None = None) -> float:
         """Utilisation by the guideline's load alone [-], of what is moved."""
-        ranges = self.ranges if move is None else move.on(self.ranges)
-        return self.use_floor(ranges) * self._compare_width(move)
+        return self.use_floor(self._move_floor(move)) * self._compare_width(move)
+
+    def use_about(self, move: Move) -> float:
+        """Utilisation by the guideline's load alone, on the same side of 1 [-].
+
+        As exact as its lower end, where its two ends tell that side.
+        """
+        width = self._compare_width(move)
+        least, most = (width * one for one in self.bound_floor(self._move_floor(move)))
+        return least if most <= 1.0 or least > 1.0 else self.use_least(move)
 
     def use_more(self, used: float, move: Move) -> float:
-        """Larger one of a utilisation and that by the guideline's load [-]."""
-        _, most = self.bound_floor(move.on(self.ranges))
-        if most * self._compare_width(move) <= used:
-            return used
-        return max(used, self.use_least(move))
+        """Larger one of a utilisation and that by the guideline's load [-].
 
-    def is_floor_met(self, move: Move) -> bool:
-        """The guideline's load alone lets the check pass, of what is moved."""
-        width = self._compare_width(move)
-        least, most = (width * one for one in self.bound_floor(move.on(self.ranges)))
-        if most <= 1.0 or least > 1.0:
-            return most <= 1.0
-        return self.use_least(move) <= 1.0
+        Which floor a check beyond 1 has is not asked.
+        """
+        return used if used > 1.0 else max(used, self.use_about(move))
+
+    def _move_floor(self, move: Move | None) -> Ranges:
+        """Ranges that the guideline's load is searched over."""
+        is_still = move is None or move.name in _NOT_IN_FLOOR
+        return self.ranges if is_still or move is None else move.on(self.ranges)
 
     def use(self, force: float) -> float:
         """Utilisation by a force of the member [-]."""

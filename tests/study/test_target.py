@@ -138,7 +138,7 @@ def test_at_an_end_the_largest_glide_factor_of_the_ranges_counts():
     assert widths[1] > 1.005 * widths[0]
 
 
-@pytest.mark.parametrize("ends", [(0.0, math.inf), (0.39, 0.44), (0.4, 0.4)])
+@pytest.mark.parametrize("ends", [(0.0, math.inf), (0.39, 1.02), (0.39, 0.44)])
 def test_two_ends_of_the_floor_change_no_answer(ends):
     """The floor itself is found only where its ends leave the answer open."""
     found = []
@@ -153,11 +153,25 @@ def test_two_ends_of_the_floor_change_no_answer(ends):
     )
     move = Move(name="slack", value=0.0213)
     assert target.use_more(0.617, move) == 0.617
-    assert len(found) == (ends[1] > 0.617)
-    assert target.use_more(0.217, move) == 0.4
+    assert target.use_more(0.217, move) == (0.4 if ends[1] > 1.0 else ends[0])
+    assert target.use_about(move) <= 1.0
+    assert len(found) == 3 * (ends[1] > 1.0)
     found.clear()
-    assert target.is_floor_met(move)
-    assert len(found) == (ends[1] > 1.0)
+    assert target.use_more(1.003, move) == 1.003
+    assert not found
+
+
+@pytest.mark.parametrize("quantity", ["density", "friction_angle", "upslope_length"])
+def test_a_quantity_that_the_floor_does_not_know_leaves_it(quantity):
+    """Said of the guideline's own load, and used: its ranges stay as they are."""
+    row, ranges = draw_row(random.Random(19)), draw_ranges(random.Random(19))
+    value = {"density": 523.0, "friction_angle": 0.517, "upslope_length": 12.7}[
+        quantity
+    ]
+    moved = ranges.with_value(quantity, value)
+    assert list_floor(row, moved) == list_floor(row, ranges)
+    target = build_target(row, ranges)
+    assert target.use_least(Move(name=quantity, value=0.37)) == 0.3
 
 
 @pytest.mark.parametrize("ends", [(0.0, math.inf), (0.97, 1.09), (1.003, 1.09)])
@@ -168,4 +182,4 @@ def test_floor_that_is_not_met_is_so_by_its_ends_too(ends):
         use_floor=lambda _: 1.004,
         bound_floor=lambda _: ends,
     )
-    assert not target.is_floor_met(Move(name="slack", value=0.0213))
+    assert target.use_about(Move(name="slack", value=0.0213)) > 1.0
