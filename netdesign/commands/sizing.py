@@ -116,12 +116,12 @@ def check_and_size(
     watch: Watch,
 ) -> tuple[list[Study], list[Sized]]:
     """Studies of a site by profiles, and its smallest types where ``read`` is given."""
-    from netdesign.study.check_site import judge_solved, solve_rows
+    from netdesign.study.check_site import check_site, judge_solved, solve_rows
 
+    if read is None:
+        return check_site(site, profiles, run, runner, watch), []
     solved = solve_rows(site, run, runner, watch)
     studies = judge_solved(solved, profiles, run, runner, watch)
-    if read is None:
-        return studies, []
     return studies, _size(solved, studies, profiles, run, read, runner, watch)
 
 

@@ -84,6 +84,7 @@ def open_phases(
             processes=processes,
             store=find_store() if cache else None,
             tell=lambda message: tell(message, language, err=True),
+            expected=sum(phase.cases for phase in phases),
         ) as runner,
         show_phases(phases, quiet=quiet, language=language) as progress,
     ):

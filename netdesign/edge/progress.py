@@ -165,6 +165,7 @@ class RunProgress:
         self._place, self._done, self._waiting = 0, 0, 0
         self._pace: float | None = None  # seconds of a case whose cost is 1
         self._begin()
+        self._named = self._phase.words
 
     @property
     def _phase(self) -> Phase:
@@ -176,14 +177,18 @@ class RunProgress:
         self._words: tuple[Message, ...] = ()
         self._stage: Message | str = self._phase.key
 
-    def enter(self, key: str) -> None:
-        """A phase begins, if it is one of those to come; there is no way back."""
+    def enter(self, key: str, words: Message | None = None) -> None:
+        """A phase begins, if it is one of those to come; there is no way back.
+
+        ``words`` are its name for people, where it does more than its own says.
+        """
         keys = [phase.key for phase in self._phases]
         if key not in keys[self._place + 1 :]:
             return
         self._keep_pace()
         self._place, self._waiting = keys.index(key), 0
         self._begin()
+        self._named = words or self._phase.words
         self._tell()
 
     def ask(self, count: int) -> None:
@@ -260,7 +265,7 @@ class RunProgress:
             Standing(
                 done=self._done,
                 open=max(left + later, 0 if is_last else 1),
-                words=(phase.words, *words),
+                words=(self._named, *words),
                 stage=self._stage,
                 seconds=self._estimate_seconds(left),
             )

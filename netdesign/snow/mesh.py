@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.numerics.scipy_start import importing_scipy
 from netdesign.outcome import Outcome
 from netdesign.snow.triangulation import Triangulation, number_nodes
 from netdesign.words.message import say
@@ -448,10 +449,16 @@ def _is_clear(points: Floats, line: Floats) -> Mask:
     return np.asarray((distance > radius * (1.0 + 1e-9)) & (off > _LEAST_OFF * radius))
 
 
-def _connect(points: Floats) -> Ints:
-    from scipy.spatial import Delaunay
+def load_delaunay() -> Any:
+    """SciPy's triangulation: the longest import of a solve, when first asked for."""
+    with importing_scipy():
+        from scipy.spatial import Delaunay
 
-    triangles = Delaunay(points).simplices
+    return Delaunay
+
+
+def _connect(points: Floats) -> Ints:
+    triangles = load_delaunay()(points).simplices
     # collinear boundary points may leave triangles without area
     solid = np.abs(_twice_area(points[triangles])) > 1e-15
     triangles = triangles[solid]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from netdesign.coupling.solution import FailedSolution
@@ -96,6 +96,16 @@ class Runner:
             self.counts.failed += 1
             self.keep_fault(end.fault)
         self.on_done(end)
+
+    def take(self, theirs: Counts, faults: Mapping[Fault, set[str]]) -> None:
+        """Count what another runner did for this one, and remember its faults."""
+        self.counts.solved += theirs.solved
+        self.counts.reused += theirs.reused
+        self.counts.failed += theirs.failed
+        for _ in range(theirs.solved + theirs.reused):
+            self.on_done(None)
+        for fault, rows in faults.items():
+            self.faults.setdefault(fault, set()).update(rows)
 
     def keep_fault(self, fault: Fault | None, row_id: str = "") -> None:
         """Remember a fault of the program, if it is one, and the net row it befell."""

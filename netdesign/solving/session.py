@@ -8,7 +8,7 @@ from pathlib import Path
 
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore, StoreError
-from netdesign.solving.workers import build_workers
+from netdesign.solving.workers import ProcessPool, build_workers
 from netdesign.words.message import Message, say
 
 
@@ -19,6 +19,7 @@ def open_runner(
     processes: int,
     store: Path | None,
     tell: Callable[[Message], None],
+    expected: int = 0,
 ) -> Iterator[Runner]:
     """Runner for the time of a ``with``.
 
@@ -32,6 +33,8 @@ def open_runner(
         File of the finished cases; None keeps none.
     tell : callable
         Takes what the user should know, for instance that there can be no store.
+    expected : int
+        Number of cases, about; processes that it is worth are started now.
 
     Raises
     ------
@@ -41,6 +44,8 @@ def open_runner(
     with ExitStack() as stack:
         workers = build_workers(executor, processes)
         stack.callback(workers.close)
+        if isinstance(workers, ProcessPool):
+            workers.prepare(expected)
         kept: CaseStore | None = None
         if store is not None:
             try:

@@ -127,7 +127,9 @@ def _describe(value: Any) -> Any:
 class CaseStore:
     """Finished cases in one file; use it in a ``with``."""
 
-    def __init__(self, path: Path, tell: Callable[[Message], None]) -> None:
+    def __init__(
+        self, path: Path, tell: Callable[[Message], None], *, is_open: bool = False
+    ) -> None:
         """Open or build the file.
 
         Parameters
@@ -136,13 +138,15 @@ class CaseStore:
             The file; its folder is made.
         tell : callable
             Takes what the user should know: a store that had to be set aside.
+        is_open : bool
+            Another process of this run has opened it, and found it sound.
 
         Raises
         ------
         StoreError
             If there can be no file at that place.
         """
-        self._path, self._tell = path, tell
+        self.path, self._tell, self._is_sound = path, tell, is_open
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             fault = self._open()
@@ -175,11 +179,11 @@ class CaseStore:
 
     def _open(self) -> Message | None:
         """Connect; why the file there cannot be used, or None."""
-        self._base = sqlite3.connect(self._path, timeout=_BUSY_S, isolation_level=None)
+        self._base = sqlite3.connect(self.path, timeout=_BUSY_S, isolation_level=None)
         try:
             self._base.execute("PRAGMA journal_mode = WAL")
             self._base.execute("PRAGMA synchronous = NORMAL")
-            fault = self._prepare()
+            fault = None if self._is_sound else self._prepare()
         except sqlite3.OperationalError:
             self._base.close()
             raise  # locked, read-only, full: the file itself may be sound
@@ -235,7 +239,7 @@ class CaseStore:
         return found
 
     def _tell_damaged(self, key: str, name: str) -> None:
-        self._tell(say(key, path=str(self._path), name=name[:12]))
+        self._tell(say(key, path=str(self.path), name=name[:12]))
 
     def keep(self, name: str, end: CaseEnd) -> None:
         """Store one finished case, in a transaction of its own."""

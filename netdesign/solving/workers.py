@@ -20,13 +20,15 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Protocol
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
 
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, WallSolution
 from netdesign.errors import ModelError, NetDesignError, SolveError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
+from netdesign.snow.mesh import load_delaunay
 from netdesign.solving.describe import describe_case
 from netdesign.solving.solve import Settings, solve_scene
 from netdesign.solving.state import CaseEnd, is_stuck, keep_state
@@ -40,6 +42,10 @@ _REACH_S = 5.0  # how long a cluster may take to answer
 _PORTS = 65_536
 _DESERTED_S = 60.0  # how long it may be without a worker; they are being started again
 _POLL_S = 0.01
+_THREADS = Path("/proc/self/task")  # of this process, on Linux
+
+Item = TypeVar("Item")
+Found = TypeVar("Found")
 
 
 class ClusterError(NetDesignError):
@@ -146,8 +152,16 @@ class ProcessPool:
 
     def __init__(self, processes: int, *, worth: int = _WORTH_A_POOL) -> None:
         """Keep the number of processes, and of jobs that are worth starting them."""
-        self._processes, self._worth = processes, worth
+        self.processes, self._worth = processes, worth
         self._pool: ProcessPoolExecutor | None = None
+
+    def prepare(self, jobs: int) -> None:
+        """Start the processes now, if so many jobs are worth it and it is quick.
+
+        Before other threads begin: afterwards no copy of this process is sound.
+        """
+        if jobs >= self._worth and can_fork():
+            self._start().submit(int)  # a pool starts its processes with its first task
 
     def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         """Solve all batches; suspects of a crash are tried again job by job."""
@@ -163,25 +177,41 @@ class ProcessPool:
         self, waiting: list[tuple[int, Batch]]
     ) -> Generator[Arrival, None, list[tuple[int, Batch]]]:
         """Hand out batches until all are done or the pool breaks; returns the lost."""
-        held: dict[Future[Ends], tuple[int, Batch]] = {}
+        return (yield from self.spread(solve_batch, waiting))
+
+    def spread(
+        self, work: Callable[[Item], Found], waiting: list[tuple[int, Item]]
+    ) -> Generator[tuple[int, Found], None, list[tuple[int, Item]]]:
+        """Results of a function for items, each with its item's place, as they arrive.
+
+        Items are taken from the end of ``waiting``. Returns those that were in hand
+        when the pool broke, if it did; from then on everything is done in a pool.
+        """
+        held: dict[Future[Found], tuple[int, Item]] = {}
         pool = self._start()
         try:
             while waiting or held:
-                while waiting and len(held) < _AHEAD * self._processes:
-                    held[pool.submit(solve_batch, waiting[-1][1])] = waiting[-1]
+                while waiting and len(held) < _AHEAD * self.processes:
+                    held[pool.submit(work, waiting[-1][1])] = waiting[-1]
                     waiting.pop()
                 for future in wait(held, return_when=FIRST_COMPLETED).done:
-                    ends = future.result()
+                    found = future.result()
                     place, _ = held.pop(future)
-                    yield place, ends
+                    yield place, found
         except BrokenProcessPool:
             self.close()
+            self._worth = 0  # what kills a worker shall not kill this process
             return sorted(held.values(), key=lambda one: one[0])
         return []
 
+    @property
+    def is_at_hand(self) -> bool:
+        """Processes run, or would at once."""
+        return self._pool is not None or can_fork()
+
     def _start(self) -> ProcessPoolExecutor:
         if self._pool is None:
-            self._pool = _start_pool(self._processes)
+            self._pool = _start_pool(self.processes)
         return self._pool
 
     def close(self) -> None:
@@ -386,10 +416,26 @@ def _try_job_by_job(suspects: Sequence[tuple[int, Batch]]) -> Iterator[Arrival]:
 def _start_pool(processes: int) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(
         processes,
-        mp_context=multiprocessing.get_context("spawn"),
+        mp_context=multiprocessing.get_context(_choose_start()),
         initializer=_begin,
         initargs=gc.get_threshold(),
     )
+
+
+def _choose_start() -> str:
+    """``fork`` where it is sound; what every copy would load is loaded before."""
+    if not can_fork():
+        return "spawn"
+    load_delaunay()
+    return "fork"
+
+
+def can_fork() -> bool:
+    """A copy of this process is a sound one: it has no thread but this, on Linux.
+
+    A copy is there at once; a process that is started anew loads the program first.
+    """
+    return _THREADS.is_dir() and len(list(_THREADS.iterdir())) == 1
 
 
 def _begin(*collection: int) -> None:

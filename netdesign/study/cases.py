@@ -96,6 +96,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
             words=say("phase.checks"),
             cases=profiles * rows * _BESIDE[0],
             most=profiles * rows * _BESIDE[1],
+            cost=1.0 / min(run.jobs, rows),
             pieces=profiles * checks,
         ),
         Phase(
@@ -192,6 +193,14 @@ def have_same_forces(
 ) -> bool:
     """Two rows over their ranges are solved alike, whatever bears their forces."""
     return _build_search(row, ranges, run) == _build_search(other, others, run)
+
+
+def list_alike(site: Site, run: CheckRun) -> list[tuple[NetRow, ...]]:
+    """Rows of a site, those together that are solved alike."""
+    found: dict[RowTask, list[NetRow]] = {}
+    for row in site.rows:
+        found.setdefault(_build_search(row, site.ranges, run), []).append(row)
+    return [tuple(rows) for rows in found.values()]
 
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:

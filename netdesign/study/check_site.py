@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Protocol
 
 from netdesign.checks import Standard
@@ -11,22 +12,27 @@ from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.search import Wave
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
+from netdesign.solving.workers import ProcessPool
 from netdesign.study.cases import (
     CheckRun,
     have_same_forces,
+    list_alike,
     search_site,
     solve_site,
 )
-from netdesign.study.judge import judge_site
-from netdesign.study.probe import Probe
+from netdesign.study.judge import gather_study
 from netdesign.study.records import Study
+from netdesign.study.side_by_side import RowsJob, Studies, judge_rows
+from netdesign.words.message import Message, say
+
+_ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
 
 
 class Watch(Protocol):
     """Who is told how far a check has come; ``edge.progress.RunProgress`` is one."""
 
-    def enter(self, key: str) -> None:
-        """Tell that a phase of ``cases.list_phases`` begins."""
+    def enter(self, key: str, words: Message | None = None) -> None:
+        """Tell that a phase of ``cases.list_phases`` begins, by words of its own."""
 
     def tell_wave(self, wave: Wave) -> None:
         """Tell that a wave of the search is over."""
@@ -38,7 +44,7 @@ class Watch(Protocol):
 class _Nobody:
     """Watch of a check whose progress nobody asks for."""
 
-    def enter(self, key: str) -> None: ...
+    def enter(self, key: str, words: Message | None = None) -> None: ...
     def tell_wave(self, wave: Wave) -> None: ...
     def count_piece(self) -> None: ...
 
@@ -80,8 +86,30 @@ def check_site(
         One for each profile.
     """
     runner, watch = runner or Runner(), watch or _Nobody()
+    pool = runner.workers
+    is_searched = run.method == "steady" and not site.ranges.is_grid
+    if is_searched and isinstance(pool, ProcessPool) and pool.is_at_hand:
+        groups = list_alike(site, run)
+        if len(groups) >= _ROWS_A_PROCESS * pool.processes:
+            return _check_side_by_side(site, groups, standards, run, runner, watch)
     solved = solve_rows(site, run, runner, watch)
     return judge_solved(solved, standards, run, runner, watch)
+
+
+def _check_side_by_side(
+    site: Site,
+    groups: Sequence[tuple[NetRow, ...]],
+    standards: Sequence[Standard],
+    run: CheckRun,
+    runner: Runner,
+    watch: Watch,
+) -> list[Study]:
+    """Studies of a site whose rows are searched and judged each in one process."""
+    watch.enter("checks", say("phase.rows"))
+    build = partial(_build_job, site, standards, run, runner)
+    judged = judge_rows([build(rows) for rows in groups], runner, watch.count_piece)
+    ids = (row.id for rows in groups for row in rows)
+    return _gather(site, dict(zip(ids, judged, strict=True)), standards, run)
 
 
 def solve_rows(
@@ -127,20 +155,41 @@ def judge_solved(
 ) -> list[Study]:
     """Studies of a solved site, one for each profile."""
     watch.enter("checks")
-    probe = Probe(run.settings, run.creep_law, runner)
-    site, rows = solved.site, solved.rows
-    studies = [
-        judge_site(site, rows, one, run, probe, watch.count_piece) for one in standards
+    site = solved.site
+    build = partial(_build_job, site, standards, run, runner)
+    pairs = zip(site.rows, solved.rows, strict=True)
+    jobs = [build((row,), (of_row,)) for row, of_row in pairs]
+    judged = judge_rows(jobs, runner, watch.count_piece)
+    ids = (row.id for row in site.rows)
+    return _gather(site, dict(zip(ids, judged, strict=True)), standards, run)
+
+
+def _build_job(
+    site: Site,
+    standards: Sequence[Standard],
+    run: CheckRun,
+    runner: Runner,
+    rows: tuple[NetRow, ...],
+    solved: tuple[RowGrid | RowEnvelope, ...] | None = None,
+) -> RowsJob:
+    return RowsJob(
+        site=site,
+        rows=rows,
+        solved=solved,
+        standards=tuple(standards),
+        run=run,
+        store=runner.store.path if runner.store else None,
+    )
+
+
+def _gather(
+    site: Site,
+    of_rows: Mapping[str, Studies],
+    standards: Sequence[Standard],
+    run: CheckRun,
+) -> list[Study]:
+    """One study a profile, of the rows' studies by their ids."""
+    return [
+        gather_study(site, [of_rows[row.id][k] for row in site.rows], standard, run)
+        for k, standard in enumerate(standards)
     ]
-    _keep_faults(site, rows, runner)
-    return studies
-
-
-def _keep_faults(
-    site: Site, solved: Sequence[RowGrid | RowEnvelope], runner: Runner
-) -> None:
-    """Tell the runner which net rows the faults in their cases befell."""
-    for row, of_row in zip(site.rows, solved, strict=True):
-        again = of_row.confirmations if isinstance(of_row, RowEnvelope) else ()
-        for result in (*of_row.results, *(one.confirmed for one in again)):
-            runner.keep_fault(result.fault, row.id)

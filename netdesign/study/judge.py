@@ -87,23 +87,18 @@ def judge_site(
     Study
         Complete; a failed case is in it by name.
     """
+    probed = zip(site.rows, solved, strict=True)
     rows = [
-        _judge_row(
-            RowCheck(
-                site=site,
-                row=row,
-                solved=of_row,
-                standard=standard,
-                law=run.creep_law,
-                find_floor=_remember(find_row_floor, row, standard),
-                bound_floor=_remember(bound_row_floor, row, standard),
-                probe=probe,
-                on_check=on_check,
-            ),
-            run,
-        )
-        for row, of_row in zip(site.rows, solved, strict=True)
+        judge_row(site, row, of_row, standard, run, probe, on_check)
+        for row, of_row in probed
     ]
+    return gather_study(site, rows, standard, run)
+
+
+def gather_study(
+    site: Site, rows: Sequence[RowStudy], standard: Standard, run: CheckRun
+) -> Study:
+    """Study of a site whose rows are judged, in their order."""
     monitoring = record_monitoring(site)
     rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
@@ -119,6 +114,30 @@ def judge_site(
     )
 
 
+def judge_row(
+    site: Site,
+    row: NetRow,
+    solved: RowGrid | RowEnvelope,
+    standard: Standard,
+    run: CheckRun,
+    probe: Probe | None = None,
+    on_check: Callable[[], None] = lambda: None,
+) -> RowStudy:
+    """Study of one row of a site, as ``judge_site`` makes it, without monitoring."""
+    task = RowCheck(
+        site=site,
+        row=row,
+        solved=solved,
+        standard=standard,
+        law=run.creep_law,
+        find_floor=_remember(find_row_floor, row, standard),
+        bound_floor=_remember(bound_row_floor, row, standard),
+        probe=probe,
+        on_check=on_check,
+    )
+    return _record_row(task, run)
+
+
 def _remember(
     find: Callable[[NetRow, Ranges, Standard], _Found], row: NetRow, standard: Standard
 ) -> Callable[[Ranges], _Found]:
@@ -126,7 +145,7 @@ def _remember(
     return cache(lambda ranges: find(row, ranges, standard))
 
 
-def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
+def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
     row, solved = task.row, task.solved
     extremes = solved.extremes
     floor = task.find_floor(task.site.ranges)

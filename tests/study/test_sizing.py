@@ -17,7 +17,7 @@ PROFILE = load_standard("nf-p-95-304-style")
 
 
 class Nobody:
-    def enter(self, key):
+    def enter(self, key, words=None):
         """No phase is told."""
 
     tell_wave = enter

@@ -1,0 +1,179 @@
+"""Rows of a site, solved and judged side by side in a pool of workers, or in turn.
+
+A judgement asks for one case after the other, so a row keeps one process busy. A worker
+has the run's store, and does what this process would.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from netdesign.checks import Standard
+from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.fault import Fault
+from netdesign.site.model import NetRow, Site
+from netdesign.solving.runner import Counts, Runner
+from netdesign.solving.store import CaseStore, StoreError
+from netdesign.solving.workers import ProcessPool
+from netdesign.study.cases import CheckRun, search_site
+from netdesign.study.judge import judge_row
+from netdesign.study.probe import Probe
+from netdesign.study.records import RowStudy
+from netdesign.words.message import Message, say
+
+Studies = list[RowStudy]  # of one row, one a profile
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowsJob:
+    """Some rows of a site, to be judged in one process.
+
+    Attributes
+    ----------
+    site : Site
+        With all its rows.
+    rows : tuple of NetRow
+        Those that are judged.
+    solved : tuple of RowGrid or RowEnvelope, or None
+        Cases of these rows; None where they are to be searched first.
+    standards : tuple of Standard
+        Limit profiles.
+    run : CheckRun
+        Settings.
+    store : Path or None
+        File of known cases.
+    """
+
+    site: Site
+    rows: tuple[NetRow, ...]
+    solved: tuple[RowGrid | RowEnvelope, ...] | None
+    standards: tuple[Standard, ...]
+    run: CheckRun
+    store: Path | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JudgedRows:
+    """Studies of the rows of a job, and what a worker did for them.
+
+    ``counts`` and ``faults`` are those of the worker's runner, ``checks`` the number of
+    checks of forces that it made, ``told`` what the user should know.
+    """
+
+    studies: list[Studies]
+    counts: Counts
+    faults: dict[Fault, set[str]]
+    checks: int
+    told: list[Message]
+
+
+def judge_rows(
+    jobs: Sequence[RowsJob], runner: Runner, on_check: Callable[[], None]
+) -> list[Studies]:
+    """Studies of the rows of all jobs, in their order.
+
+    Parameters
+    ----------
+    jobs : sequence of RowsJob
+        Each is done in one process.
+    runner : Runner
+        Its pool takes the jobs, if it has one; else this process does.
+    on_check : callable
+        Called for each check of a force.
+    """
+    found: dict[int, list[Studies]] = {}
+    pool = runner.workers
+    if isinstance(pool, ProcessPool) and len(jobs) > 1 and pool.is_at_hand:
+        told: dict[Message, None] = {}  # once, however many workers say it
+        for place, judged in pool.spread(judge_away, list(enumerate(jobs))[::-1]):
+            if judged is None:
+                continue
+            found[place] = judged.studies
+            for message in judged.told:
+                if message not in told:
+                    runner.tell(message)
+            told |= dict.fromkeys(judged.told)
+            runner.take(judged.counts, judged.faults)
+            for _ in range(judged.checks):
+                on_check()
+    # Where a worker died, each case is now given to a worker; where it failed, it fails
+    # here, by name and place.
+    of_jobs = [
+        found[k] if k in found else _judge(job, runner, on_check)
+        for k, job in enumerate(jobs)
+    ]
+    return [studies for of_job in of_jobs for studies in of_job]
+
+
+def judge_away(job: RowsJob) -> JudgedRows | None:
+    """Studies of the rows of a job, made by a worker; None where it fails."""
+    try:
+        return _judge_away(job)
+    except Exception:  # whatever it is: it is met again where it can be told
+        return None
+
+
+def _judge_away(job: RowsJob) -> JudgedRows:
+    told: list[Message] = []
+    checks = 0
+
+    def count() -> None:
+        nonlocal checks
+        checks += 1
+
+    with ExitStack() as stack:
+        store: CaseStore | None = None
+        if job.store is not None:
+            try:
+                opened = CaseStore(job.store, told.append, is_open=True)
+                store = stack.enter_context(opened)
+            except StoreError as error:
+                told.append(say("store.going_on", reason=error.message))
+        runner = Runner(store=store, tell=told.append)
+        studies = _judge(job, runner, count)
+    return JudgedRows(
+        studies=studies,
+        counts=runner.counts,
+        faults=runner.faults,
+        checks=checks,
+        told=told,
+    )
+
+
+def _judge(job: RowsJob, runner: Runner, on_check: Callable[[], None]) -> list[Studies]:
+    solved: Sequence[RowGrid | RowEnvelope] | None = job.solved
+    if solved is None:
+        solved = search_site(replace(job.site, rows=job.rows), job.run, runner)
+    keep_faults(job.rows, solved, runner)
+    return [
+        _judge_row(job, row, of_row, runner, on_check)
+        for row, of_row in zip(job.rows, solved, strict=True)
+    ]
+
+
+def _judge_row(
+    job: RowsJob,
+    row: NetRow,
+    solved: RowGrid | RowEnvelope,
+    runner: Runner,
+    on_check: Callable[[], None],
+) -> Studies:
+    """Studies of a row; profiles share its cases: forces do not depend on them."""
+    probe = Probe(job.run.settings, job.run.creep_law, runner)
+    return [
+        judge_row(job.site, row, solved, standard, job.run, probe, on_check)
+        for standard in job.standards
+    ]
+
+
+def keep_faults(
+    rows: Sequence[NetRow], solved: Sequence[RowGrid | RowEnvelope], runner: Runner
+) -> None:
+    """Tell the runner which net rows the faults in their cases befell."""
+    for row, of_row in zip(rows, solved, strict=True):
+        again = of_row.confirmations if isinstance(of_row, RowEnvelope) else ()
+        for result in (*of_row.results, *(one.confirmed for one in again)):
+            runner.keep_fault(result.fault, row.id)

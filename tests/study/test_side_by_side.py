@@ -1,0 +1,150 @@
+"""Rows judged in worker processes: the same studies, faults and counts as in turn."""
+
+import math
+import os
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.fault import Fault, describe_fault
+from netdesign.snow.ground import GroundLaw
+from netdesign.solving.runner import Counts, Runner
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import ProcessPool
+from netdesign.study import side_by_side
+from netdesign.study.cases import list_alike
+from netdesign.study.check_site import check_site
+from netdesign.study.side_by_side import judge_away
+from tests.small_site import RUN, WEAK, build_row, build_site, resist
+
+DRAWN = random.Random(2411)
+STANDARDS = [load_standard(name) for name in ("nf-p-95-304-style", "eurocode")]
+RANGES = Ranges.of(
+    density=Interval(low=271.3, high=398.7),
+    friction_angle=Interval(low=math.radians(27.1), high=math.radians(27.1)),
+    inclination=Interval(low=math.radians(28.9), high=math.radians(28.9)),
+)
+DYING = "R2"
+
+
+def draw_site():
+    """Four rows of four kinds, and one that differs from the first by its anchors."""
+    kinds = (
+        GroundLaw(kind="free"),
+        GroundLaw(kind="no-slip"),
+        GroundLaw(kind="sliding", slip_length=DRAWN.uniform(0.7, 2.9)),
+        GroundLaw(kind="no-slip"),
+    )
+    rows = [
+        build_row(
+            f"R{k}",
+            ground=kind,
+            snow_thickness=DRAWN.uniform(1.9, 2.5),
+            upslope_length=DRAWN.uniform(4.1, 6.3),
+            slope_angle=math.radians(DRAWN.uniform(33.0, 41.0)),
+        )
+        for k, kind in enumerate(kinds, 1)
+    ]
+    again = replace(rows[0], id="R5", resistances=resist(9.0 * WEAK))
+    return build_site(*rows, again, ranges=RANGES)
+
+
+SITE = draw_site()
+
+
+def die_of_one(job):
+    """As a worker that the case of a row kills."""
+    if any(row.id == DYING for row in job.rows):
+        os._exit(9)
+    return judge_away(job)
+
+
+@pytest.fixture(scope="module")
+def in_turn(tmp_path_factory):
+    """Studies made in this process, and what its runner counted."""
+    with CaseStore(tmp_path_factory.mktemp("store") / "one.sqlite", print) as store:
+        runner = Runner(store=store)
+        return check_site(SITE, STANDARDS, RUN, runner), runner.counts
+
+
+@pytest.fixture
+def pool(monkeypatch):
+    monkeypatch.setattr(ProcessPool, "is_at_hand", True)
+    pool = ProcessPool(2)
+    yield pool
+    pool.close()
+
+
+def test_rows_that_are_solved_alike_go_together():
+    groups = list_alike(SITE, RUN)
+    assert [[row.id for row in rows] for rows in groups] == [
+        ["R1", "R5"],
+        ["R2"],
+        ["R3"],
+        ["R4"],
+    ]
+
+
+def test_workers_make_the_same_studies_and_keep_what_they_solved(
+    in_turn, pool, tmp_path
+):
+    studies, counts = in_turn
+    told, done, checks = [], [], []
+    with CaseStore(tmp_path / "cases.sqlite", told.append) as store:
+        runner = Runner(
+            workers=pool, store=store, on_done=done.append, tell=told.append
+        )
+        watch = Counting(checks)
+        assert check_site(SITE, STANDARDS, RUN, runner, watch) == studies
+        assert runner.counts == counts
+        assert len(done) == counts.solved + counts.reused
+        assert len(checks) == sum(
+            check.action is not None for one in studies for row in one.rows
+            for check in row.checks
+        )  # fmt: skip
+        again = Runner(store=store)
+        assert check_site(SITE, STANDARDS, RUN, again) == studies
+        assert again.counts.solved == 0
+    assert told == []
+
+
+def test_a_row_that_kills_its_worker_is_judged_again(in_turn, pool, monkeypatch):
+    monkeypatch.setattr(side_by_side, "judge_away", die_of_one)
+    studies, _ = in_turn
+    assert check_site(SITE, STANDARDS, RUN, Runner(workers=pool)) == studies
+
+
+def test_what_fails_in_a_worker_is_told_as_if_it_failed_here(pool):
+    """A profile that no check can be judged by; the place is that of the fault."""
+    spoilt = [replace(STANDARDS[0], values=(None,))]
+    with pytest.raises(AttributeError) as here:
+        check_site(SITE, spoilt, RUN)
+    with pytest.raises(AttributeError) as there:
+        check_site(SITE, spoilt, RUN, Runner(workers=pool))
+    assert describe_fault(there.value).place == describe_fault(here.value).place
+
+
+def test_what_a_worker_counted_and_met_is_counted_once_more():
+    done = []
+    runner = Runner(on_done=done.append, counts=Counts(solved=3, reused=1, failed=1))
+    fault = Fault(kind="ValueError", message="spoilt", place="snow/body.py:88")
+    runner.keep_fault(fault, "R7")
+    runner.take(Counts(solved=5, reused=2, failed=4), {fault: {"R2"}})
+    assert runner.counts == Counts(solved=8, reused=3, failed=5)
+    assert runner.faults == {fault: {"R2", "R7"}}
+    assert len(done) == 7
+
+
+class Counting:
+    """A watch that counts checks."""
+
+    def __init__(self, checks):
+        self.count_piece = lambda: checks.append(1)
+
+    def enter(self, key, words=None):
+        """No phase is told."""
+
+    tell_wave = enter
