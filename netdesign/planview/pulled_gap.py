@@ -134,7 +134,7 @@ def _solve(half: float, functions: int) -> tuple[Floats, Floats]:
 
 def _build_velocity_part(half: float, functions: int) -> Floats:
     waves = load_waves()
-    each = load_bessel(_VELOCITY)[:functions]
+    each = load_bessel(_VELOCITY, functions)
     rest = (np.hypot(waves.numbers, half) - waves.numbers) / waves.numbers**1.5
     smooth = np.asarray((each * (waves.weights * rest)) @ each.T)
     return smooth + _load_narrow(functions).velocity
@@ -142,7 +142,7 @@ def _build_velocity_part(half: float, functions: int) -> Floats:
 
 def _build_pull_part(half: float, functions: int) -> Floats:
     waves = load_waves()
-    each, root = load_bessel(_PULL)[:functions], np.sqrt(waves.numbers)
+    each, root = load_bessel(_PULL, functions), np.sqrt(waves.numbers)
     rest = root / np.hypot(waves.numbers, half) - 1.0 / root
     smooth = np.asarray((each * (waves.weights * rest)) @ each.T)
     return smooth + _load_narrow(functions).pull
