@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator
 
 from netdesign.checks.result import Band
 from netdesign.coupling.solution import EndPull
-from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.anchors import (
+    NO_FOOT_PULL,
+    AnchorForces,
+    compute_anchor_forces,
+)
 from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import SupportPoints
+from netdesign.structure.layout import Point, SupportPoints
 
-_STILL = (0.0, 0.0, 0.0, 0.0)
+_STILL = (0.0, 0.0)
+# Shares of its error by which a pull is moved: each component down and up.
+_MOVES = (((-1.0, 0.0), (1.0, 0.0)), ((0.0, -1.0), (0.0, 1.0)))
+
+_Forces = dict[str, float] | FailedSupport
 
 
 def resolve_pulls(
@@ -30,19 +39,17 @@ def resolve_pulls(
     foot, head : EndPull
         Of the net, with their errors [N/m].
     """
-    anchors = _find_forces(points, width, (foot, head), _STILL)
+    anchors = _find_forces(points, width, _move(foot, _STILL), _move(head, _STILL))
     if isinstance(anchors, FailedSupport):
         return anchors
     values = anchors.member_forces
     spread = dict.fromkeys(values, 0.0)
-    for component in range(4):
+    for pair in _list_moved(anchors, points, width, (foot, head)):
         change = dict.fromkeys(values, 0.0)
-        for share in (-1.0, 1.0):
-            shift = [share if place == component else 0.0 for place in range(4)]
-            moved = _find_forces(points, width, (foot, head), shift)
+        for moved in pair:
             if isinstance(moved, FailedSupport):
                 return moved
-            for member, force in moved.member_forces.items():
+            for member, force in moved.items():
                 change[member] = max(change[member], abs(force - values[member]))
         for member in spread:
             spread[member] += change[member]
@@ -57,26 +64,49 @@ def spread_out(value: float, error: float) -> Band:
     return Band(low=max(0.0, value - error), value=value, high=value + error)
 
 
-def _find_forces(
+def _list_moved(
+    anchors: AnchorForces,
     points: SupportPoints,
     width: float,
     pulls: tuple[EndPull, EndPull],
-    shift: Sequence[float],
-) -> AnchorForces | FailedSupport:
-    """Anchor forces with the end pulls moved by ``shift`` times their error.
+) -> Iterator[tuple[_Forces, _Forces]]:
+    """Member forces with one component moved down, and up, by the pull's error.
 
-    The four shares are for x and y of the foot's pull, x and y of the head's.
+    The members at the head do not feel the foot's pull.
     """
     foot, head = pulls
+    for down, up in _MOVES:
+        lower, upper = _move(foot, down), _move(foot, up)
+        yield _change_foot(anchors, width, lower), _change_foot(anchors, width, upper)
+    still = _move(foot, _STILL)
+    for down, up in _MOVES:
+        lower, upper = _move(head, down), _move(head, up)
+        yield (
+            _list_forces(_find_forces(points, width, still, lower)),
+            _list_forces(_find_forces(points, width, still, upper)),
+        )
+
+
+def _move(pull: EndPull, shares: Point) -> Point:
+    """Pull with its components moved by shares of its error [N/m]."""
+    return pull.x + shares[0] * pull.error, pull.y + shares[1] * pull.error
+
+
+def _change_foot(anchors: AnchorForces, width: float, pull: Point) -> _Forces:
+    """Member forces with another pull per metre on the foot [N]."""
+    x, y = pull[0] * width, pull[1] * width
+    if not (math.isfinite(x) and math.isfinite(y)):
+        return NO_FOOT_PULL
+    return anchors.list_forces(math.hypot(x, y))
+
+
+def _list_forces(anchors: AnchorForces | FailedSupport) -> _Forces:
+    return anchors if isinstance(anchors, FailedSupport) else anchors.member_forces
+
+
+def _find_forces(
+    points: SupportPoints, width: float, foot: Point, head: Point
+) -> AnchorForces | FailedSupport:
     return compute_anchor_forces(
-        points,
-        foot_pull_per_m=(
-            foot.x + shift[0] * foot.error,
-            foot.y + shift[1] * foot.error,
-        ),
-        head_pull_per_m=(
-            head.x + shift[2] * head.error,
-            head.y + shift[3] * head.error,
-        ),
-        post_spacing=width,
+        points, foot_pull_per_m=foot, head_pull_per_m=head, post_spacing=width
     )

@@ -80,9 +80,8 @@ def choose(condition: Truth, one: Number, other: Number) -> Number:
     return one if condition else other
 
 
-def find_none(*conditions: Truth) -> Truth:
+def find_none(first: Truth, *others: Truth) -> Truth:
     """Truth that none of the conditions holds."""
-    first, *others = conditions
     for one in others:
         first = first | one
     return ~first if isinstance(first, np.ndarray) else not first

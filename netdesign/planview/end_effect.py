@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 from netdesign.guards import require_positive, require_within
 from netdesign.haefeli.slab import Slab, find_linear_slip
@@ -126,8 +127,14 @@ def _find_pulled(half: float, distance: float) -> tuple[float, float, float]:
     if half <= WIDEST_HALF:
         return _find_beside(solve_pulled_gap, half, distance)
     # no closed form of the distribution: that of the widest gap solved
-    _, within, error = _find_beside(solve_pulled_gap, WIDEST_HALF, distance)
+    _, within, error = _find_beside(_solve_widest, WIDEST_HALF, distance)
     return ISOLATED_EXCESS, within, error + _find_lost(half)
+
+
+@lru_cache(maxsize=1)
+def _solve_widest(half: float) -> GapFlow:
+    """Widest gap solved, made once: every wider one has its distribution."""
+    return solve_pulled_gap(half)
 
 
 def _find_beside(

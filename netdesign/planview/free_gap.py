@@ -57,7 +57,7 @@ def solve_free_gap(half: float, *, functions: int = FUNCTIONS) -> GapFlow:
 
 def _build_matrix(half: float, functions: int) -> Floats:
     """Power of each pair of functions, (W11); that of h = 0 is a diagonal."""
-    waves, each = load_waves(), load_bessel(1.0)[:functions]
+    waves, each = load_waves(), load_bessel(1.0, functions)
     rest = np.hypot(waves.numbers, half) - waves.numbers
     smooth = (each * (waves.weights * rest / waves.numbers**2)) @ each.T
     return smooth + np.diag(0.5 / (2.0 * np.arange(functions) + 1.0))

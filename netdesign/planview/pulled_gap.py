@@ -6,6 +6,7 @@ Theory: planview/THEORY.md, section 4.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -59,7 +60,7 @@ def solve_pulled_gap(half: float, *, functions: int = FUNCTIONS) -> GapFlow:
     return GapFlow(
         half=half,
         places=places,
-        velocities=shape * _expand(velocity, places),
+        velocities=shape * _expand(velocity),
         weights=half * weights / shape,
         excess=excess,
         error=abs(excess - coarse),
@@ -73,44 +74,78 @@ def _list_places() -> tuple[Floats, Floats]:
     return places, weights
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Narrow:
+    """Parts of (W16) for n functions that no width of the gap changes.
+
+    Attributes
+    ----------
+    velocity, pull, coupling : ndarray, shape (n, n)
+        What a gap of no width has [-].
+    polynomials : ndarray, shape (_PLACES, n)
+        Those whose transforms are Bessel functions, at the points in the gap [-].
+    scales : ndarray, shape (n,)
+        By which they are added [-].
+    """
+
+    velocity: Floats
+    pull: Floats
+    coupling: Floats
+    polynomials: Floats
+    scales: Floats
+
+
+@lru_cache(maxsize=4)
+def _load_narrow(functions: int) -> _Narrow:
+    """Those parts, made once for each count of functions."""
+    number = np.arange(functions)
+    order = 2.0 * np.arange(functions, dtype=np.float64)
+    scale = gammaln(2.0 * number + 1.0) - gammaln(2.0 * number + 2.0 * _VELOCITY)
+    scale = np.exp(scale) * gamma(_VELOCITY) / (math.pi * 2.0 ** (1.0 - _VELOCITY))
+    places, _ = _list_places()
+    velocity, pull = order + _VELOCITY, order + _PULL
+    of_pull = np.empty((functions, functions))
+    of_pull[1:] = integrate_root(pull[1:, None], pull)
+    of_pull[0, 1:] = integrate_root(pull[0], pull[1:])
+    of_pull[0, 0] = _integrate_first()
+    return _Narrow(
+        velocity=integrate_root(velocity[:, None], velocity),
+        pull=of_pull,
+        coupling=integrate_root(velocity[:, None], pull),
+        polynomials=np.asarray(eval_gegenbauer(2 * number, _VELOCITY, places[:, None])),
+        scales=(-1.0) ** number * scale,
+    )
+
+
 def _solve(half: float, functions: int) -> tuple[Floats, Floats]:
     """Coefficients of the velocity and of the pull, (W16)."""
-    order = 2.0 * np.arange(functions, dtype=np.float64)
-    coupling = half * integrate_root(order[:, None] + _VELOCITY, order + _PULL)
-    matrix = np.block(
-        [
-            [_build_velocity_part(half, functions), -coupling],
-            [coupling.T, half**2 * _build_pull_part(half, functions)],
-        ]
-    )
+    coupling = half * _load_narrow(functions).coupling
+    matrix = np.empty((2 * functions, 2 * functions))
+    matrix[:functions, :functions] = _build_velocity_part(half, functions)
+    matrix[:functions, functions:] = -coupling
+    matrix[functions:, :functions] = coupling.T
+    matrix[functions:, functions:] = half**2 * _build_pull_part(half, functions)
     drive = np.zeros(2 * functions)
     drive[0] = math.pi * half * _VELOCITY_MEAN
     drive[functions] = math.pi * half * _PULL_MEAN
-    solved = np.linalg.solve(matrix, drive)
+    solved = np.asarray(np.linalg.solve(matrix, drive))
     return solved[:functions], solved[functions:]
 
 
 def _build_velocity_part(half: float, functions: int) -> Floats:
     waves = load_waves()
-    each = load_bessel(_VELOCITY)[:functions]
+    each = load_bessel(_VELOCITY, functions)
     rest = (np.hypot(waves.numbers, half) - waves.numbers) / waves.numbers**1.5
-    order = 2.0 * np.arange(functions, dtype=np.float64) + _VELOCITY
-    return np.asarray(
-        (each * (waves.weights * rest)) @ each.T + integrate_root(order[:, None], order)
-    )
+    smooth = np.asarray((each * (waves.weights * rest)) @ each.T)
+    return smooth + _load_narrow(functions).velocity
 
 
 def _build_pull_part(half: float, functions: int) -> Floats:
     waves = load_waves()
-    each = load_bessel(_PULL)[:functions]
-    root = np.sqrt(waves.numbers)
+    each, root = load_bessel(_PULL, functions), np.sqrt(waves.numbers)
     rest = root / np.hypot(waves.numbers, half) - 1.0 / root
-    matrix = np.asarray((each * (waves.weights * rest)) @ each.T)
-    order = 2.0 * np.arange(functions, dtype=np.float64) + _PULL
-    matrix[1:] += integrate_root(order[1:, None], order)
-    matrix[0, 1:] += integrate_root(order[0], order[1:])
-    matrix[0, 0] += _integrate_first()
-    return matrix
+    smooth = np.asarray((each * (waves.weights * rest)) @ each.T)
+    return smooth + _load_narrow(functions).pull
 
 
 def _integrate_first() -> float:
@@ -124,13 +159,10 @@ def _integrate_first() -> float:
     return float(start * finite + weights @ (start / numbers))
 
 
-def _expand(coefficients: Floats, places: Floats) -> Floats:
-    """Sum of the polynomials whose transforms are Bessel functions."""
-    number = np.arange(coefficients.size)
-    scale = gammaln(2.0 * number + 1.0) - gammaln(2.0 * number + 2.0 * _VELOCITY)
-    scale = np.exp(scale) * gamma(_VELOCITY) / (math.pi * 2.0 ** (1.0 - _VELOCITY))
-    each = eval_gegenbauer(2 * number, _VELOCITY, places[:, None])
-    return np.asarray(each @ ((-1.0) ** number * scale * coefficients))
+def _expand(coefficients: Floats) -> Floats:
+    """Sum of the polynomials, at the points in the gap."""
+    narrow = _load_narrow(coefficients.size)
+    return np.asarray(narrow.polynomials @ (narrow.scales * coefficients))
 
 
 def _find_excess(half: float, velocity: Floats, pull: Floats) -> float:

@@ -90,7 +90,7 @@ def find_row_load(row: RowLoad, places: Floats) -> Floats:
 
 def _build_matrix(half: float, functions: int) -> Floats:
     """Velocity of each pair of loads, (W13); that of h = 0 is a diagonal."""
-    waves, each = load_waves(), load_bessel(0.0)[:functions]
+    waves, each = load_waves(), load_bessel(0.0, functions)
     rest = 1.0 / np.hypot(waves.numbers, half) - 1.0 / waves.numbers
     matrix = np.asarray((each * (waves.weights * rest)) @ each.T)
     number = np.arange(1, functions)

@@ -52,21 +52,29 @@ def load_waves() -> Waves:
     )
 
 
-@lru_cache(maxsize=4)
-def load_bessel(first: float) -> Floats:
+def load_bessel(first: float, functions: int) -> Floats:
     """Bessel functions of the orders first, first + 2, ..., made once.
 
     Parameters
     ----------
     first : float
         Least order, above -1/2.
+    functions : int
+        How many of them.
 
     Returns
     -------
-    ndarray, shape (MOST_FUNCTIONS, K)
+    ndarray, shape (functions, K)
         At the points of ``load_waves`` [-].
     """
-    orders = first + 2.0 * np.arange(MOST_FUNCTIONS)[:, None]
+    count = FUNCTIONS if functions <= FUNCTIONS else MOST_FUNCTIONS
+    return _load_orders(first, count)[:functions]
+
+
+@lru_cache(maxsize=8)
+def _load_orders(first: float, count: int) -> Floats:
+    """Each of them takes milliseconds; more than the usual ones are rarely wanted."""
+    orders = first + 2.0 * np.arange(count)[:, None]
     return np.asarray(jv(orders, load_waves().numbers))
 
 

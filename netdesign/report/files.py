@@ -80,8 +80,8 @@ def render_kind(
 ) -> bytes:
     """Content of one file of a study, independent of the others.
 
-    Another process can make it: function, arguments and result are pickled by name and
-    value. A view takes longer to pickle and to read than to build: none is sent there.
+    Another process can make it, for function, arguments and result can be pickled. To
+    pickle and read a view takes as long as to build it: it is not sent along.
 
     Parameters
     ----------

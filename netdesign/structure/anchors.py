@@ -23,6 +23,10 @@ from netdesign.structure.layout import Point, SupportLayout, SupportPoints, loca
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
+NO_FOOT_PULL = FailedSupport(
+    outcome=Outcome.NONFINITE, reason=say("support.foot_no_number")
+)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GroundForce:
@@ -102,8 +106,18 @@ class AnchorForces:
         One anchor for net and uphill guy takes the sum of both sizes, which is
         never less than their resultant. Theory: structure/THEORY.md, eq. (S7).
         """
+        return self.list_forces(self.foot_anchor.size)
+
+    def list_forces(self, foot: float) -> dict[str, float]:
+        """Forces of the members with another pull of the net on the foot anchor [N].
+
+        Parameters
+        ----------
+        foot : float
+            Size of that pull [N].
+        """
         return _list_forces(
-            foot=self.foot_anchor.size,
+            foot=foot,
             uphill=(self.head.uphill_guy_tension, self.uphill_anchor.size),
             downhill=(self.head.downhill_guy_tension, self.downhill_anchor.size),
             post=self.head.post_compression,
@@ -244,10 +258,8 @@ def compute_anchor_forces(
     """
     require_positive("post spacing", post_spacing, "m")
     foot = _scale(foot_pull_per_m, post_spacing)
-    if not all(math.isfinite(part) for part in foot):
-        return FailedSupport(
-            outcome=Outcome.NONFINITE, reason=say("support.foot_no_number")
-        )
+    if not (math.isfinite(foot[0]) and math.isfinite(foot[1])):
+        return NO_FOOT_PULL
     head = compute_head_forces(_scale(head_pull_per_m, post_spacing), points)
     if isinstance(head, FailedSupport):
         return head

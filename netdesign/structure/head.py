@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import sys
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import chain
 from typing import ClassVar, Generic, TypeAlias
 
@@ -63,8 +62,6 @@ class FailedSupport:
     reason: Message
 
 
-# Of a case's nine sets of pulls, whose errors are spread, the foot's leave the head's.
-@lru_cache(maxsize=16)
 def compute_head_forces(
     pull: Point, points: SupportPoints
 ) -> HeadForces | FailedSupport:
@@ -193,7 +190,8 @@ def resolve_signed(
 class _Pair(Generic[Number]):
     """Post and one guy under a pull, signs allowed; eqs. (S2) and (S4).
 
-    ``is_along``: the guy lies along the post, and the forces say nothing.
+    ``is_along``: the guy lies along the post, and the forces say nothing. ``holds``:
+    each of the two carries by its own sign.
     """
 
     signed_compression: Number
@@ -202,10 +200,7 @@ class _Pair(Generic[Number]):
     is_along: Truth
     is_pushed: Truth
     is_pulled: Truth
-
-    @property
-    def holds(self) -> Truth:
-        return find_none(self.is_along, self.is_pushed, self.is_pulled)
+    holds: Truth
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -241,13 +236,15 @@ def _resolve(
     tension = _cross(pull, post) / divisor
     # A pull along the guy's own line leaves a post force of rounding size.
     rounding = _ROUNDING * measure_length(*pull) / abs(divisor)
+    is_pushed, is_pulled = tension < 0.0, compression < -rounding
     return _Pair(
         signed_compression=compression,
         compression=take_larger(compression, 0.0),
         tension=tension,
         is_along=is_along,
-        is_pushed=tension < 0.0,
-        is_pulled=compression < -rounding,
+        is_pushed=is_pushed,
+        is_pulled=is_pulled,
+        holds=find_none(is_along, is_pushed, is_pulled),
     )
 
 

@@ -133,9 +133,7 @@ class LabelBoard:
     def _crosses_line(self, box: Box) -> bool:
         left, right = box.left - 1, box.right + 1
         top, bottom = box.top - 1, box.bottom + 1
-        return any(
-            [True for x, y in self.lines if left < x < right and top < y < bottom]
-        )
+        return any(left < x < right and top < y < bottom for x, y in self.lines)
 
 
 def write_label(text: str, at: Point, toward: Point, colour: str = INK) -> Label:

@@ -124,7 +124,10 @@ class Book:
 
     def paper(self, sheet: Any) -> Paper:
         """Lines of a sheet, for its pages."""
-        return self._papers.setdefault(sheet.get_name(), Paper(sheet))
+        name = sheet.get_name()
+        if name not in self._papers:
+            self._papers[name] = Paper(sheet)
+        return self._papers[name]
 
     def end_pages(self) -> None:
         """Write where the pages of every sheet end, once all is on them."""
@@ -237,8 +240,7 @@ class Book:
                     self.write_wide(sheet, (row, last), cell.text, widths)
                 else:
                     self.write_cell(sheet, (row, index), column, cell)
-            texts = [cell.text for cell in cells]
-            self.set_height(sheet, row, count_lines(texts, own))
+            self.set_height(sheet, row, count_lines([c.text for c in cells], own))
         return top + 3 + len(table.rows)
 
     def write_wide(

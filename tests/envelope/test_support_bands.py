@@ -1,0 +1,74 @@
+"""Bands of the forces on a support, against every moved pull resolved on its own."""
+
+import math
+import random
+
+import pytest
+
+from netdesign.coupling.solution import EndPull
+from netdesign.envelope.support_bands import resolve_pulls
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.head import FailedSupport
+from netdesign.structure.layout import SupportLayout, place_support
+
+DRAWN = random.Random(20261123)
+
+
+def draw_support():
+    layout = SupportLayout(
+        post_spacing=DRAWN.uniform(2.07, 4.93),
+        post_tilt=DRAWN.uniform(-0.1, 0.3),
+        uphill_anchor_distance=DRAWN.choice([0.0, DRAWN.uniform(1.13, 5.71)]),
+        downhill_anchor_distance=DRAWN.uniform(0.83, 5.37),
+    )
+    head = (DRAWN.uniform(0.11, 2.31), DRAWN.uniform(1.53, 3.97))
+    error = DRAWN.uniform(1.7, 830.0)
+    foot = EndPull(x=DRAWN.uniform(1e3, 9e4), y=DRAWN.uniform(0.0, 6e4), error=error)
+    pull = EndPull(x=DRAWN.uniform(-1e3, 8e4), y=-DRAWN.uniform(1e3, 5e4), error=error)
+    return place_support(layout, head), layout.post_spacing, foot, pull
+
+
+def resolve(points, width, foot, head, moved=(0.0, 0.0, 0.0, 0.0)):
+    x, y, along, normal = moved
+    found = compute_anchor_forces(
+        points,
+        foot_pull_per_m=(foot.x + x * foot.error, foot.y + y * foot.error),
+        head_pull_per_m=(head.x + along * head.error, head.y + normal * head.error),
+        post_spacing=width,
+    )
+    return found if isinstance(found, FailedSupport) else found.member_forces
+
+
+def test_each_error_is_that_of_all_moved_pulls_to_the_last_digit():
+    held = 0
+    for _ in range(60):
+        support = draw_support()
+        found, values = resolve_pulls(*support), resolve(*support)
+        moved = [
+            [
+                resolve(*support, [share * (k == n) for n in range(4)])
+                for share in (-1, 1)
+            ]
+            for k in range(4)
+        ]
+        failed = [one for pair in moved for one in pair if not isinstance(one, dict)]
+        if failed or isinstance(values, FailedSupport):
+            assert isinstance(found, FailedSupport)
+            continue
+        held += 1
+        for member, band in found[1].items():
+            error = 0.0
+            for pair in moved:
+                error += max(abs(one[member] - values[member]) for one in pair)
+            assert band.value == values[member]
+            assert band.high == values[member] + error
+            assert band.low == max(0.0, values[member] - error)
+    assert held > 20
+
+
+@pytest.mark.parametrize("error", [math.inf, math.nan, 1e308])
+def test_an_error_that_is_no_number_or_leads_to_none_leaves_no_forces(error):
+    points, width, foot, head = draw_support()
+    spoilt = EndPull(x=foot.x, y=foot.y, error=error)
+    assert isinstance(resolve_pulls(points, width, spoilt, head), FailedSupport)
+    assert isinstance(resolve_pulls(points, width, foot, spoilt), FailedSupport)
