@@ -21,6 +21,7 @@ from netdesign.site.model import NetRow
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.study.probe import Probe
 from netdesign.study.records import HoldRecord
+from netdesign.study.rivals import differ_in_friction_alone
 from netdesign.study.target import SERVES, TRIED_DENSITIES, Move, Target, list_near
 from netdesign.words.message import Message, say
 
@@ -106,11 +107,21 @@ def solve_ends(checks: Sequence[Target], probe: Probe) -> list[CaseResult]:
 def _find_limits(
     check: Target, serving: CaseResult, probe: Probe, told: Mapping[str, float]
 ) -> list[HoldRecord]:
-    near = list_near(check)[:_NEAREST]
+    near = _list_confirming(check)
     return [
         _Line(check, near, span, serving, probe).record(told.get(span.name))
         for span in list_spans(check.row, check.ranges)
     ]
+
+
+def _list_confirming(check: Target) -> list[Case]:
+    """The governing case and its nearest rival, which limits are confirmed in.
+
+    A rival that differs in more than friction, if there is one: others grow alike.
+    """
+    first, *others = list_near(check)
+    unlike = [case for case in others if not differ_in_friction_alone(case, first)]
+    return [first, *(unlike or others)[: _NEAREST - 1]]
 
 
 def list_spans(row: NetRow, ranges: Ranges) -> list[Span]:
