@@ -32,9 +32,9 @@ _ANGLE = math.radians(15.0)
 _LEAST_GLIDE, _LEAST_LENGTH = 1.01, 0.3  # [-]; length over the snow thickness
 
 # Logarithm by which another case may carry more at an end than the serving one tells:
-# a part for any way, a part of the force's growth, and at most. Of 2,946 followed in
-# the governing case and its rival, two lay above this, by 0.03; assumed.
-_DOUBT, _DOUBT_OF_GROWTH, _MOST_DOUBT = 0.03, 0.3, 0.085
+# for any way, for each of the force's growth, and at most. Of 2,946 followed in the
+# governing case and one of other friction two lay above, by 0.03; assumed.
+_DOUBT, _DOUBT_OF_GROWTH, _MOST_DOUBT = 0.03, 0.3, 0.2
 _AIM, _CLOSE = 0.975, 0.92  # utilisation aimed at, and near enough below 1
 _AIM_SHARE, _CLOSE_SHARE = 0.25, 0.6  # or these shares of what a check has left
 _LEAST_USED = 1e-3  # of a member that is slack at one end
