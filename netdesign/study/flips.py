@@ -2,9 +2,10 @@
 
 Proportions (resistance, post spacing) are exact. Density, snow height and friction
 angle are roots of the coupled solve: found for the case that governs, then confirmed
-for every case whose force came near to governing; a case that still fails takes over,
-and so on. A floor by the guideline's load knows neither density nor friction of the
-ranges; it limits the snow height by its closed form.
+for every case whose force came near to governing, unless cases before it leave no doubt
+(`rivals.py`); a case that still fails takes over, and so on. A floor by the guideline's
+load knows neither density nor friction of the ranges; it limits the snow height by its
+closed form.
 """
 
 from __future__ import annotations

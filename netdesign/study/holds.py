@@ -21,6 +21,7 @@ from netdesign.site.model import NetRow
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.study.probe import Probe
 from netdesign.study.records import HoldRecord
+from netdesign.study.rivals import differ_in_friction_alone
 from netdesign.study.target import SERVES, TRIED_DENSITIES, Move, Target, list_near
 from netdesign.words.message import Message, say
 
@@ -31,9 +32,9 @@ _ANGLE = math.radians(15.0)
 _LEAST_GLIDE, _LEAST_LENGTH = 1.01, 0.3  # [-]; length over the snow thickness
 
 # Logarithm by which another case may carry more at an end than the serving one tells:
-# a part for any way, a part of the force's growth, and at most. Of 2,946 followed in
-# the governing case and its rival, two lay above this, by 0.03; assumed.
-_DOUBT, _DOUBT_OF_GROWTH, _MOST_DOUBT = 0.03, 0.3, 0.085
+# for any way, for each of the force's growth, and at most. Of 2,946 followed in the
+# governing case and one of other friction two lay above, by 0.03; assumed.
+_DOUBT, _DOUBT_OF_GROWTH, _MOST_DOUBT = 0.03, 0.3, 0.2
 _AIM, _CLOSE = 0.975, 0.92  # utilisation aimed at, and near enough below 1
 _AIM_SHARE, _CLOSE_SHARE = 0.25, 0.6  # or these shares of what a check has left
 _LEAST_USED = 1e-3  # of a member that is slack at one end
@@ -106,11 +107,21 @@ def solve_ends(checks: Sequence[Target], probe: Probe) -> list[CaseResult]:
 def _find_limits(
     check: Target, serving: CaseResult, probe: Probe, told: Mapping[str, float]
 ) -> list[HoldRecord]:
-    near = list_near(check)[:_NEAREST]
+    near = _list_confirming(check)
     return [
         _Line(check, near, span, serving, probe).record(told.get(span.name))
         for span in list_spans(check.row, check.ranges)
     ]
+
+
+def _list_confirming(check: Target) -> list[Case]:
+    """The governing case and its nearest rival, which limits are confirmed in.
+
+    A rival that differs in more than friction, if there is one: others grow alike.
+    """
+    first, *others = list_near(check)
+    unlike = [case for case in others if not differ_in_friction_alone(case, first)]
+    return [first, *(unlike or others)[: _NEAREST - 1]]
 
 
 def list_spans(row: NetRow, ranges: Ranges) -> list[Span]:

@@ -51,7 +51,7 @@ def bound_rival(
     bounds = [math.inf]
     for other, found in used.items():
         if target.find_value(other, move.name) == now:
-            drift = _DRIFTS[move.name][_leave_friction(other) == _leave_friction(case)]
+            drift = _DRIFTS[move.name][differ_in_friction_alone(case, other)]
             grown = math.exp(drift * way + _STILL)
             bounds.append(found * grown * _compare(target, case, other))
     return min(*bounds, _bound_between(case, used))
@@ -69,6 +69,11 @@ def put_outer_first(cases: Sequence[Case]) -> list[Case]:
     return sorted(cases, key=lambda one: one not in outer and one is not cases[0])
 
 
+def differ_in_friction_alone(one: Case, other: Case) -> bool:
+    """Two cases are equal in all else."""
+    return _leave_friction(one) == _leave_friction(other)
+
+
 def _compare(target: Target, case: Case, other: Case) -> float:
     """Utilisation of a case over that of another one, as things are [-]."""
     own = target.compare(other)
@@ -80,7 +85,7 @@ def _bound_between(case: Case, used: Mapping[Case, float]) -> float:
     line = {
         one.friction_angle: found
         for one, found in used.items()
-        if _leave_friction(one) == _leave_friction(case)
+        if differ_in_friction_alone(one, case)
     }
     less = [angle for angle in line if angle < case.friction_angle]
     more = [angle for angle in line if angle > case.friction_angle]

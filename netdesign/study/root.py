@@ -68,6 +68,7 @@ class Root:
             if isinstance(used, Message):
                 return used
             self._seen[value] = used
+            self._power = self._find_power(value)
             if used <= 1.0 and self._is_last(value, used):
                 return value
             if used <= 1.0:
@@ -108,21 +109,17 @@ class Root:
 
     def _aim(self, last: float) -> float:
         """Value to be tried next, by the nearest values on both sides."""
-        self._power = self._find_power(last)
         rise = _GOAL - math.log(self._seen[last])
         aim = self._keep_inside(last * math.exp(rise / self._power))
-        return max(round_down(aim, self._step), self._limits[0])
+        told = round_down(aim, self._step)
+        return told if self._passes < told < self._fails != aim else aim
 
     def _find_power(self, last: float) -> float:
         """Power of the utilisation between the last value and the root."""
         others = [value for value in self._seen if value != last]
         at, used = math.log(last), math.log(self._seen[last])
         if len(others) < _GUESSED_STEPS:
-            way = (
-                self._curve.read(_GOAL) - self._curve.read(used)
-                if self._curve.rises
-                else 0.0
-            )
+            way = self._curve.measure(used, _GOAL)
             power = (_GOAL - used) / way if way else self._power
         else:
             other = others[-1]
@@ -162,6 +159,10 @@ class _Curve:
         self._points = sorted(nearest)
         values = [value for _, value in self._points]
         self.rises = len(values) > 1 and values == sorted(set(values))
+
+    def measure(self, start: float, end: float) -> float:
+        """Way of the value from one utilisation to another; 0 if it does not rise."""
+        return self.read(end) - self.read(start) if self.rises else 0.0
 
     def read(self, used: float) -> float:
         """Lagrange's polynomial through the points."""

@@ -95,16 +95,19 @@ def a_target(scale, force=smooth):
     )
 
 
-@pytest.mark.parametrize("utilisation", [0.93, 1.02, 1.2, 1.9])
-def test_density_at_which_a_power_law_reaches_the_limit(utilisation):
+@pytest.mark.parametrize(
+    ("utilisation", "solves"), [(0.93, 8), (1.02, 6), (1.2, 8), (1.9, 8)]
+)
+def test_density_at_which_a_power_law_reaches_the_limit(utilisation, solves):
     probe = MadeUpProbe()
     change = find_density_change(a_target(utilisation), probe)
     exact = 400.0 * utilisation ** (-1 / 1.7)
     assert exact - 1.6 <= change.bound <= exact
     assert (change.sense, change.unit, change.now) == ("at most", "kg/m3", 400.0)
     # the search knows the force at 400 kg/m3 and how it grows: one aim, then both ends
-    # of three lines along friction, and the middle of the one that nearly fails
-    assert change.solves == probe.count == 8
+    # of three lines along friction, and the middle of the one that nearly fails; on a
+    # short way the line of 1.5 % smaller forces cannot take over
+    assert change.solves == probe.count == solves
 
 
 @pytest.mark.parametrize("utilisation", [0.93, 1.02, 1.2, 1.9])

@@ -14,7 +14,7 @@ from netdesign.site.columns.range_quantities import FURTHER_QUANTITIES
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.study.holds import find_holds, list_spans
+from netdesign.study.holds import find_holds, list_spans, solve_ends
 from netdesign.study.target import Target
 from tests.small_site import build_row
 
@@ -275,3 +275,83 @@ def test_a_moved_case_drops_the_other_name_of_the_quantity():
     assert dict(moved.others) == {"slack": 0.02, "thickness": 2.2}
     assert moved.density == GOVERNING.density
     assert math.isclose(ROW.at(moved).snow_thickness, 2.2)
+
+
+MIDDLE = Case(density=391.0, friction_angle=0.5, inclination=0.52)
+
+
+def apart(row, case):
+    """Foot largest with much friction, post with little, both 0.9 of it between."""
+    lean = {0.72: (1.0, 0.7), 0.5: (0.9, 0.91), 0.31: (0.69, 1.0)}
+    foot, post = lean[case.friction_angle]
+    at = row.at(case)
+    grown = (at.snow_thickness / 2.47) ** 2.2 * _loosen(at.slack) ** -0.2
+    # cases grow apart by as much as was seen of others
+    way = math.log(at.snow_thickness / 2.47)
+    grown *= math.exp(0.03 * way * (case.friction_angle - 0.5))
+    return {"foot_anchor": foot * grown, "post": post * grown}
+
+
+def an_apart(used, member, governing):
+    cases = (GOVERNING, MIDDLE, RIVAL)
+    return Target(
+        row=ROW,
+        ranges=RANGES,
+        member=member,
+        scale=used,
+        governing=governing,
+        results=[a_result(apart, never, ROW, case) for case in cases],
+    )
+
+
+def test_ends_are_solved_in_one_case_that_serves_all_members():
+    probe = MadeUpProbe(apart)
+    targets = [an_apart(0.9, "foot_anchor", GOVERNING), an_apart(0.8, "post", RIVAL)]
+    assert [one.case for one in solve_ends(targets, probe)] == [MIDDLE, MIDDLE]
+    spans = list_spans(ROW, RANGES)
+    ends = [end for span in spans for end in {span.low, span.high} - {span.now}]
+    assert probe.count == len(ends)
+
+
+@pytest.mark.parametrize("used", [0.57, 0.83, 0.94, 0.99, 1.03, 1.21])
+@pytest.mark.parametrize(
+    ("member", "at"), [("foot_anchor", GOVERNING), ("post", RIVAL)]
+)
+def test_a_limit_followed_in_a_case_that_carries_less_holds_in_every_case(
+    used, member, at
+):
+    """Told on the passing side, not far from where the check turns."""
+    target = an_apart(used, member, at)
+    hold = hold_of(target, "thickness_m", MadeUpProbe(apart))
+    most = used * max(
+        apart(ROW, one.case.with_value("thickness", hold.most or ROW.net_height))[
+            member
+        ]
+        for one in target.results
+    )
+    assert most <= 1.0
+    if hold.most is not None:
+        assert most > 0.9
+    else:
+        assert used < 0.9
+
+
+@pytest.mark.parametrize(("used", "told"), [(0.93, 2.53), (1.17, 2.29)])
+def test_what_a_change_told_is_no_more_looked_for(used, told):
+    target, probes = a_target(used), [MadeUpProbe(), MadeUpProbe()]
+    plain, known = (
+        next(
+            one
+            for one in find_holds({"c": target}, probe, {"c": values})["c"]
+            if one.quantity == "thickness_m"
+        )
+        for probe, values in zip(probes, ({}, {"thickness": told}), strict=True)
+    )
+    assert known.most == told
+    assert plain.most == pytest.approx(told, rel=0.02)
+    assert (known.least, known.low, known.high) == (plain.least, plain.low, plain.high)
+    assert probes[1].count < probes[0].count
+    wrong_side = find_holds({"c": target}, MadeUpProbe(), {"c": {"thickness": 2.47}})
+    assert next(h.most for h in wrong_side["c"] if h.quantity == "thickness_m") == (
+        plain.most
+    )
