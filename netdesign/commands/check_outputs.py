@@ -93,10 +93,9 @@ def begin_outputs(
     What is returned for each waits for it.
     """
     from netdesign.report.files import render_kind
-    from netdesign.solving.workers import ProcessPool
 
-    pool = runner.workers
-    if not (isinstance(pool, ProcessPool) and pool.is_at_hand):
+    pool = runner.workers.pool
+    if pool is None:
         return {}
     return {
         path: pool.begin(render_kind, path.suffix, study, outputs.style)

@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -71,6 +71,10 @@ Arrival = tuple[int, Ends]  # place among the batches, and its ends
 
 class Workers(Protocol):
     """Solver of batches; ends arrive in any order, each with its batch's place."""
+
+    @property
+    def pool(self) -> ProcessPool | None:
+        """Processes of this machine that can do more than solve; None without any."""
 
     def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         """Solve all batches."""
@@ -134,6 +138,8 @@ def _solve_in_turn(batch: Batch, solve: Callable[[Job], CaseEnd]) -> Ends:
 class OwnProcess:
     """Solves one batch after the other, here."""
 
+    pool = None
+
     def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         """Solve all batches in their order."""
         for place, batch in enumerate(batches):
@@ -184,13 +190,15 @@ class ProcessPool:
 
         Where the worker dies or fails, the call is made here when it is asked for.
         """
-        future = self._start().submit(work, *given)
+        caught = partial(catch_fault, partial(work, *given), work.__name__)
+        future = self._start().submit(caught)
 
         def finish() -> Found:
-            try:
-                return future.result()
-            except Exception:  # whatever it is: it is met again where it can be told
-                return work(*given)
+            with suppress(BrokenProcessPool, MemoryError):
+                found = future.result()
+                if not isinstance(found, Fault):
+                    return found
+            return work(*given)  # a fault is met again where it can be told
 
         return finish
 
@@ -220,9 +228,9 @@ class ProcessPool:
         return []
 
     @property
-    def is_at_hand(self) -> bool:
-        """Processes run, or would at once."""
-        return self._pool is not None or can_fork()
+    def pool(self) -> ProcessPool | None:
+        """Itself, if its processes run, or would at once."""
+        return self if self._pool is not None or can_fork() else None
 
     def _start(self) -> ProcessPoolExecutor:
         if self._pool is None:
@@ -238,6 +246,8 @@ class ProcessPool:
 
 class DaskCluster:
     """Solves jobs on the workers of a running Dask scheduler (extra ``dask``)."""
+
+    pool = None
 
     def __init__(self, address: str) -> None:
         """Connect to ``HOST:PORT``, with or without ``tcp://``.

@@ -12,7 +12,6 @@ from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.search import Wave
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
-from netdesign.solving.workers import ProcessPool
 from netdesign.study.cases import have_same_forces, list_alike, search_site, solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import gather_study
@@ -81,9 +80,9 @@ def check_site(
         One for each profile.
     """
     runner, watch = runner or Runner(), watch or _Nobody()
-    pool = runner.workers
+    pool = runner.workers.pool
     is_searched = run.method == "steady" and not site.ranges.is_grid
-    if is_searched and isinstance(pool, ProcessPool) and pool.is_at_hand:
+    if is_searched and pool is not None:
         groups = list_alike(site, run)
         if len(groups) >= _ROWS_A_PROCESS * pool.processes:
             return _check_side_by_side(site, groups, standards, run, runner, watch)

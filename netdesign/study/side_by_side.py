@@ -9,15 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from netdesign.checks import Standard
 from netdesign.envelope.rows import RowEnvelope, RowGrid
-from netdesign.fault import Fault
+from netdesign.fault import Fault, catch_fault
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError
-from netdesign.solving.workers import ProcessPool
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_row
@@ -86,8 +86,8 @@ def judge_rows(
         Called for each check of a force.
     """
     found: dict[int, list[Studies]] = {}
-    pool = runner.workers
-    if isinstance(pool, ProcessPool) and len(jobs) > 1 and pool.is_at_hand:
+    pool = runner.workers.pool
+    if pool is not None and len(jobs) > 1:
         told: dict[Message, None] = {}  # once, however many workers say it
         for place, judged in pool.spread(judge_away, list(enumerate(jobs))[::-1]):
             if judged is None:
@@ -110,11 +110,12 @@ def judge_rows(
 
 
 def judge_away(job: RowsJob) -> JudgedRows | None:
-    """Studies of the rows of a job, made by a worker; None where it fails."""
-    try:
-        return _judge_away(job)
-    except Exception:  # whatever it is: it is met again where it can be told
-        return None
+    """Studies of the rows of a job, made by a worker.
+
+    None where the program fails: the fault is met again where it can be told.
+    """
+    judged = catch_fault(partial(_judge_away, job), "")
+    return None if isinstance(judged, Fault) else judged
 
 
 def _judge_away(job: RowsJob) -> JudgedRows:

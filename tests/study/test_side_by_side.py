@@ -72,7 +72,7 @@ def in_turn(tmp_path_factory):
 
 @pytest.fixture
 def pool(monkeypatch):
-    monkeypatch.setattr(ProcessPool, "is_at_hand", True)
+    monkeypatch.setattr(ProcessPool, "pool", property(lambda self: self))
     pool = ProcessPool(2)
     yield pool
     pool.close()
