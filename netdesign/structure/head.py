@@ -199,7 +199,6 @@ class _Pair(Generic[Number]):
     tension: Number
     is_along: Truth
     is_pushed: Truth
-    is_pulled: Truth
     holds: Truth
 
 
@@ -236,14 +235,14 @@ def _resolve(
     tension = _cross(pull, post) / divisor
     # A pull along the guy's own line leaves a post force of rounding size.
     rounding = _ROUNDING * measure_length(*pull) / abs(divisor)
-    is_pushed, is_pulled = tension < 0.0, compression < -rounding
+    is_pushed = tension < 0.0
+    is_pulled = compression < -rounding
     return _Pair(
         signed_compression=compression,
         compression=take_larger(compression, 0.0),
         tension=tension,
         is_along=is_along,
         is_pushed=is_pushed,
-        is_pulled=is_pulled,
         holds=find_none(is_along, is_pushed, is_pulled),
     )
 
