@@ -10,8 +10,9 @@ shares the reference; only the node positions differ. Theory: snow/THEORY.md, se
 from __future__ import annotations
 
 from collections import defaultdict
+from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.numerics.scipy_start import importing_scipy
+from netdesign.numerics.scipy_start import importing_parts_of
 from netdesign.outcome import Outcome
 from netdesign.snow.triangulation import Triangulation, number_nodes
 from netdesign.words.message import say
@@ -449,10 +450,14 @@ def _is_clear(points: Floats, line: Floats) -> Mask:
     return np.asarray((distance > radius * (1.0 + 1e-9)) & (off > _LEAST_OFF * radius))
 
 
+@cache
 def load_delaunay() -> Any:
     """SciPy's triangulation: the longest import of a solve, when first asked for."""
-    with importing_scipy():
-        from scipy.spatial import Delaunay
+    with suppress(ImportError), importing_parts_of("scipy.spatial"):
+        from scipy.spatial._qhull import Delaunay
+
+        return Delaunay
+    from scipy.spatial import Delaunay  # of a SciPy that has it elsewhere
 
     return Delaunay
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from contextlib import suppress
+from functools import cache, lru_cache
+from typing import Any
 
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.scipy_start import importing_parts_of
 from netdesign.snow.contact import Contact
 from netdesign.snow.element import interpolate_reference
 from netdesign.snow.flow_state import FlowState
@@ -58,11 +61,21 @@ def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowSt
 
 @lru_cache(maxsize=256)
 def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
-    from scipy.spatial import cKDTree
-
-    tree = cKDTree(_list_points(source))
+    tree = _load_tree()(_list_points(source))
     _, nearest = tree.query(_list_points(target))
     return np.asarray(nearest, dtype=np.int64)
+
+
+@cache
+def _load_tree() -> Any:
+    """SciPy's tree of points, the first time it is asked for."""
+    with suppress(ImportError), importing_parts_of("scipy.spatial"):
+        from scipy.spatial._ckdtree import cKDTree
+
+        return cKDTree
+    from scipy.spatial import cKDTree  # of a SciPy that has it elsewhere
+
+    return cKDTree
 
 
 def _list_points(template: MeshTemplate) -> Floats:

@@ -41,6 +41,42 @@ def test_whoever_uses_them_later_finds_them():
     assert set(run(*lines)).issuperset(_TOOLS[:1])
 
 
+PARTS = (
+    "from netdesign.snow.mesh import load_delaunay",
+    "from netdesign.snow.transfer import _load_tree",
+    "parts = load_delaunay(), _load_tree()",
+)
+
+
+def test_the_rest_of_a_package_is_not_loaded():
+    loaded = run(*PARTS)
+    assert "scipy.spatial._qhull" in loaded
+    assert {"scipy.spatial", "scipy.spatial.transform"}.isdisjoint(loaded)
+
+
+def test_a_package_is_whole_for_whoever_asks_later():
+    run(
+        *PARTS,
+        "import numpy as np, scipy.interpolate, scipy.spatial",
+        "assert parts == (scipy.spatial.Delaunay, scipy.spatial.cKDTree)",
+        "points = np.array([[0.0, 0.0], [1.3, 0.0], [0.0, 1.7], [1.1, 0.9]])",
+        "assert scipy.spatial.ConvexHull(points).volume > 0.0",
+        "assert scipy.spatial.transform.Rotation.identity().magnitude() == 0.0",
+        "found = scipy.interpolate.LinearNDInterpolator(points, points[:, 0])",
+        "np.testing.assert_allclose(found([[0.31, 0.27]]), 0.31)",
+    )
+
+
+def test_where_a_module_has_moved_the_package_is_asked():
+    loaded = run(
+        "import inspect, netdesign.snow.mesh as mesh",
+        "text = inspect.getsource(mesh.load_delaunay).replace('_qhull', '_moved')",
+        "exec(text, vars(mesh))",
+        "assert mesh.load_delaunay().__name__ == 'Delaunay'",
+    )
+    assert "scipy.spatial" in loaded
+
+
 def test_numpy_lists_all_its_names_again_even_after_a_failure():
     names, listed = list(np.__all__), dir(np)
     error = ImportError("spoilt")
