@@ -191,7 +191,11 @@ class ProcessPool:
         Where the worker dies or fails, the call is made here when it is asked for.
         """
         caught = partial(catch_fault, partial(work, *given), work.__name__)
-        future = self._start().submit(caught)
+        try:
+            future = self._start().submit(caught)
+        except BrokenProcessPool:  # a worker has died since its last work
+            self.close()
+            return partial(work, *given)
 
         def finish() -> Found:
             with suppress(BrokenProcessPool, MemoryError):

@@ -136,6 +136,7 @@ import netdesign.solving.workers as w
 w._WORTH_A_POOL = 1
 feed = w.ProcessPool._feed
 def kill_one(pool, waiting):
+    w.ProcessPool._feed = feed  # once: the next call may find a pool that is broken
     arrivals = feed(pool, waiting)
     yield next(arrivals)
     os.kill(next(iter(pool._pool._processes)), signal.SIGKILL)

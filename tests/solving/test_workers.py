@@ -3,6 +3,7 @@
 import math
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -148,6 +149,23 @@ def test_a_call_that_a_worker_does_not_end_is_made_here(work):
             pool.begin(work, os.getpid(), 0.31),
         ]
         assert [finish() for finish in waiting] == [5.0, 0.31]
+    finally:
+        pool.close()
+
+
+def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
+    pool = ProcessPool(2, worth=1)
+    try:
+        assert collect(pool, BATCHES) == alone
+        executor = pool._pool
+        os.kill(next(iter(executor._processes)), signal.SIGKILL)
+        for _ in range(500):  # until the executor knows of it
+            if executor._broken:
+                break
+            time.sleep(0.01)
+        assert executor._broken
+        assert pool.begin(math.hypot, 3.0, 4.0)() == 5.0
+        assert collect(pool, BATCHES) == alone
     finally:
         pool.close()
 
