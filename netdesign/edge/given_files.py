@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,6 +17,9 @@ MAX_TOML_BYTES = 256 * 2**10
 _MOST_POINTS = 200
 
 _MOST_FAULTS = 50
+
+_TOML_PLACE = re.compile(r"\(at line ([0-9]+), column ([0-9]+)\)")
+_AT_END = say("file.at_end")
 
 
 def is_there(path: Path) -> bool:
@@ -56,9 +60,35 @@ def parse_toml(content: bytes) -> dict[str, Any]:
     ):
         raise ContentError(say("file.many_points", most=_MOST_POINTS))
     try:
-        return tomllib.loads(content.decode("utf-8-sig"))
+        return tomllib.loads(decode_utf8(content))
+    except tomllib.TOMLDecodeError as error:
+        raise ContentError(_tell_toml(error)) from None
     except RecursionError:
         raise ContentError(say("file.nested")) from None
+
+
+def decode_utf8(content: bytes) -> str:
+    """Text of a file in UTF-8, without its byte order mark.
+
+    Raises
+    ------
+    ContentError
+        If it is not in UTF-8.
+    """
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise ContentError(say("file.no_utf8", line=line)) from None
+
+
+def _tell_toml(error: tomllib.TOMLDecodeError) -> Message:
+    """Words of ours for what the parser tells in English only."""
+    told = str(error)
+    found = _TOML_PLACE.search(told)
+    line, column = found.groups() if found else ("", "")
+    place = say("file.at_line", line=line, column=column) if found else _AT_END
+    return say("file.twice" if "Cannot" in told else "file.no_value", place=place)
 
 
 def read_toml(path: Path) -> dict[str, Any]:

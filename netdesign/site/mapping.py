@@ -65,9 +65,6 @@ def read_answers(site_file: Path) -> Answers:
     except OSError as error:
         rule = say("book.not_opened", cause=explain(error))
         raise refuse_file(path.name, rule, _WANTED) from error
-    except ValueError as error:
-        rule = say("map.faulty", cause=quote(str(error)))
-        raise refuse_file(path.name, rule, _WANTED) from error
     fault = _find_fault(table)
     if fault:
         raise refuse_file(path.name, fault, _WANTED)

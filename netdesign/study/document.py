@@ -11,7 +11,11 @@ from functools import lru_cache
 from pathlib import Path
 
 from netdesign.edge.causes import explain, explain_shape
-from netdesign.edge.given_files import list_faults, read_bounded
+from netdesign.edge.given_files import (
+    decode_utf8,
+    list_faults,
+    read_bounded,
+)
 from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
 from netdesign.errors import ContentError, StudyError
 from netdesign.study.records import SCHEMA, Study
@@ -128,7 +132,7 @@ def load_study(path: Path) -> Study:
         If the file cannot be read, or is no study.
     """
     try:
-        text = read_bounded(path, MAX_JSON_BYTES).decode()
+        text = decode_utf8(read_bounded(path, MAX_JSON_BYTES))
     except (OSError, ValueError) as error:
         raise StudyError(
             say("study.unreadable", path=str(path), cause=explain(error))

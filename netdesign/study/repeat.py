@@ -13,6 +13,7 @@ from netdesign.study.records import Study
 from netdesign.study.values import Difference, compare_values, list_values
 from netdesign.words.message import say
 
+_REPEATED = ("accuracy", "method")
 _LOG = re.compile(r"rows\..*\.envelope\.log\.\d+\.\w+(\.\w+)?")
 
 
@@ -40,8 +41,9 @@ def build_run(study: Study, jobs: int) -> CheckRun:
             command=made.command,
             started=made.started,
         )
-    except (KeyError, ValueError) as error:
-        raise StudyError(say("study.settings", cause=str(error))) from None
+    except (KeyError, ValueError):
+        told = tuple(f"{name} = {given.get(name)!r:.60}" for name in _REPEATED)
+        raise StudyError(say("study.settings", given=told)) from None
     if given.get("creep_law") != name_law(run.creep_law):
         raise StudyError(
             say(

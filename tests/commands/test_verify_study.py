@@ -209,6 +209,25 @@ def test_settings_that_cannot_be_had_again_are_refused(verify):
     assert "creep law 'my own'" in ended.err
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "told"),
+    [
+        ("accuracy", "a little", "accuracy = 'a little', method = "),
+        ("accuracy", None, "accuracy = None, method = "),
+        ("method", "dice", "method = 'dice'"),
+    ],
+)
+def test_a_setting_that_nobody_can_read_is_named(verify, name, value, told):
+    def change(study):
+        study["provenance"]["settings"][name] = value
+        if value is None:
+            del study["provenance"]["settings"][name]
+
+    ended = verify(change)
+    assert ended.code == REFUSED
+    assert told in ended.err
+
+
 @pytest.mark.parametrize("content", [b"", b"{}", b"\xff\xfe", b"[1]"])
 def test_what_is_no_study_ends_with_3(call, tmp_path, content):
     (tmp_path / "study.json").write_bytes(content)

@@ -108,14 +108,22 @@ def _decode(file: str, content: bytes) -> tuple[str, str]:
 
 
 def _split(file: str, text: str, delimiter: str) -> _Records:
+    # strict: a quote that is never closed must not swallow the rest of the file
+    source = StringIO(text, newline="")
+    reader = csv.reader(source, delimiter=delimiter, strict=True)
+    records: _Records = []
+    line = 1  # where the next record begins: an open quote reads on to the end
     try:
-        # strict: a quote that is never closed must not swallow the rest of the file
-        source = StringIO(text, newline="")
-        reader = csv.reader(source, delimiter=delimiter, strict=True)
-        return [_cut_end(record) for record in islice(reader, MAX_LINES + 1)]
+        for record in islice(reader, MAX_LINES + 1):
+            records.append(_cut_end(record))
+            line = reader.line_num + 1
     except csv.Error as error:
-        rule = say("csv.unreadable", cause=str(error))
+        cause = say("csv.open_quote", line=line)
+        if "limit" in str(error):
+            cause = say("csv.long_cell", line=line, most=csv.field_size_limit())
+        rule = say("csv.unreadable", cause=cause)
         raise refuse_file(file, rule, say("csv.quotes")) from None
+    return records
 
 
 def _cut_end(record: list[str]) -> list[str]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from io import BytesIO
 from typing import Any
 
+from netdesign.errors import ContentError
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, group_by_row
 from netdesign.site.cells.limits import (
     MAX_COLUMNS,
@@ -23,6 +24,7 @@ from netdesign.site.cells.limits import (
 )
 from netdesign.site.cells.number_formats import find_text_unit
 from netdesign.site.cells.numbers import DecimalMark
+from netdesign.words.message import say
 
 _OFFICE = "{urn:oasis:names:tc:opendocument:xmlns:office:1.0}"
 _TABLE = "{urn:oasis:names:tc:opendocument:xmlns:table:1.0}"
@@ -92,7 +94,7 @@ def read_ods(
         for event, element in iterparse(source, events=("start", "end")):
             if event == "start" and element.tag == f"{_TABLE}table":
                 if sheet is not None:
-                    raise ValueError("a table inside a table")
+                    raise ContentError(say("book.table_inside"))
                 name = element.get(f"{_TABLE}name", "")
                 style = element.get(f"{_TABLE}style-name", "")
                 sheet = _OpenSheet(file, name, style in hidden_styles, decimal_mark)
@@ -163,7 +165,7 @@ def _filled_cells(row: Any) -> Iterator[tuple[int, Any]]:
 def _read_count(element: Any, name: str) -> int:
     count = int(element.get(f"{_TABLE}{name}", 1))
     if count < 1:
-        raise ValueError(f"{name} is {count}")
+        raise ContentError(say("book.count", name=name, count=count))
     return count
 
 

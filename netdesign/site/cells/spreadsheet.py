@@ -11,9 +11,10 @@ from pathlib import Path
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import make_printable, read_bounded
 from netdesign.edge.open_elsewhere import is_held
+from netdesign.errors import ContentError
 from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.cells.delimited import read_delimited
-from netdesign.site.cells.findings import Finding, note_file, quote, refuse_file
+from netdesign.site.cells.findings import Finding, note_file, refuse_file
 from netdesign.site.cells.limits import (
     DAMAGE,
     MAX_ENTRIES,
@@ -23,10 +24,12 @@ from netdesign.site.cells.limits import (
 )
 from netdesign.site.cells.ods import read_ods
 from netdesign.site.cells.xlsx import read_xlsx
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 _OLE_MAGIC = b"\xd0\xcf\x11\xe0"
 _ZIP_MAGIC = b"PK"
+# Of defusedxml, by name: it is imported where XML is read.
+_FORBIDDEN = ("DTDForbidden", "EntitiesForbidden", "ExternalReferenceForbidden")
 _ACCEPTED_FILE = say("accepted.file")
 _TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
 _MACRO_PARTS = ("xl/vbaProject.bin", "Basic/", "Scripts/")
@@ -122,14 +125,23 @@ def _read_archive(
             file, content, is_wanted, text_format.decimal_mark
         )
     except DAMAGE as error:
-        cause = error.__cause__ or error  # openpyxl wraps what the parser says
-        detail = quote(f"{type(cause).__name__}: {cause}")
-        raise refuse_file(
-            file, say("book.unreadable", detail=detail), _ACCEPTED_FILE
-        ) from error
+        rule = say("book.unreadable", detail=_tell_damage(error))
+        raise refuse_file(file, rule, _ACCEPTED_FILE) from error
     has_macros = any(part.startswith(_MACRO_PARTS) for part in parts)
     note = note_file(file, say("book.macros"))
     return *read, (note,) if has_macros else ()
+
+
+def _tell_damage(error: BaseException) -> Message:
+    """Words of ours for what is wrong with a file."""
+    cause = error.__cause__ or error  # openpyxl wraps what the parser says
+    if isinstance(cause, ContentError):
+        return cause.message
+    if type(cause).__name__ in _FORBIDDEN:
+        return say("book.entities")
+    if isinstance(cause, RuntimeError) and "encrypted" in str(cause):
+        return say("book.password")
+    return say("book.lacks_part" if isinstance(cause, KeyError) else "book.damaged")
 
 
 def _read_texts(name: str, paths: list[Path]) -> dict[str, bytes]:

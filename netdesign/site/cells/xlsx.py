@@ -10,7 +10,7 @@ from pathlib import Path
 from string import ascii_uppercase
 from typing import TYPE_CHECKING, Any
 
-from netdesign.errors import NetDesignError
+from netdesign.errors import ContentError, NetDesignError
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, group_by_row
 from netdesign.site.cells.findings import refuse_file
 from netdesign.site.cells.limits import (
@@ -234,12 +234,12 @@ def _follow_row(element: Any, row_before: int) -> int:
     """Number of a row; an error where a cell would have two contents."""
     row = int(element.get("r", row_before + 1))
     if row <= row_before:
-        raise ValueError(f"row {row} comes after row {row_before}")
+        raise ContentError(say("book.row_after", row=row, before=row_before))
     places = [place for cell in element if (place := cell.get("r"))]
     if len(set(places)) < len(places):
-        raise ValueError(f"row {row} holds a cell twice")
+        raise ContentError(say("book.cell_twice", row=row))
     if any(place.lstrip(ascii_uppercase) != str(row) for place in places):
-        raise ValueError(f"row {row} holds a cell of another row")
+        raise ContentError(say("book.other_row", row=row))
     return row
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.given_files import make_printable
 from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat
-from netdesign.site.cells.findings import Finding, quote, refuse_file
+from netdesign.site.cells.findings import Finding, refuse_file
 from netdesign.site.cells.limits import DAMAGE
 from netdesign.site.cells.xlsx import open_for_editing
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS
@@ -95,8 +95,7 @@ def _open(path: Path) -> OpenWorkbook:
     try:
         return open_for_editing(path)
     except DAMAGE as error:  # in a part that reading the site does not look at
-        detail = quote(f"{type(error).__name__}: {error}")
-        rule = say("book.not_copied", detail=detail)
+        rule = say("book.not_copied")
         raise refuse_file(path.name, rule, say("book.copy_without")) from error
 
 

@@ -122,3 +122,16 @@ def test_a_folder_without_csv_files_is_refused(tmp_path):
 def test_text_that_looks_like_a_formula_is_no_number(tmp_path):
     text = ONE_FILE.replace("R1;38,5", "R1;=38+1")
     assert '"=38+1" is not a number' in refusal_of(write(tmp_path / "site.csv", text))
+
+
+@pytest.mark.parametrize(
+    ("cell", "told"),
+    [
+        ('"37,2', "line 2: a quote is not closed, or is followed by more text"),
+        ('"37"x', "line 2: a quote is not closed, or is followed by more text"),
+        ("7" * 140_000, "line 2: a cell of more than 131072 characters"),
+    ],
+)
+def test_text_that_is_no_csv_is_told_by_its_line(tmp_path, cell, told):
+    path = write(tmp_path / "site.csv", ONE_FILE.replace("38,5", cell))
+    assert told in refusal_of(path, TextFormat(delimiter=";"))
