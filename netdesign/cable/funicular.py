@@ -21,6 +21,8 @@ from netdesign.numerics.arrays import Floats
 from netdesign.numerics.newton import minimise_convex
 from netdesign.outcome import Outcome
 
+# Gap at the head, over the length, that counts as closed.
+CLOSED = 1e-12
 _GAUSS = 1.0 / np.sqrt(3.0)
 _UNIT = np.eye(2)
 
@@ -58,7 +60,7 @@ def solve_funicular(
     head: Floats,
     start: Floats,
     *,
-    tolerance: float = 1e-12,
+    tolerance: float = CLOSED,
 ) -> Funicular:
     """Curve and tensions of a cable hung from the origin to ``head``.
 

@@ -90,6 +90,23 @@ class PlacementArgument(ctypes.Structure):
     ]
 
 
+class SceneArgument(ctypes.Structure):
+    """``Scene`` of round.c: a scene on one mesh."""
+
+    _fields_ = [
+        *(("place", PlacementArgument), ("mesh", MeshArgument)),
+        *(("law", LawArgument), ("first", LawArgument), ("rules", RulesArgument)),
+        *(("plan", _POINTER), ("effort", EffortArgument), ("n_vertices", _INT)),
+        *((name, _POINTER) for name in ("reference", "follow", "below")),
+        *((name, _POINTER) for name in ("rise", "heights", "ends")),
+        *(("gravity", _REAL * 2), ("is_uniform", _INT)),
+        *((name, _POINTER) for name in ("density", "end_share", "edge_weights")),
+        *((name, _INT) for name in ("n_elements", "n_parts")),
+        *((name, _POINTER) for name in ("shares", "part", "firsts", "rises", "head")),
+        *((name, _REAL) for name in ("end_load", "length", "stiffness", "tolerance")),
+    ]
+
+
 def locate(array: np.ndarray[Any, Any] | None) -> int:
     """Address of a contiguous array; 0 for none.
 

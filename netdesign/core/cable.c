@@ -2,14 +2,14 @@
  *
  * The kernels of cable/funicular.py, with the steps of numerics/newton.py, and of
  * cable/parted.py. Theory: cable/THEORY.md, (C1) to (C5b). */
-#include "core.h"
+#include "round.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 static const double ACCEPTED_CLIMB = 0.5, SHORTEST_STEP = 1e-12;
 static const double GAUSS = 0.57735026918962576451; /* 1 / sqrt(3) */
-enum { MOST_STEPS = 100, OPEN = 1 };
+enum { MOST_STEPS = 100 };
 
 typedef struct {
     int32_t n;               /* elements */

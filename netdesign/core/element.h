@@ -79,6 +79,8 @@ void update_contact(const Mesh *mesh, const Rules *rules, const Contact *from,
 void change_some(const Mesh *mesh, const Contact *now, const Contact *wanted,
                  uint8_t *marks, int only_first);
 int is_same(const Mesh *mesh, const Contact *one, const Contact *other);
+EXPORT int32_t nd_residual(const Mesh *mesh, const double *stress, const double *shear,
+                           double *forces);
 int open_room(const Mesh *mesh, const int32_t *plan, Room *room);
 int take_step(const Mesh *mesh, const Law *law, const Rules *rules, const Step *step,
               const int32_t *plan, int keeps, const Room *room);

@@ -1,27 +1,10 @@
 /* Newton's steps of the flow of snow, until they and its contacts come to rest.
  *
  * The loop of snow/flow.py. Theory: snow/THEORY.md, section 2, (N16). */
-#include "element.h"
+#include "round.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { CONVERGED = 0, GAVE_UP = 1, NOT_FINITE = 2 };
-
-/* An iterate: where the flow starts, and where it ends. */
-typedef struct {
-    double *numbers; /* unknowns, reactions (2 n_nodes,), stress, then shear if any */
-    Contact contact; /* under which it was found */
-    int32_t slides;
-} State;
-
-/* What is asked of a flow, and what it took. */
-typedef struct {
-    double tolerance, linear_part, square_factor, field_weight; /* as in snow/flow.py */
-    int32_t most_steps, patience;
-    int32_t steps; /* taken, with the first */
-    double change; /* that the last one left */
-} Effort;
 
 typedef struct {
     const Mesh *mesh;

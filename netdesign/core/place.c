@@ -2,26 +2,12 @@
  *
  * The kernels of snow/element.py (shape gradients) and snow/placed_mesh.py (normals of
  * the net, load). Theory: snow/THEORY.md, section 3. */
-#include "core.h"
+#include "round.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { SIDE = 3 };
-
-/* What the core is given to place a mesh, and where it puts the results. */
-typedef struct {
-    int32_t n_nodes, n_triangles, n_net;
-    const int32_t *triangles, *net; /* (n_triangles, 6), (n_net,) */
-    const double *orientation;      /* (n_triangles,): 1 or -1 */
-    const double *reference;        /* (6, 2, 3): gradients of shape functions */
-    const double *shape;            /* (3, 6) */
-    const double *point_weights;    /* (3,) */
-    const double *edge_tangent;     /* (3, 3): node, coefficient of an edge's node */
-    const double *nodes;            /* (2, n_nodes) */
-    double *gradients, *weights;    /* (2, n_triangles, 3, 6), (n_triangles, 3) */
-    double *load, *axes, *normal;   /* (n_nodes,), (2, n_nodes), (2, n_net) */
-} Placement;
 
 /* Jacobian (reference direction, axis) at a point of a triangle. */
 static void find_jacobian(const Placement *to, const int32_t *nodes, int q,

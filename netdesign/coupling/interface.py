@@ -62,11 +62,26 @@ def find_support_forces(
         If nothing holds the snow.
     """
     forces = compute_support_forces(problem, mesh, state)
-    weight = float(np.hypot(*compute_weight(problem, mesh)))
-    if forces.unbalanced <= _ROUNDING * weight:
+    if is_balanced(problem, mesh, forces):
         return state, forces
     mended = remove_rounding(problem, mesh, state)
     return mended, compute_support_forces(problem, mesh, mended)
+
+
+def is_balanced(problem: FlowProblem, mesh: PlacedMesh, forces: SupportForces) -> bool:
+    """No force is left on free nodes but rounding.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    forces : SupportForces
+        Of a converged flow.
+    """
+    weight = float(np.hypot(*compute_weight(problem, mesh)))
+    return forces.unbalanced <= _ROUNDING * weight
 
 
 def compute_support_forces(

@@ -107,7 +107,7 @@ class CompiledFlow:
         law, kept = None, None
         if first is not None:
             material = sample_material(first, template)
-            law, kept = _describe_law(first, material, self.mesh.weights.shape)
+            law, kept = describe_law(first, material, self.mesh.weights.shape)
         argument = StateArgument(*places, start.base_shear is not None)
         mesh, own, rules = map(ctypes.byref, self.given)
         code = self.library.nd_flow(
@@ -300,10 +300,18 @@ def _to_arrays(contact: Contact, n_net: int, n_ground: int) -> tuple[Ints | Mask
     )
 
 
-def _describe_law(
+def describe_law(
     problem: FlowProblem, material: Material, shape: tuple[int, ...]
 ) -> tuple[LawArgument, tuple[Floats, Floats]]:
-    """Laws as the core takes them, and their arrays: one number, or of the shape."""
+    """Laws as the core takes them, and their arrays: one number, or of the shape.
+
+    Parameters
+    ----------
+    problem, material : FlowProblem, Material
+        Creep and ground.
+    shape : tuple of int
+        Of the quadrature points.
+    """
     bulk = np.asarray(material.bulk_ratio, dtype=np.float64)
     fluidity = np.asarray(material.fluidity_ratio, dtype=np.float64)
     if bulk.size > 1 or fluidity.size > 1:
@@ -322,7 +330,8 @@ def _describe_law(
     return law, (bulk, fluidity)
 
 
-def _describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
+def describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
+    """Rules of contact as the core takes them; ``lifts`` is an address."""
     return RulesArgument(
         problem.friction,
         problem.net_contact == "one-sided",
@@ -332,12 +341,24 @@ def _describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
     )
 
 
-class _Described(NamedTuple):
-    """A template as the core takes it."""
+class Described(NamedTuple):
+    """A template as the core takes it.
 
-    kept: tuple[np.ndarray[Any, Any], ...]  # C has their addresses
-    counts: tuple[int, int, int, int]  # of nodes, triangles, net, edges
-    numbers: tuple[int, ...]  # addresses
+    Attributes
+    ----------
+    kept : tuple of ndarray, each of any shape
+        Arrays whose addresses the others are.
+    counts : tuple of int
+        Of nodes, triangles, the net's nodes, edges on the ground.
+    numbers : tuple of int
+        Addresses of the nodes of triangles, net, ground, edges.
+    lifts, plan : int
+        Addresses of what may lift, and of the order of the nodes.
+    """
+
+    kept: tuple[np.ndarray[Any, Any], ...]
+    counts: tuple[int, int, int, int]
+    numbers: tuple[int, ...]
     lifts: int
     plan: int
 
@@ -362,33 +383,34 @@ def prepare_flow(
     load : ndarray, shape (n_dofs,)
         Of gravity, node axes [rho g d^2].
     """
-    described = _describe_template(library, mesh.template)
+    described = describe_template(library, mesh.template)
     if described is None:
         return None
     base = mesh.base
     arrays = (mesh.gradients, mesh.weights, mesh.axes, base.weights, base.shape, load)
     kept = tuple(np.ascontiguousarray(one, dtype=np.float64) for one in arrays)
     argument = MeshArgument(*described.counts, *described.numbers, *locate_all(*kept))
-    law, more = _describe_law(problem, material, mesh.weights.shape)
+    law, more = describe_law(problem, material, mesh.weights.shape)
     return CompiledFlow(
         library=library,
         mesh=mesh,
-        given=(argument, law, _describe_rules(problem, described.lifts)),
+        given=(argument, law, describe_rules(problem, described.lifts)),
         plan=described.plan,
         kept=(*described.kept, *kept, *more),
     )
 
 
 @lru_cache(maxsize=256)
-def _describe_template(
+def describe_template(
     library: ctypes.PyDLL, template: MeshTemplate
-) -> _Described | None:
+) -> Described | None:
+    """A template as the core takes it; None where it is too large."""
     plan = plan_template(library, template)
     if plan is None:
         return None
     numbers, lifts = number_template(template), np.ascontiguousarray(may_lift(template))
     counts = (template.nodes.shape[1], len(numbers.triangles))
-    return _Described(
+    return Described(
         kept=(*numbers, lifts, plan),
         counts=(*counts, numbers.net.size, len(numbers.edges)),
         numbers=tuple(locate_all(*numbers)),

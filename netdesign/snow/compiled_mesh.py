@@ -85,11 +85,8 @@ def place_compiled(
     ValueError
         If an array is not of its shape, or the element has other points.
     """
-    numbers, places = _locate_template(template)
-    shape, gradients, point_weights = _reference()
-    n_triangles, n_points = len(numbers.triangles), point_weights.size
-    if shape.shape != (_POINTS, 6):
-        raise ValueError(f"the compiled core has {_POINTS} points a triangle")
+    numbers, _ = _locate_template(template)
+    n_triangles, n_points = len(numbers.triangles), _POINTS
     found = Placed(
         weights=np.empty((n_triangles, n_points)),
         gradients=np.empty((2, n_triangles, n_points, 6)),
@@ -99,13 +96,38 @@ def place_compiled(
     )
     nodes = to_floats(nodes, template.nodes.shape)
     results = (found.gradients, found.weights, found.load, found.axes, found.net_normal)
-    argument = PlacementArgument(
-        *(nodes.shape[1], n_triangles, numbers.net.size),
-        *places,
-        *locate_all(gradients, shape, point_weights, tangents, nodes, *results),
-    )
+    argument = describe_placement(template, tangents)
+    names = ("nodes", "gradients", "weights", "load", "axes", "normal")
+    for name, place in zip(names, locate_all(nodes, *results), strict=True):
+        setattr(argument, name, place)
     require_sound(library.nd_place(ctypes.byref(argument)))
     return found
+
+
+def describe_placement(template: MeshTemplate, tangents: Floats) -> PlacementArgument:
+    """A template to place as the core takes it; nodes and results come later.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    tangents : ndarray, shape (3, 3)
+        As ``place_compiled`` takes them; the caller keeps it.
+
+    Raises
+    ------
+    ValueError
+        If the element has other points.
+    """
+    numbers, places = _locate_template(template)
+    shape, gradients, point_weights = _reference()
+    if shape.shape != (_POINTS, 6):
+        raise ValueError(f"the compiled core has {_POINTS} points a triangle")
+    return PlacementArgument(
+        *(template.nodes.shape[1], len(numbers.triangles), numbers.net.size),
+        *places,
+        *locate_all(gradients, shape, point_weights, tangents),
+    )
 
 
 @lru_cache(maxsize=256)

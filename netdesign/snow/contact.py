@@ -7,6 +7,7 @@ are (normal, tangential); pressures and shears are forces of the snow on its sup
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -101,6 +102,7 @@ def update_contact(
     )
 
 
+@lru_cache(maxsize=256)
 def may_lift(template: MeshTemplate) -> Mask:
     """Ground nodes where a one-sided ground can let go.
 
@@ -118,7 +120,9 @@ def may_lift(template: MeshTemplate) -> Mask:
         Of the ground's nodes but the foot.
     """
     end = max(template.aspect - 1.0, template.aspect / 2.0)
-    return np.asarray(template.nodes[0, template.ground[1:]] < end)
+    lifts = np.asarray(template.nodes[0, template.ground[1:]] < end)
+    lifts.setflags(write=False)  # many states share it
+    return lifts
 
 
 def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Contact:

@@ -142,22 +142,35 @@ def _solve_compiled(
     max_iterations: int,
 ) -> FlowResult:
     """The same by the compiled core."""
-    linear = _make_linear(problem) if start is None else None
+    linear = make_linear(problem) if start is None else None
     state = rest(problem, mesh) if start is None else start
-    effort = EffortArgument(
-        tolerance=tolerance,
-        linear_part=_LINEAR_PART,
-        square_factor=_SQUARE_FACTOR,
-        field_weight=_FIELD_WEIGHT,
-        most_steps=max_iterations,
-        patience=_PATIENCE,
-    )
+    effort = ask_effort(tolerance, max_iterations)
     found = core.solve(state, linear, effort)
     return FlowResult(
         outcome=_OUTCOMES[found.ending],
         state=found.state,
         linear_solves=found.linear_solves,
         change=found.change,
+    )
+
+
+def ask_effort(tolerance: float, max_iterations: int) -> EffortArgument:
+    """Effort that the core is asked for.
+
+    Parameters
+    ----------
+    tolerance : float
+        Relative error that the last step may leave [-].
+    max_iterations : int
+        Newton steps allowed.
+    """
+    return EffortArgument(
+        tolerance=tolerance,
+        linear_part=_LINEAR_PART,
+        square_factor=_SQUARE_FACTOR,
+        field_weight=_FIELD_WEIGHT,
+        most_steps=max_iterations,
+        patience=_PATIENCE,
     )
 
 
@@ -214,12 +227,12 @@ def _solve_linear_creep(
     problem: FlowProblem, mesh: PlacedMesh, step: Step
 ) -> FlowState:
     """Linear creep of snow held everywhere: a start that needs no guess."""
-    at_rest, linear = rest(problem, mesh), _make_linear(problem)
+    at_rest, linear = rest(problem, mesh), make_linear(problem)
     material = sample_material(linear, mesh.template)
     return step(linear, material, mesh, at_rest, at_rest.contact)
 
 
-def _make_linear(problem: FlowProblem) -> FlowProblem:
+def make_linear(problem: FlowProblem) -> FlowProblem:
     """The problem with linear creep, whose layers share the stress about as given.
 
     Layers that deform together carry stresses as their fluidities to the power -1/n.

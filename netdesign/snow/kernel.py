@@ -9,13 +9,14 @@ then, in the mixed element, one pressure per vertex. Plane tensors are stored as
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, gather
 from netdesign.snow.element import reference_element
-from netdesign.snow.mesh import edge_triples
+from netdesign.snow.mesh import MeshTemplate, edge_triples
 from netdesign.snow.ordering import Blocks
 from netdesign.snow.placed_mesh import PlacedMesh
 
@@ -158,14 +159,32 @@ def assemble_end_load(mesh: PlacedMesh, force: float) -> Floats:
     ndarray, shape (n_dofs,)
         In node axes [rho g d^2].
     """
-    eta = mesh.template.nodes[1]
-    start, middle, stop = edge_triples(mesh.template.upstream)
+    along = force * share_end_load(mesh.template)
+    return mesh.to_node_axes(np.array([along, np.zeros_like(along)]))
+
+
+@lru_cache(maxsize=256)
+def share_end_load(template: MeshTemplate) -> Floats:
+    """Shares of the nodes in a uniform traction on the upslope end.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh, which is the placed one there.
+
+    Returns
+    -------
+    ndarray, shape (n_nodes,)
+        [-]
+    """
+    eta = template.nodes[1]
+    start, middle, stop = edge_triples(template.upstream)
     lengths = eta[stop] - eta[start]
-    load = np.zeros_like(mesh.nodes)
-    np.add.at(load[0], start, force * lengths / 6.0)
-    np.add.at(load[0], middle, force * lengths * 4.0 / 6.0)
-    np.add.at(load[0], stop, force * lengths / 6.0)
-    return mesh.to_node_axes(load)
+    shares = np.zeros(eta.size)
+    np.add.at(shares, start, lengths / 6.0)
+    np.add.at(shares, middle, lengths * 4.0 / 6.0)
+    np.add.at(shares, stop, lengths / 6.0)
+    return shares
 
 
 def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:

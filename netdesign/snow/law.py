@@ -153,15 +153,15 @@ class Tangent(NamedTuple):
 
 
 @lru_cache(maxsize=8)
-def sample_material(problem: FlowProblem, template: MeshTemplate) -> Material:
+def sample_material(problem: FlowProblem, template: MeshTemplate | None) -> Material:
     """Properties at the quadrature points.
 
     Parameters
     ----------
     problem : FlowProblem
         Its layers.
-    template : MeshTemplate
-        Reference mesh.
+    template : MeshTemplate or None
+        Reference mesh; uniform snow needs none.
 
     Returns
     -------
@@ -171,6 +171,7 @@ def sample_material(problem: FlowProblem, template: MeshTemplate) -> Material:
     if len(problem.layers) == 1:
         layer = problem.layers[0]
         return Material(layer.bulk_ratio, layer.fluidity_ratio, layer.density)
+    assert template is not None  # layers lie at heights
     tops = np.array([layer.top for layer in problem.layers[:-1]])
     index = np.searchsorted(tops, point_heights(template))
     fields = ("bulk_ratio", "fluidity_ratio", "density")

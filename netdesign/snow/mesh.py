@@ -274,7 +274,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
         are parabolas through their three nodes, all others are straight.
     """
     distance, height = template.nodes
-    follow = _follow(template)
+    follow = follow_net(template)
     fractions = template.net_fractions
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])
@@ -286,7 +286,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
 
 
 @lru_cache(maxsize=256)
-def _follow(template: MeshTemplate) -> Floats:
+def follow_net(template: MeshTemplate) -> Floats:
     """Share of the net's displacement that each node takes, shape (n_nodes,)."""
     reach = min(NET_FOLLOWED, template.aspect)
     return _frozen(np.maximum(0.0, 1.0 - template.nodes[0] / reach))

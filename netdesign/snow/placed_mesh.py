@@ -26,10 +26,10 @@ from netdesign.snow.element import (
 )
 from netdesign.snow.mesh import MeshTemplate, edge_triples
 
-_EDGE_POINTS, _EDGE_WEIGHTS = np.polynomial.legendre.leggauss(4)
+_EDGE_POINTS, EDGE_WEIGHTS = np.polynomial.legendre.leggauss(4)
 # Quadratic shape functions (n_points, 3) of an edge's start, middle and end, and their
 # derivatives; weighted products of the two (3, 3).
-_EDGE_SHAPE = np.column_stack(
+EDGE_SHAPE = np.column_stack(
     [
         _EDGE_POINTS * (_EDGE_POINTS - 1.0) / 2.0,
         1.0 - _EDGE_POINTS**2,
@@ -39,7 +39,7 @@ _EDGE_SHAPE = np.column_stack(
 _EDGE_SLOPE = np.column_stack(
     [_EDGE_POINTS - 0.5, -2.0 * _EDGE_POINTS, _EDGE_POINTS + 0.5]
 )
-_EDGE_TANGENT = (_EDGE_WEIGHTS[:, None] * _EDGE_SHAPE).T @ _EDGE_SLOPE
+EDGE_TANGENT = (EDGE_WEIGHTS[:, None] * EDGE_SHAPE).T @ _EDGE_SLOPE
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -217,7 +217,7 @@ def build_placed_mesh(
     if core is None:
         placed = _place(template, nodes)
     else:
-        placed = place_compiled(core, template, nodes, _EDGE_TANGENT)
+        placed = place_compiled(core, template, nodes, EDGE_TANGENT)
     return PlacedMesh(
         template=template,
         nodes=nodes,
@@ -246,7 +246,7 @@ def _place(template: MeshTemplate, nodes: Floats) -> Placed:
 
 def _net_normals(template: MeshTemplate, nodes: Floats) -> Floats:
     """Unit normals, each the normal integrated with the node's shape function."""
-    shares = nodes[:, _list_edges(template).net] @ _EDGE_TANGENT.T
+    shares = nodes[:, _list_edges(template).net] @ EDGE_TANGENT.T
     tangents = np.zeros((2, template.net.size))
     tangents[:, :-2:2] = shares[..., 0]
     tangents[:, 1::2] = shares[..., 1]
@@ -279,7 +279,7 @@ def _weigh_tangents(count: int) -> Floats:
     """Tangents of the net integrated with the shape functions of its nodes, (n, n)."""
     weights = np.zeros((count, count))
     for first in range(0, count - 2, 2):
-        weights[first : first + 3, first : first + 3] += _EDGE_TANGENT
+        weights[first : first + 3, first : first + 3] += EDGE_TANGENT
     weights.setflags(write=False)
     return weights
 
@@ -289,8 +289,8 @@ def _build_base(template: MeshTemplate, nodes: Floats) -> BaseEdges:
     half = np.abs(ends[1:] - ends[:-1]) / 2.0
     return BaseEdges(
         dofs=_list_edges(template).ground_dofs,
-        shape=_EDGE_SHAPE,
-        weights=half[:, None] * _EDGE_WEIGHTS,
+        shape=EDGE_SHAPE,
+        weights=half[:, None] * EDGE_WEIGHTS,
     )
 
 

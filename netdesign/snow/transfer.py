@@ -14,14 +14,15 @@ from netdesign.snow.contact import Contact
 from netdesign.snow.element import interpolate_reference
 from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import MeshTemplate
-from netdesign.snow.placed_mesh import PlacedMesh
 
 # Added between layers, more than any distance in one [thickness].
 _FAR_APART = 1e4
 
 
-def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowState:
-    """State on ``old`` carried to ``new``: a guess, in equilibrium with nothing.
+def transfer_state(
+    state: FlowState, source: MeshTemplate, target: MeshTemplate
+) -> FlowState:
+    """State carried to another mesh: a guess, in equilibrium with nothing.
 
     Stresses are those of the nearest quadrature point, contacts those of the nearest
     support node, both in reference coordinates; velocities and reactions are 0 and
@@ -31,24 +32,22 @@ def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowSt
     ----------
     state : FlowState
         On the old mesh.
-    old, new : PlacedMesh
-        Both of the same snowpack.
+    source, target : MeshTemplate
+        Of the old and of the new mesh, both of the same snowpack.
     """
-    source, target = old.template, new.template
     points = _nearest_points(source, target)
-    stress = state.stress.reshape(-1, state.stress.shape[-1])[points]
-    on_net = _nearest(source.net_fractions[1:], target.net_fractions[1:])
-    on_ground = _nearest(
-        source.nodes[0, source.ground[1:]], target.nodes[0, target.ground[1:]]
-    )
+    per_triangle, rows = state.stress.shape[1:]
+    stress = state.stress.reshape(-1, rows)[points]
+    n_dofs = 2 * target.nodes.shape[1] + (target.n_vertices if rows > 3 else 0)
+    on_net, on_ground = _nearest_nodes(source, target)
     base_shear = None
     if state.base_shear is not None:
         base_shear = _resample_base(state.base_shear, source, target)
     contact = state.contact
     return FlowState(
-        unknowns=np.zeros(new.n_dofs),
-        reaction=np.zeros(new.n_dofs),
-        stress=stress.reshape(*new.weights.shape, -1),
+        unknowns=np.zeros(n_dofs),
+        reaction=np.zeros(n_dofs),
+        stress=stress.reshape(-1, per_triangle, rows),
         base_shear=base_shear,
         contact=Contact(
             sign=contact.sign[on_net],
@@ -64,6 +63,16 @@ def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
     tree = _load_tree()(_list_points(source))
     _, nearest = tree.query(_list_points(target))
     return np.asarray(nearest, dtype=np.int64)
+
+
+@lru_cache(maxsize=256)
+def _nearest_nodes(source: MeshTemplate, target: MeshTemplate) -> tuple[Ints, Ints]:
+    """Nearest nodes on the net and on the ground, those of the foot left out."""
+    on_ground = (one.nodes[0, one.ground[1:]] for one in (source, target))
+    return (
+        _nearest(source.net_fractions[1:], target.net_fractions[1:]),
+        _nearest(*on_ground),
+    )
 
 
 @cache

@@ -10,11 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
+from netdesign.cable.net import Net
 from netdesign.core import library
 from netdesign.core.plan import build_plan
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError
+from netdesign.coupling.steady.compiled_round import prepare_rounds
+from netdesign.coupling.steady.hanging import find_contact_curve, start_hanging
+from netdesign.coupling.steady.solve import _build_problem, solve_steady
+from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
 from netdesign.snow.flow import solve_flow
@@ -57,6 +60,23 @@ def try_spoilt(scene, rng):
         build_plan(library.find_core(), triangles, template.nodes.copy(), net)
 
 
+def try_spoilt_rounds(scene, rng):
+    """Rounds along spoilt curves, and from spoilt states."""
+    size = SolverSettings().levels[0]
+    problem = _build_problem(scene, scene.net, size)
+    rounds = prepare_rounds(problem)
+    if rounds is None:
+        return
+    hanging = start_hanging(problem)
+    curve = find_contact_curve(problem, hanging)
+    for spoilt in (curve, spoil(curve, rng)):
+        found = rounds.play(spoilt, None, hanging, 1e-3, 1e9, 10)
+        if found is not None:
+            state = found.flow.state
+            state = replace(state, stress=spoil(state.stress, rng))
+            rounds.play(curve, state, found.hanging, 1e-3, 1e9, 10)
+
+
 def main():
     library.LIBRARY = Path(sys.argv[1])
     assert library.find_core() is not None
@@ -66,7 +86,11 @@ def main():
             with suppress(ModelError):
                 scene = build_tables(draw_scene(9, number))
                 solve_steady(scene, SolverSettings(accuracy=0.05))
-                try_spoilt(scene, np.random.default_rng([9, number]))
+                rng = np.random.default_rng([9, number])
+                try_spoilt(scene, rng)
+                if isinstance(scene.net, Net):
+                    with suppress(SolveError):
+                        try_spoilt_rounds(scene, rng)
                 solved += 1
     sys.stdout.write(f"{solved} scenes, 0 findings\n")
 

@@ -38,5 +38,5 @@ def test_stress_stays_in_its_layer(old, new):
         base_shear=None,
         contact=start_contact(source),
     )
-    carried = transfer_state(state, source, target)
+    carried = transfer_state(state, source.template, target.template)
     np.testing.assert_array_equal(carried.stress[..., 0], number_layers(target))

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from netdesign.coupling.steady.compiled_round import Settled
 from netdesign.coupling.steady.hanging import Hanging, SteadyProblem
 from netdesign.coupling.steady.round_tangent import linearise_round
 from netdesign.numerics.arrays import Floats
@@ -34,6 +35,8 @@ class Round:
         Snow along the curve.
     hanging : Hanging
         The net.
+    settled : Settled or None
+        It once more, under the forces of the stresses alone, if that is known.
     """
 
     curve: Floats
@@ -41,6 +44,7 @@ class Round:
     flow: FlowResult
     hanging: Hanging
     image: Floats
+    settled: Settled | None = None
 
     @property
     def moved(self) -> float:

@@ -6,8 +6,10 @@ thicknesses d, forces per metre of width in rho g d^2.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -56,7 +58,7 @@ class SteadyProblem:
     @property
     def has_freeboard(self) -> bool:
         """The head stands above the snow: the net's top segment hangs free."""
-        return bool(self.head[1] > 1.0 + 1e-9)
+        return _stands_out(float(self.head[1]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -95,22 +97,28 @@ def start_hanging(problem: SteadyProblem) -> Hanging:
     SolveError
         If nothing holds the net.
     """
-    chord = float(np.hypot(*problem.head))
+    chord = math.hypot(*problem.head)
     along = problem.head / chord
     outward = np.array([along[1], -along[0]])
     pressure = guess_pressure(problem.snow, problem.template.aspect)
     sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
     pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
-    marks = _list_marks(problem)
-    parts = np.diff(marks) * (problem.length / marks[-1])
-    lengths = np.diff(problem.template.net_fractions[::2]) * (
-        problem.length / marks[-1]
-    )
+    heights = _cut(problem).heights
+    per_height = problem.length / heights.sum()
+    shares = pressure * per_height * _share_load(problem.template)
+    on_net = outward[:, None] * shares
+    return _hang(problem, on_net, pull, heights * per_height)
+
+
+@lru_cache(maxsize=256)
+def _share_load(template: MeshTemplate) -> Floats:
+    """Shares of the nodes in a uniform load per height, shape (n_net,)."""
+    lengths = np.diff(template.net_fractions[::2])
     shares = np.zeros(2 * lengths.size + 1)
     shares[1::2] = 4.0 / 6.0 * lengths
     shares[:-1:2] += lengths / 6.0
     shares[2::2] += lengths / 6.0
-    return _hang(problem, pressure * np.outer(outward, shares), pull, parts)
+    return shares
 
 
 def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hanging:
@@ -173,20 +181,60 @@ def locate_nodes(template: MeshTemplate, hanging: Hanging) -> Floats:
     return np.asarray(np.interp(template.net_fractions, marks, below / below[-1]))
 
 
-def _list_marks(problem: SteadyProblem) -> Floats:
-    """Heights at which parts of the net begin and end, (n_parts + 1,)."""
-    top = [problem.head[1]] if problem.has_freeboard else []
-    return np.array([0.0, *problem.template.interfaces, 1.0, *top])
+class NetParts(NamedTuple):
+    """Parts of a net, which end where layers and snow end.
+
+    Attributes
+    ----------
+    shares : ndarray, shape (n_elements,)
+        Length of each element over that of its part [-].
+    part : ndarray of int, shape (n_elements,)
+        Of each element.
+    firsts : ndarray of int, shape (n_parts,)
+        First element of each part.
+    heights, rises : ndarray, shape (n_parts,)
+        From end to end, in the template and of the net [thickness].
+    """
+
+    shares: Floats
+    part: Ints
+    firsts: Ints
+    heights: Floats
+    rises: Floats
 
 
-@lru_cache(maxsize=4)  # every round asks
-def _share_parts(problem: SteadyProblem) -> tuple[Floats, Ints]:
-    """Length of each element over that of its part; part of each element."""
-    marks, heights = _list_marks(problem), problem.template.net_fractions[::2]
-    if problem.has_freeboard:
-        heights = np.append(heights, problem.head[1])
-    part = np.searchsorted(marks, (heights[1:] + heights[:-1]) / 2.0) - 1
-    return np.diff(heights) / np.diff(marks)[part], part
+@lru_cache(maxsize=256)
+def cut_net(template: MeshTemplate, top: float) -> NetParts:
+    """Parts of a net of some height.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Of the snow.
+    top : float
+        Height of the net's head [thickness].
+    """
+    free = [top] if _stands_out(top) else []
+    marks = np.array([0.0, *template.interfaces, 1.0, *free])
+    elements = np.array([*template.net_fractions[::2], *free])
+    part = np.searchsorted(marks, (elements[1:] + elements[:-1]) / 2.0) - 1
+    heights = np.diff(marks)
+    return NetParts(
+        shares=np.diff(elements) / heights[part],
+        part=part,
+        firsts=np.searchsorted(part, np.arange(heights.size)),
+        heights=heights,
+        rises=np.diff([*marks[:-1], top]),
+    )
+
+
+def _stands_out(top: float) -> bool:
+    """The net's head stands above the snow."""
+    return top > 1.0 + 1e-9
+
+
+def _cut(problem: SteadyProblem) -> NetParts:
+    return cut_net(problem.template, float(problem.head[1]))
 
 
 def _hang(
@@ -195,10 +243,9 @@ def _hang(
     """Net under nodal forces; its parts end where the layers and the snow end."""
     if problem.has_freeboard:
         forces = np.concatenate([forces, np.zeros((2, 2))], axis=1)
-    shares, part = _share_parts(problem)
     if parts.size > 1:
         parts = _find_parts(problem, forces, pull, parts)
-    lengths = shares * parts[part]
+    lengths = _lengthen(problem, parts)
     cable = _solve_cable(problem, forces, lengths, pull)
     return Hanging(cable=cable, parts=parts, forces=forces, lengths=lengths)
 
@@ -207,11 +254,10 @@ def _find_parts(
     problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
 ) -> Floats:
     """Lengths of the parts, from the pull of the last round or of the last lengths."""
-    shares, part = _share_parts(problem)
-    cable = _cut_cable(problem)
+    cable = _build_parted(problem)
     found = part_cable(cable, forces, pull)
     if found is None:
-        hung = _solve_cable(problem, forces, shares * parts[part], pull)
+        hung = _solve_cable(problem, forces, _lengthen(problem, parts), pull)
         found = part_cable(cable, forces, hung.pull)
     if found is None:
         raise SolveError(
@@ -221,14 +267,18 @@ def _find_parts(
     return found
 
 
-@lru_cache(maxsize=4)
-def _cut_cable(problem: SteadyProblem) -> PartedCable:
-    shares, part = _share_parts(problem)
-    ends = np.append(_list_marks(problem)[:-1], problem.head[1])
+def _lengthen(problem: SteadyProblem, parts: Floats) -> Floats:
+    """Unstressed lengths of the elements from those of the parts."""
+    cut = _cut(problem)
+    return np.asarray(cut.shares * parts[cut.part])
+
+
+def _build_parted(problem: SteadyProblem) -> PartedCable:
+    cut = _cut(problem)
     return PartedCable(
-        shares=shares,
-        firsts=np.searchsorted(part, np.arange(ends.size - 1)),
-        rises=np.diff(ends),
+        shares=cut.shares,
+        firsts=cut.firsts,
+        rises=cut.rises,
         head_x=float(problem.head[0]),
         length=problem.length,
         stiffness=problem.stiffness,

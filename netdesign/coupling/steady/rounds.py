@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
 
 from netdesign.coupling.interface import share_net_forces
 from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady.compiled_round import Settled, prepare_rounds
 from netdesign.coupling.steady.correction import (
     Correction,
     Round,
@@ -37,7 +39,7 @@ from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowResult, solve_flow
 from netdesign.snow.flow_state import FlowState
-from netdesign.snow.mesh import place_nodes
+from netdesign.snow.mesh import MeshTemplate, place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.snow.transfer import transfer_state
 from netdesign.words.message import Message, say
@@ -82,6 +84,8 @@ class Coupled:
     ----------
     problem, mesh, state, hanging : SteadyProblem, PlacedMesh, FlowState, Hanging
         What was solved; the snow, and the net under its forces.
+    settled : Settled or None
+        The net under the forces of the stresses alone, if that is known.
     tangent : ndarray, shape (2, n_net, 2, n_net), or None
         Derivative of the last round, if plain rounds gained little [-].
     pull_gain : float
@@ -94,6 +98,7 @@ class Coupled:
     mesh: PlacedMesh
     state: FlowState
     hanging: Hanging
+    settled: Settled | None
     tangent: Floats | None
     pull_gain: float
     linear_solves: int
@@ -127,6 +132,7 @@ class Coupled:
             mesh=last.mesh,
             state=last.flow.state,
             hanging=last.hanging,
+            settled=last.settled,
             tangent=tangent,
             pull_gain=pull_gain,
             linear_solves=linear_solves,
@@ -173,7 +179,9 @@ def couple(
         moved = _measure_movement(played, guess)
         inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
         try:
-            now = _play_round(problem, settings, guess, start, played, curve, inner)
+            now = _play_round(
+                problem, settings, guess, start, played, curve, inner, still
+            )
         except SolveError:
             if correction is None or not correction.may_halve:
                 raise
@@ -207,15 +215,41 @@ def _play_round(
     played: Sequence[Round],
     wanted: Floats,
     tolerance: float,
+    still: float,
 ) -> Round:
     """Flow along the wanted curve or near it, and the net under its forces."""
+    state = _start_state(guess, played, problem.template)
+    hung = played[-1].hanging if played else start
+    core = None if settings.step else prepare_rounds(problem)
+    if core is not None:
+        found = core.play(
+            wanted, state, hung, tolerance, still, settings.max_iterations
+        )
+        if found is not None:
+            return _end_round(problem, wanted, *found)
+    # step by step: nearer to the last curve where that helps, else with a reason
     curve, mesh = _place_between(problem, played, wanted)
-    state = _start_state(guess, played, mesh)
     flow = _flow_along(problem, mesh, state, settings, tolerance)
     on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
-    hanging = hang_again(problem, played[-1].hanging if played else start, on_net)
-    image = find_contact_curve(problem, hanging)
-    return Round(curve=curve, mesh=mesh, flow=flow, hanging=hanging, image=image)
+    return _end_round(problem, curve, mesh, flow, hang_again(problem, hung, on_net))
+
+
+def _end_round(
+    problem: SteadyProblem,
+    curve: Floats,
+    mesh: PlacedMesh,
+    flow: FlowResult,
+    hanging: Hanging,
+    settled: Settled | None = None,
+) -> Round:
+    return Round(
+        curve=curve,
+        mesh=mesh,
+        flow=flow,
+        hanging=hanging,
+        image=find_contact_curve(problem, hanging),
+        settled=settled,
+    )
 
 
 def _mix(played: Sequence[Round]) -> Floats:
@@ -287,13 +321,13 @@ def _carry(problem: SteadyProblem, guess: Coupled | None) -> Floats | None:
 
 
 def _start_state(
-    guess: Coupled | None, played: Sequence[Round], mesh: PlacedMesh
+    guess: Coupled | None, played: Sequence[Round], template: MeshTemplate
 ) -> FlowState | None:
     """State that the flow of a round starts from; None if there is none."""
     if played:
         return played[-1].flow.state
     if guess is not None:
-        return transfer_state(guess.state, guess.mesh, mesh)
+        return transfer_state(guess.state, guess.mesh.template, template)
     return None
 
 
@@ -401,7 +435,16 @@ def _start_curve(
     if guess is None:
         return find_contact_curve(problem, hanging)
     curve = find_contact_curve(guess.problem, hanging)
-    known = locate_nodes(guess.problem.template, hanging)
-    wanted = locate_nodes(problem.template, hanging)
+    source, target = guess.problem.template, problem.template
     # between its nodes as smooth as the net is, which a polygon is not
+    if not source.interfaces and not target.interfaces:
+        return np.asarray(curve @ _weigh_nodes(source, target))
+    known, wanted = (locate_nodes(one, hanging) for one in (source, target))
     return interpolate_curve(known, curve, wanted)
+
+
+@lru_cache(maxsize=256)
+def _weigh_nodes(source: MeshTemplate, target: MeshTemplate) -> Floats:
+    """Weights of a net's nodes in those of another mesh, without layers, (n, m)."""
+    known, wanted = source.net_fractions, target.net_fractions
+    return interpolate_curve(known, np.eye(known.size), wanted)

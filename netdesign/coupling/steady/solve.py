@@ -27,8 +27,8 @@ from netdesign.coupling.balance import (
 from netdesign.coupling.interface import (
     SupportForces,
     find_support_forces,
+    is_balanced,
     measure_looseness,
-    share_net_forces,
 )
 from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -242,7 +242,7 @@ def _require_pressure(end: Coupled) -> None:
     SuctionError
         With some margin: the finest mesh decides.
     """
-    on_net = share_net_forces(end.problem.snow, end.mesh, end.state.reaction)
+    on_net = end.hanging.forces[:, : end.mesh.template.net.size]
     suction = measure_suction(end.mesh, on_net)
     if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
         raise SuctionError(suction)
@@ -288,6 +288,9 @@ def _build_template(scene: Scene, size: MeshSize) -> MeshTemplate:
 
 def _finish(end: Coupled) -> tuple[Coupled, SupportForces]:
     """Forces from the stresses alone, and the net that hangs under these."""
+    known = end.settled
+    if known and is_balanced(end.problem.snow, end.mesh, known.forces):
+        return replace(end, hanging=known.hanging), known.forces
     state, forces = find_support_forces(end.problem.snow, end.mesh, end.state)
     hanging = hang_again(end.problem, end.hanging, forces.on_net)
     return replace(end, state=state, hanging=hanging), forces

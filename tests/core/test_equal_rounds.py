@@ -1,0 +1,146 @@
+"""Rounds of flow and net in one call of the core against their steps one by one."""
+
+import numpy as np
+import pytest
+
+from netdesign.cable.net import Net
+from netdesign.core.library import find_core
+from netdesign.coupling.interface import find_support_forces
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady import rounds
+from netdesign.coupling.steady.compiled_round import prepare_rounds
+from netdesign.coupling.steady.hanging import (
+    SteadyProblem,
+    find_contact_curve,
+    hang_again,
+    start_hanging,
+)
+from netdesign.errors import ModelError, SolveError
+from netdesign.evidence.benchmark.random_scenes import draw_scene
+from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.snow.mesh import build_template
+
+pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
+
+SETTINGS = SolverSettings()
+TOLERANCE, STILL = 1e-5, 1e9  # any net is settled
+CLOSE = 1e-9
+
+
+def draw_problems(count):
+    """Problems of drawn nets on the coarsest mesh, which the core takes."""
+    problems, number = [], 0
+    while len(problems) < count:
+        number += 1
+        try:
+            scene = build_tables(draw_scene(31, number))
+        except ModelError:
+            continue
+        if not isinstance(scene.net, Net):
+            continue
+        net, thickness = scene.net, scene.snowpack.thickness
+        size = SETTINGS.levels[0]
+        problem = SteadyProblem(
+            snow=scene.steady_flow_problem,
+            template=build_template(scene.modelled_aspect, size, scene.layer_tops),
+            head=net.head / thickness,
+            length=net.unstressed_length / thickness,
+            slack=net.slack,
+            stiffness=net.stiffness_per_m / scene.force_scale,
+        )
+        if problem.snow.element == "velocity":
+            problems.append(problem)
+    return problems
+
+
+PROBLEMS = draw_problems(40)
+
+
+def test_the_drawn_nets_are_of_every_kind():
+    snows = [one.snow for one in PROBLEMS]
+    assert {one.ground for one in snows} == {"free", "sliding", "no-slip"}
+    assert {len(one.layers) > 1 for one in snows} == {True, False}
+    assert {one.has_freeboard for one in PROBLEMS} == {True, False}
+    assert {one.ground_contact for one in snows} == {"one-sided", "two-sided"}
+    assert {one.end_load > 0.0 for one in snows} == {True, False}
+
+
+def play(problem, state, hanging, curve):
+    """A round by the core and step by step; what failed is None."""
+    core = prepare_rounds(problem)
+    found = core.play(curve, state, hanging, TOLERANCE, STILL, 40)
+    try:
+        mesh = rounds._place(problem, curve)
+        flow = rounds._flow_along(problem, mesh, state, SETTINGS, TOLERANCE)
+        on_net = rounds.share_net_forces(problem.snow, mesh, flow.state.reaction)
+        hung = hang_again(problem, hanging, on_net)
+    except SolveError:
+        return found, None
+    return found, (mesh, flow, hung)
+
+
+def compare(one, other):
+    size = np.abs(other).max()
+    np.testing.assert_allclose(one, other, rtol=0.0, atol=CLOSE * max(size, 1e-300))
+
+
+@pytest.mark.parametrize("number", range(len(PROBLEMS)))
+def test_a_round_is_the_same_in_one_call(number):
+    problem = PROBLEMS[number]
+    state, hanging = None, start_hanging(problem)
+    for _ in range(2):  # from nothing, then from the round before
+        curve = find_contact_curve(problem, hanging)
+        found, steps = play(problem, state, hanging, curve)
+        assert (found is None) == (steps is None)
+        if found is None:
+            return
+        mesh, flow, hung = steps
+        for name in ("nodes", "weights", "gradients", "load", "net_normal", "axes"):
+            compare(getattr(found.mesh, name), getattr(mesh, name))
+        assert found.flow.linear_solves == flow.linear_solves
+        compare(found.flow.state.stress, flow.state.stress)
+        compare(found.flow.state.reaction, flow.state.reaction)
+        for name in ("sign", "is_pressed", "is_open", "is_lifted"):
+            one, other = (getattr(f.state.contact, name) for f in (found.flow, flow))
+            np.testing.assert_array_equal(one, other)
+        for name in ("forces", "lengths", "parts"):
+            compare(getattr(found.hanging, name), getattr(hung, name))
+        for name in ("curve", "tension", "foot_pull", "head_pull"):
+            compare(getattr(found.hanging.cable, name), getattr(hung.cable, name))
+        state, hanging = flow.state, hung
+
+
+@pytest.mark.parametrize("number", range(len(PROBLEMS)))
+def test_forces_of_the_stresses_are_the_same_in_one_call(number, monkeypatch):
+    problem = PROBLEMS[number]
+    hanging = start_hanging(problem)
+    found, steps = play(problem, None, hanging, find_contact_curve(problem, hanging))
+    if found is None:
+        return
+    monkeypatch.setattr("netdesign.coupling.interface._ROUNDING", 1e9)  # none removed
+    mesh, flow, hung = steps
+    _, expected = find_support_forces(problem.snow, mesh, flow.state)
+    forces, settled = found.settled
+    compare(forces.on_net, expected.on_net)
+    compare(forces.on_ground, expected.on_ground)
+    compare(forces.ground_normal, expected.ground_normal)
+    size = np.abs(expected.on_net).max()
+    assert forces.unbalanced == pytest.approx(expected.unbalanced, abs=1e-9 * size)
+    compare(settled.cable.curve, hang_again(problem, hung, expected.on_net).cable.curve)
+
+
+def test_a_net_that_moves_is_not_settled():
+    problem = PROBLEMS[0]
+    hanging = start_hanging(problem)
+    curve = find_contact_curve(problem, hanging)
+    found = prepare_rounds(problem).play(curve, None, hanging, TOLERANCE, 1e-12, 40)
+    assert found.settled is None
+
+
+def test_a_curve_in_the_ground_is_none():
+    problem = PROBLEMS[0]
+    hanging = start_hanging(problem)
+    curve = find_contact_curve(problem, hanging).copy()
+    curve[1, 3] = -1e-3
+    core = prepare_rounds(problem)
+    assert core.play(curve, None, hanging, TOLERANCE, STILL, 40) is None
