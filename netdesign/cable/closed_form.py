@@ -51,7 +51,10 @@ def compute_parabola_sag(
         value -= load * chord**2 / (8.0 * sag * stiffness)
         slope = 16.0 / 3.0 * sag / chord**2
         slope += load * chord**2 / (8.0 * sag**2 * stiffness)
-        sag -= value / slope
+        lower = sag - value / slope
+        if lower >= sag:
+            break
+        sag = lower
     return sag
 
 

@@ -18,7 +18,7 @@ from netdesign.core.sources import (
 
 _FUNCTIONS = (
     *("nd_plan", "nd_step", "nd_flow", "nd_residual"),
-    *("nd_place", "nd_hang", "nd_part", "nd_round"),
+    *("nd_place", "nd_hang", "nd_part", "nd_round", "nd_panel"),
 )
 
 # What functions give back, as in core.h.

@@ -14,7 +14,7 @@ ROOM = Path(__file__).resolve().parent
 LIBRARY = ROOM / "_core.so"  # the same name on every system
 SOURCES = (
     *("plan.c", "front.c", "element.c", "contact.c", "step.c", "flow.c"),
-    *("place.c", "cable.c", "round.c"),
+    *("place.c", "cable.c", "round.c", "panel.c"),
 )
 HEADERS = ("core.h", "element.h", "round.h")
 # No fused arithmetic, no freedom with sums: results are equal between processors.

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.cable.alike import reach_ends
+from netdesign.core.arguments import PanelArgument, locate_all, to_floats
 from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Panel
 from netdesign.panel.ropes import (
@@ -22,7 +23,7 @@ from netdesign.panel.ropes import (
     estimate_force_along,
     measure_lengths,
 )
-from netdesign.panel.stations import Stations, build_stations
+from netdesign.panel.stations import ROPE_WEIGHTS, Stations, build_stations
 from netdesign.panel.strips import Strip, cut_lengths
 
 _TURNED = np.array([1.0, -1.0])  # what the lower rope gains the upper one loses
@@ -71,8 +72,8 @@ class PanelProblem:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PanelState:
-    """State at a point; of two ropes the lower one is first, vectors are (x, y).
+class RopeLoads:
+    """Pulls and ropes at a point; the lower rope is first, vectors are (x, y).
 
     Attributes
     ----------
@@ -82,6 +83,21 @@ class PanelState:
         Of the strips on each rope [N/m].
     displacements : ndarray, shape (2, 2, K + 1)
         Of each rope under these pulls [m].
+    """
+
+    along: Floats
+    pulls: Floats
+    displacements: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PanelState:
+    """State at a point.
+
+    Attributes
+    ----------
+    loads : RopeLoads
+        Pulls and ropes.
     missing : ndarray, shape (2 K + 4,)
         Gaps at the strips' heads over their lengths, then excess of the ropes' lengths
         over their spans [-].
@@ -91,9 +107,7 @@ class PanelState:
         Of the two ropes, with their derivatives.
     """
 
-    along: Floats
-    pulls: Floats
-    displacements: Floats
+    loads: RopeLoads
     missing: Floats
     reached: Floats
     rope_lengths: RopeLengths
@@ -122,6 +136,39 @@ def build_problem(strip: Strip, panel: Panel, count: int) -> PanelProblem:
     )
 
 
+def describe_panel(
+    problem: PanelProblem,
+) -> tuple[PanelArgument, tuple[Floats, ...]]:
+    """Strips and ropes as the core takes them, and the arrays that have to stay.
+
+    Raises
+    ------
+    ValueError
+        If an array is not of its shape.
+    """
+    strips, strip = problem.lengths.size, problem.strip
+    points, places = strip.alike.weights.size, ROPE_WEIGHTS.size
+    arrays = (
+        to_floats(strip.alike.offsets, (2, points)),
+        to_floats(strip.alike.weights, (points,)),
+        to_floats(problem.lengths, (strips,)),
+        to_floats(problem.deflection, (2, strips, strips - 1)),
+        to_floats(problem.shear, (2, places, strips - 1)),
+        ROPE_WEIGHTS,
+    )
+    offsets, weights, *others = locate_all(*arrays)
+    argument = PanelArgument(strips, points, places, offsets, weights)
+    argument.stiffness, argument.load_size = strip.alike.stiffness, problem.load_size
+    argument.load[:], argument.head[:] = strip.load, strip.head
+    argument.to_foot[:] = strip.alike.to_foot
+    names = ("lengths", "deflection", "shear", "rope_weights")
+    for name, place in zip(names, others, strict=True):
+        setattr(argument, name, place)
+    argument.rope_stiffness[:] = problem.stiffness
+    argument.excess[:] = problem.excess
+    return argument, arrays
+
+
 def guess_point(problem: PanelProblem) -> Floats:
     """Strips that pull as the net at the post, and ropes under that alone, (P3).
 
@@ -143,6 +190,25 @@ def guess_point(problem: PanelProblem) -> Floats:
     return np.concatenate([pulls, np.log(along)])
 
 
+def read_loads(problem: PanelProblem, point: Floats) -> RopeLoads:
+    """Pulls and ropes at a point.
+
+    Parameters
+    ----------
+    problem : PanelProblem
+        Strips and ropes.
+    point : ndarray, shape (2 K + 4,)
+        Pulls over the load, and log H [-].
+    """
+    foot = problem.load_size * point[:-2].reshape(2, -1)
+    along = np.exp(point[-2:])
+    pulls = np.array([foot, problem.strip.load[:, None] - foot])
+    # mid-panel's strip shows only where it hangs
+    displacements = pulls[..., :-1] @ problem.deflection.transpose(0, 2, 1)
+    displacements /= along[:, None, None]
+    return RopeLoads(along=along, pulls=pulls, displacements=displacements)
+
+
 def read_point(problem: PanelProblem, point: Floats) -> PanelState:
     """Pulls, ropes and what is missing at a point.
 
@@ -157,22 +223,16 @@ def read_point(problem: PanelProblem, point: Floats) -> PanelState:
     -----------
     tests/panel/test_equations.py
     """
-    strip = problem.strip
-    foot = problem.load_size * point[:-2].reshape(2, -1)
-    along = np.exp(point[-2:])
-    pulls = np.array([foot, strip.load[:, None] - foot])
-    on_ropes = pulls[..., :-1]  # mid-panel's strip shows only where it hangs
-    displacements = on_ropes @ problem.deflection.transpose(0, 2, 1)
-    displacements /= along[:, None, None]
-    shear = on_ropes @ problem.shear.transpose(0, 2, 1)
-    lengths = measure_lengths(shear, problem.stiffness, along)
-    ends, reached = reach_ends(strip.alike, foot - strip.alike.to_foot[:, None])
-    wanted = strip.head[:, None] + displacements[1] - displacements[0]
+    strip, loads = problem.strip, read_loads(problem, point)
+    shear = loads.pulls[..., :-1] @ problem.shear.transpose(0, 2, 1)
+    lengths = measure_lengths(shear, problem.stiffness, loads.along)
+    pulls = loads.pulls[0] - strip.alike.to_foot[:, None]
+    ends, reached = reach_ends(strip.alike, pulls)
+    moved = loads.displacements[1] - loads.displacements[0]
+    wanted = strip.head[:, None] + moved
     gaps = (ends - wanted / problem.lengths).ravel()
     return PanelState(
-        along=along,
-        pulls=pulls,
-        displacements=displacements,
+        loads=loads,
         missing=np.concatenate([gaps, lengths.excess - problem.excess]),
         reached=reached,
         rope_lengths=lengths,
@@ -186,9 +246,10 @@ def derive_missing(problem: PanelProblem, state: PanelState) -> Floats:
     by_pull = np.zeros((2, strips, 2, strips))
     for row, column in np.ndindex(2, 2):
         by_pull[row, every, column, every] = state.reached[row, column]
-    moved = np.tensordot(1.0 / state.along, problem.deflection, 1)
+    moved = np.tensordot(1.0 / state.loads.along, problem.deflection, 1)
     by_pull[[0, 1], :, [0, 1], :-1] += moved / problem.lengths[:, None]
-    by_along = -_TURNED[:, None, None] * state.displacements / problem.lengths
+    moved_ropes = state.loads.displacements
+    by_along = -_TURNED[:, None, None] * moved_ropes / problem.lengths
     by_load = np.zeros((2, 2, strips))
     by_load[..., :-1] = state.rope_lengths.by_shear @ problem.shear
     whole = np.empty((2 * strips + 2, 2 * strips + 2))

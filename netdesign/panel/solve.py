@@ -5,10 +5,13 @@ Theory: panel/THEORY.md, section 3.
 
 from __future__ import annotations
 
+import ctypes
 import math
 
 import numpy as np
 
+from netdesign.core.arguments import locate, to_floats
+from netdesign.core.library import find_core, require_sound
 from netdesign.coupling.solution import Solution
 from netdesign.errors import SolveError
 from netdesign.guards import require_within
@@ -16,10 +19,12 @@ from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.panel.equations import (
     PanelProblem,
-    PanelState,
+    RopeLoads,
     build_problem,
     derive_missing,
+    describe_panel,
     guess_point,
+    read_loads,
     read_point,
 )
 from netdesign.panel.inputs import Panel
@@ -43,6 +48,7 @@ _HALVINGS = 20
 _LONGEST_STEP = 2.0  # of log H
 _BALANCED = 1e-8
 _ON_GROUND = 1e-9  # depth below the ground, over the chord
+_TOO_MANY_STEPS = 2  # as in panel.c
 
 
 def solve_panel(
@@ -103,13 +109,16 @@ def solve_strips(
         return FailedPanel(outcome=failure.outcome, reason=failure.reason)
 
 
-def _solve(problem: PanelProblem) -> tuple[PanelState, int]:
-    """State in which nothing is missing, and Newton steps to it.
+def _solve(problem: PanelProblem) -> tuple[RopeLoads, int]:
+    """Loads under which nothing is missing, and Newton steps to them.
 
     A step is halved until the next one, by the same derivatives, would be shorter:
     that needs no common measure of gaps and lengths (Deuflhard's natural test).
     """
     point = guess_point(problem)
+    core = find_core()
+    if core is not None:
+        return _solve_compiled(core, problem, point)
     state = read_point(problem, point)
     for number in range(1, _MOST_STEPS + 1):
         inverse = _invert(derive_missing(problem, state))
@@ -119,7 +128,7 @@ def _solve(problem: PanelProblem) -> tuple[PanelState, int]:
             tried = read_point(problem, point + share * step)
             left = float(np.linalg.norm(inverse @ tried.missing))
             if left <= _STILL:
-                return tried, number
+                return tried.loads, number
             if left <= (1.0 - share / 4.0) * float(np.linalg.norm(step)):
                 break
             share /= 2.0
@@ -129,6 +138,23 @@ def _solve(problem: PanelProblem) -> tuple[PanelState, int]:
     raise SolveError(Outcome.MAX_ITERATIONS)
 
 
+def _solve_compiled(
+    core: ctypes.PyDLL, problem: PanelProblem, point: Floats
+) -> tuple[RopeLoads, int]:
+    """The same by the compiled core."""
+    argument, kept = describe_panel(problem)
+    argument.still, argument.longest_step = _STILL, _LONGEST_STEP
+    argument.most_steps, argument.most_halvings = _MOST_STEPS, _HALVINGS
+    found = to_floats(point, (2 * problem.lengths.size + 2,)).copy()
+    code = core.nd_panel(ctypes.byref(argument), ctypes.c_void_p(locate(found)))
+    del kept  # the core had its addresses
+    if require_sound(code) == _TOO_MANY_STEPS:
+        raise SolveError(Outcome.MAX_ITERATIONS)
+    if code:
+        raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found"))
+    return read_loads(problem, found), argument.steps
+
+
 def _invert(matrix: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.inv(matrix))
@@ -136,9 +162,7 @@ def _invert(matrix: Floats) -> Floats:
         raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found")) from singular
 
 
-def _build_solution(
-    problem: PanelProblem, end: PanelState, steps: int
-) -> PanelSolution:
+def _build_solution(problem: PanelProblem, end: RopeLoads, steps: int) -> PanelSolution:
     """Result of the last step; refused if it is not in balance or on the ground."""
     curves = draw_strips(
         problem.strip, problem.lengths, end.displacements, end.pulls[0]
@@ -170,7 +194,7 @@ def _build_solution(
 
 
 def _describe_rope(
-    problem: PanelProblem, end: PanelState, which: int, supports: Floats
+    problem: PanelProblem, end: RopeLoads, which: int, supports: Floats
 ) -> RopeForces:
     """Lower (0) or upper rope, from the forces of both bays on its supports (2, 2)."""
     along = float(end.along[which])
@@ -193,7 +217,7 @@ def _require_clear_of_ground(problem: PanelProblem, curves: Floats) -> None:
 
 
 def _measure_balance(
-    problem: PanelProblem, end: PanelState, curves: Floats, lower: Floats, upper: Floats
+    problem: PanelProblem, end: RopeLoads, curves: Floats, lower: Floats, upper: Floats
 ) -> PanelBalance:
     """Missing forces and moments, from curves and supports as they came out (P6)."""
     strip, half = problem.strip, problem.half

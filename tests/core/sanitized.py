@@ -14,12 +14,15 @@ from netdesign.cable.net import Net
 from netdesign.core import library
 from netdesign.core.plan import build_plan
 from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.compiled_round import prepare_rounds
 from netdesign.coupling.steady.hanging import find_contact_curve, start_hanging
 from netdesign.coupling.steady.solve import _build_problem, solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.panel.inputs import CUTS, Panel, Rope
+from netdesign.panel.solve import solve_panel
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import remove_rounding
 from netdesign.snow.linear import SingularError
@@ -77,6 +80,20 @@ def try_spoilt_rounds(scene, rng):
             rounds.play(curve, state, found.hanging, 1e-3, 1e9, 10)
 
 
+def try_spoilt_panel(solution, rng):
+    """A panel of the net, and one of spoilt forces."""
+    panel = Panel(
+        post_spacing=rng.uniform(2, 6),
+        lower=Rope(stiffness=2e7, sag=rng.uniform(0, 0.15)),
+        upper=Rope(stiffness=1e7, sag=rng.uniform(0, 0.15)),
+        cut=str(rng.choice(CUTS)),
+        has_mid_anchors=bool(rng.random() < 0.5),
+    )
+    solve_panel(solution, panel, stations=int(rng.integers(1, 11)))
+    spoilt = replace(solution, net_forces=spoil(solution.net_forces, rng))
+    solve_panel(spoilt, panel)
+
+
 def main():
     library.LIBRARY = Path(sys.argv[1])
     assert library.find_core() is not None
@@ -85,12 +102,14 @@ def main():
         for number in range(int(sys.argv[2])):
             with suppress(ModelError):
                 scene = build_tables(draw_scene(9, number))
-                solve_steady(scene, SolverSettings(accuracy=0.05))
+                found = solve_steady(scene, SolverSettings(accuracy=0.05))
                 rng = np.random.default_rng([9, number])
                 try_spoilt(scene, rng)
                 if isinstance(scene.net, Net):
                     with suppress(SolveError):
                         try_spoilt_rounds(scene, rng)
+                    if isinstance(found, Solution):
+                        try_spoilt_panel(found, rng)
                 solved += 1
     sys.stdout.write(f"{solved} scenes, 0 findings\n")
 

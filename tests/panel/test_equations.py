@@ -52,7 +52,7 @@ def test_ropes_bend_as_their_loads_ask(problem):
     xi = np.append(problem.stations.xi, 0.0)
     is_held = problem.panel.has_mid_anchors
     shape = (xi - xi**2 if is_held else 1.0 - xi**2) * problem.half**2 / 2.0
-    expected = np.outer(problem.strip.foot_pull, shape) / state.along[0]
-    np.testing.assert_allclose(state.displacements[0], expected, atol=1e-12)
-    both = state.pulls.sum(axis=0)
+    expected = np.outer(problem.strip.foot_pull, shape) / state.loads.along[0]
+    np.testing.assert_allclose(state.loads.displacements[0], expected, atol=1e-12)
+    both = state.loads.pulls.sum(axis=0)
     np.testing.assert_allclose(both.T, np.tile(problem.strip.load, (count + 1, 1)))
