@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from importlib.resources import files
 from io import BytesIO
 from textwrap import wrap
 from typing import TYPE_CHECKING
@@ -10,13 +12,25 @@ from netdesign.site.columns.fields import Field, Language
 from netdesign.site.columns.languages import load_text
 from netdesign.site.columns.net_columns import NETS
 from netdesign.site.columns.range_quantities import USUAL_QUANTITIES
-from netdesign.site.template.drawing import SYMBOLS, draw_geometry
 from netdesign.words.numerals import set_marks
 
 if TYPE_CHECKING:
     from xlsxwriter.format import Format
     from xlsxwriter.workbook import Workbook
     from xlsxwriter.worksheet import Worksheet
+
+# Symbols of the fields of sheet Nets, in drawing and table.
+SYMBOLS: Mapping[str, str] = {
+    "slope_angle": "ψ",
+    "snow_thickness": "d",
+    "snow_height": "H",
+    "upslope_length": "L",
+    "net_height": "Dₖ",
+    "post_tilt": "δ",
+    "uphill_anchor_distance": "e₁",
+    "downhill_anchor_distance": "e₂",
+    "inclination": "θ",
+}
 
 _A4 = 9
 _LINE = 15.5  # height of a line of text [pt]
@@ -49,7 +63,7 @@ def write_notes(workbook: Workbook, language: Language) -> None:
         0,
         "geometry.png",
         {
-            "image_data": BytesIO(draw_geometry(language)),
+            "image_data": BytesIO(_read_picture(language)),
             "x_scale": _PICTURE_SCALE,
             "y_scale": _PICTURE_SCALE,
             "x_offset": 20,
@@ -63,6 +77,15 @@ def write_notes(workbook: Workbook, language: Language) -> None:
     sheet.fit_to_pages(1, 1)
     sheet.set_margins(left=0.5, right=0.5, top=0.6, bottom=0.6)
     sheet.set_footer(f"&R{texts['page']} &P {texts['of']} &N")
+
+
+def name_picture(language: Language) -> str:
+    """File of the section with the words of a language, beside this module."""
+    return f"geometry.{language}.png"
+
+
+def _read_picture(language: Language) -> bytes:
+    return files(__package__).joinpath(name_picture(language)).read_bytes()
 
 
 def describe_accepted(field: Field, language: Language) -> str:

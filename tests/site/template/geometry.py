@@ -1,33 +1,29 @@
-"""Draws what the input workbook asks for: one section with every symbol on it."""
+"""Draws what the input workbook asks for: one section with every symbol on it.
+
+``python -m tests.site.template.geometry`` writes the pictures that the package holds:
+drawn each time, they would cost every ``check --example`` a second.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from io import BytesIO
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from netdesign.site.columns.fields import Language
 from netdesign.site.columns.languages import load_words
+from netdesign.site.template import notes_sheet
+from netdesign.site.template.notes_sheet import SYMBOLS, name_picture
+from netdesign.words.numerals import LANGUAGES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Symbols of the fields of sheet Nets, in drawing and table.
-SYMBOLS: Mapping[str, str] = {
-    "slope_angle": "ψ",
-    "snow_thickness": "d",
-    "snow_height": "H",
-    "upslope_length": "L",
-    "net_height": "Dₖ",
-    "post_tilt": "δ",
-    "uphill_anchor_distance": "e₁",
-    "downhill_anchor_distance": "e₂",
-    "inclination": "θ",
-}
-
 _INK, _SOFT, _ACCENT, _SNOW = "#1b1e22", "#596069", "#b23a1e", "#e6edf4"
 _DPI = 200
+_COLOURS = 48
 _SIZE_IN = (7.36, 5.4)
 
 # Of the section that is drawn; chosen so that nothing covers anything else.
@@ -213,3 +209,18 @@ def _arc(
         fontweight="bold",
         color=_INK,
     )
+
+
+def write_pictures() -> None:
+    """The pictures of all languages, of few colours: a quarter of the bytes."""
+    from PIL import Image
+
+    folder = Path(notes_sheet.__file__).parent
+    for language in LANGUAGES:
+        picture = Image.open(BytesIO(draw_geometry(language))).convert("RGB")
+        few = picture.quantize(_COLOURS, dither=Image.Dither.NONE)
+        few.save(folder / name_picture(language), dpi=(_DPI, _DPI), optimize=True)
+
+
+if __name__ == "__main__":
+    write_pictures()
