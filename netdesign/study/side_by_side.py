@@ -25,6 +25,9 @@ from netdesign.study.probe import Probe
 from netdesign.study.records import RowStudy
 from netdesign.words.message import Message, say
 
+# Of a row, by its ground: the looser the snow, the more a limit takes (20 rows).
+_WORK = {"no-slip": 1, "sliding": 2, "free": 3}
+
 Studies = list[RowStudy]  # of one row, one a profile
 
 
@@ -89,7 +92,8 @@ def judge_rows(
     pool = runner.workers.pool
     if pool is not None and len(jobs) > 1:
         told: dict[Message, None] = {}  # once, however many workers say it
-        for place, judged in pool.spread(judge_away, list(enumerate(jobs))[::-1]):
+        waiting = sorted(enumerate(jobs), key=lambda one: _expect_work(one[1]))
+        for place, judged in pool.spread(judge_away, waiting):
             if judged is None:
                 continue
             found[place] = judged.studies
@@ -107,6 +111,11 @@ def judge_rows(
         for k, job in enumerate(jobs)
     ]
     return [studies for of_job in of_jobs for studies in of_job]
+
+
+def _expect_work(job: RowsJob) -> int:
+    """Measure of the work in a job; the most is begun first, so that none waits."""
+    return sum(_WORK[row.ground.kind] * len(row.layers or "1") for row in job.rows)
 
 
 def judge_away(job: RowsJob) -> JudgedRows | None:
