@@ -1,13 +1,15 @@
 """Rounds of flow and net in one call of the core against their steps one by one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from netdesign.cable.net import Net
 from netdesign.core.library import find_core
-from netdesign.coupling.interface import find_support_forces
+from netdesign.coupling.interface import find_support_forces, share_net_forces
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady import rounds
+from netdesign.coupling.steady import compiled_round
 from netdesign.coupling.steady.compiled_round import prepare_rounds
 from netdesign.coupling.steady.hanging import (
     SteadyProblem,
@@ -15,6 +17,7 @@ from netdesign.coupling.steady.hanging import (
     hang_again,
     start_hanging,
 )
+from netdesign.coupling.steady.played_round import flow_along, place_along
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
@@ -70,9 +73,9 @@ def play(problem, state, hanging, curve):
     core = prepare_rounds(problem)
     found = core.play(curve, state, hanging, TOLERANCE, STILL, 40)
     try:
-        mesh = rounds._place(problem, curve)
-        flow = rounds._flow_along(problem, mesh, state, SETTINGS, TOLERANCE)
-        on_net = rounds.share_net_forces(problem.snow, mesh, flow.state.reaction)
+        mesh = place_along(problem, curve)
+        flow = flow_along(problem, mesh, state, SETTINGS, TOLERANCE)
+        on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
         hung = hang_again(problem, hanging, on_net)
     except SolveError:
         return found, None
@@ -144,3 +147,13 @@ def test_a_curve_in_the_ground_is_none():
     curve[1, 3] = -1e-3
     core = prepare_rounds(problem)
     assert core.play(curve, None, hanging, TOLERANCE, STILL, 40) is None
+
+
+def test_what_the_core_does_not_take_is_left_to_numpy(monkeypatch):
+    problem = PROBLEMS[0]
+    mixed = replace(problem, snow=replace(problem.snow, element="mixed"))
+    assert prepare_rounds(mixed) is None
+    compiled_round._describe_form.cache_clear()
+    monkeypatch.setattr(compiled_round, "describe_template", lambda *_: None)
+    assert prepare_rounds(replace(problem)) is None  # a template too large for it
+    compiled_round._describe_form.cache_clear()

@@ -6,50 +6,18 @@ Theory: coupling/THEORY.md, eq. (K0).
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.coupling.steady.compiled_round import Settled
-from netdesign.coupling.steady.hanging import Hanging, SteadyProblem
+from netdesign.coupling.steady.hanging import SteadyProblem
+from netdesign.coupling.steady.played_round import Round
 from netdesign.coupling.steady.round_tangent import linearise_round
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.flow import FlowResult
 from netdesign.snow.linear import SingularError
-from netdesign.snow.placed_mesh import PlacedMesh
 
 _MOST_HALVINGS = 3
 _PLAIN_STEP = 0.5  # share of what is missed that is made good without a derivative
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Round:
-    """Flow along a curve, and the net that hangs under its forces.
-
-    Attributes
-    ----------
-    curve, image : ndarray, shape (2, n_net)
-        The net's nodes as given, and as found [thickness].
-    mesh, flow : PlacedMesh, FlowResult
-        Snow along the curve.
-    hanging : Hanging
-        The net.
-    settled : Settled or None
-        It once more, under the forces of the stresses alone, if that is known.
-    """
-
-    curve: Floats
-    mesh: PlacedMesh
-    flow: FlowResult
-    hanging: Hanging
-    image: Floats
-    settled: Settled | None = None
-
-    @property
-    def moved(self) -> float:
-        """Largest distance of curve and image along an axis [thickness]."""
-        return float(np.abs(self.image - self.curve).max())
 
 
 class Correction(NamedTuple):

@@ -15,12 +15,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from netdesign.coupling.interface import share_net_forces
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.compiled_round import Settled, prepare_rounds
+from netdesign.coupling.steady.compiled_round import Settled
 from netdesign.coupling.steady.correction import (
     Correction,
-    Round,
     carry_tangent,
     correct_round,
 )
@@ -28,21 +26,26 @@ from netdesign.coupling.steady.hanging import (
     Hanging,
     SteadyProblem,
     find_contact_curve,
-    hang_again,
     locate_nodes,
     start_hanging,
+)
+from netdesign.coupling.steady.played_round import (
+    Closeness,
+    Round,
+    Start,
+    explain_failure,
+    play_round,
 )
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
-from netdesign.snow.flow import FlowResult, solve_flow
 from netdesign.snow.flow_state import FlowState
-from netdesign.snow.mesh import MeshTemplate, place_nodes
-from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
+from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.snow.transfer import transfer_state
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 # What iterations may leave of the accuracy asked for; the meshes take the rest.
 _ITERATED_SHARE = 0.04
@@ -55,11 +58,6 @@ _REFINED = 2e-3
 _CORRECTED = 0.1
 # Iterations on the first mesh may leave more: it is only compared with the next.
 _FIRST_MESH = 5.0
-_HALVINGS = 4
-# Layers whose creep rates differ by more may have no steady state that rounds find.
-_LAYER_CONTRAST = 1e3
-# So may nets of more slack (over the chord): they hang close to the ground.
-_MUCH_SLACK = 0.1
 # Layered snow may pull by a percent more or less on a net that hardly moves: its pulls
 # may change in the last round by this many times what the net may move.
 _SETTLED = 5.0
@@ -179,9 +177,8 @@ def couple(
         moved = _measure_movement(played, guess)
         inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
         try:
-            now = _play_round(
-                problem, settings, guess, start, played, curve, inner, still
-            )
+            begin = _begin(problem, guess, start, played)
+            now = play_round(problem, settings, curve, begin, Closeness(inner, still))
         except SolveError:
             if correction is None or not correction.may_halve:
                 raise
@@ -204,52 +201,7 @@ def couple(
             curve = _mix(played)
     left = float(_measure_movement(played, guess))
     what = say("steady.still_moves", moved=left, rounds=tried)
-    raise _fail(problem, Outcome.MAX_ITERATIONS, what)
-
-
-def _play_round(
-    problem: SteadyProblem,
-    settings: SolverSettings,
-    guess: Coupled | None,
-    start: Hanging,
-    played: Sequence[Round],
-    wanted: Floats,
-    tolerance: float,
-    still: float,
-) -> Round:
-    """Flow along the wanted curve or near it, and the net under its forces."""
-    state = _start_state(guess, played, problem.template)
-    hung = played[-1].hanging if played else start
-    core = None if settings.step else prepare_rounds(problem)
-    if core is not None:
-        found = core.play(
-            wanted, state, hung, tolerance, still, settings.max_iterations
-        )
-        if found is not None:
-            return _end_round(problem, wanted, *found)
-    # step by step: nearer to the last curve where that helps, else with a reason
-    curve, mesh = _place_between(problem, played, wanted)
-    flow = _flow_along(problem, mesh, state, settings, tolerance)
-    on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
-    return _end_round(problem, curve, mesh, flow, hang_again(problem, hung, on_net))
-
-
-def _end_round(
-    problem: SteadyProblem,
-    curve: Floats,
-    mesh: PlacedMesh,
-    flow: FlowResult,
-    hanging: Hanging,
-    settled: Settled | None = None,
-) -> Round:
-    return Round(
-        curve=curve,
-        mesh=mesh,
-        flow=flow,
-        hanging=hanging,
-        image=find_contact_curve(problem, hanging),
-        settled=settled,
-    )
+    raise explain_failure(problem, Outcome.MAX_ITERATIONS, what)
 
 
 def _mix(played: Sequence[Round]) -> Floats:
@@ -320,15 +272,20 @@ def _carry(problem: SteadyProblem, guess: Coupled | None) -> Floats | None:
     return carry_tangent(guess.tangent, known, wanted)
 
 
-def _start_state(
-    guess: Coupled | None, played: Sequence[Round], template: MeshTemplate
-) -> FlowState | None:
-    """State that the flow of a round starts from; None if there is none."""
+def _begin(
+    problem: SteadyProblem,
+    guess: Coupled | None,
+    hanging: Hanging,
+    played: Sequence[Round],
+) -> Start:
+    """Start of the next round: the last one, else the guess."""
     if played:
-        return played[-1].flow.state
-    if guess is not None:
-        return transfer_state(guess.state, guess.mesh.template, template)
-    return None
+        last = played[-1]
+        return Start(last.curve, last.flow.state, last.hanging)
+    if guess is None:
+        return Start(None, None, hanging)
+    old, new = guess.mesh.template, problem.template
+    return Start(None, transfer_state(guess.state, old, new), hanging)
 
 
 def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> float:
@@ -349,83 +306,12 @@ def _choose_tolerances(
     )
 
 
-def _flow_along(
-    problem: SteadyProblem,
-    mesh: PlacedMesh,
-    start: FlowState | None,
-    settings: SolverSettings,
-    tolerance: float,
-) -> FlowResult:
-    """Converged flow along a net at rest."""
-    flow = solve_flow(
-        problem.snow,
-        mesh,
-        start,
-        tolerance=tolerance,
-        max_iterations=settings.max_iterations,
-        step=settings.step,
-    )
-    if flow.outcome is not Outcome.CONVERGED:
-        raise _fail(
-            problem, flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
-        )
-    return flow
-
-
-def _fail(problem: SteadyProblem, outcome: Outcome, what: Message) -> SolveError:
-    """The failure, with what in the scene is known to leave no steady state."""
-    snow, causes = problem.snow, []
-    if "one-sided" in (snow.ground_contact, snow.net_contact):
-        causes.append(say("steady.lifts_off"))
-    rates = [layer.fluidity_ratio for layer in snow.layers]
-    if max(rates) > _LAYER_CONTRAST * min(rates):
-        contrast = max(rates) / min(rates)
-        causes.append(say("steady.layers_contrast", contrast=contrast))
-    if problem.slack > _MUCH_SLACK:
-        causes.append(say("steady.much_slack", slack=float(problem.slack)))
-    if outcome is not Outcome.MAX_ITERATIONS or not causes:
-        return SolveError(outcome, what)
-    return SolveError(
-        Outcome.NO_EQUILIBRIUM,
-        say("steady.not_found", what=what, causes=tuple(causes)),
-    )
-
-
 def _is_slow(played: Sequence[Round], guess: Coupled | None) -> bool:
     """Snow slips along the net, and the last round gained little, or the next would."""
     slips = float((played[-1].flow.state.contact.sign != 0).mean())
     if len(played) > 1:
         return slips > 0.0 and played[-1].moved > _SLOW * played[-2].moved
     return guess is None and slips > _MOST_SLIPS and played[-1].moved < _NEAR_REST
-
-
-def _place_between(
-    problem: SteadyProblem, played: Sequence[Round], wanted: Floats
-) -> tuple[Floats, PlacedMesh]:
-    """Mesh on the wanted curve, or as near to it from the last one as it can be."""
-    for _ in range(_HALVINGS if played else 0):
-        try:
-            return wanted, _place(problem, wanted)
-        except SolveError:
-            wanted = (wanted + played[-1].curve) / 2
-    return wanted, _place(problem, wanted)
-
-
-def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
-    if curve[1, 1:].min() <= 0.0:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            say("net.would_touch_ground"),
-        )
-    nodes = place_nodes(problem.template, curve)
-    mesh = build_placed_mesh(problem.template, nodes, problem.snow.element)
-    if not mesh.is_valid:
-        above = np.degrees(np.arctan2(curve[1, 1], curve[0, 1]))
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            say("net.bulges", angle=float(above)),
-        )
-    return mesh
 
 
 def _start_curve(

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.steady import correction
-from netdesign.coupling.steady.correction import Round, carry_tangent, correct_round
+from netdesign.coupling.steady.correction import carry_tangent, correct_round
+from netdesign.coupling.steady.played_round import Round
 from netdesign.snow.linear import SingularError
 
 CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])

@@ -1,0 +1,277 @@
+"""A round: snow that flows along a given curve, and the net that hangs under it.
+
+One call of the compiled core; step by step where there is none, or where it failed.
+Theory: coupling/THEORY.md, section 2. Dimensionless: lengths in snow thicknesses d,
+forces per metre of width in rho g d^2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from netdesign.coupling.interface import share_net_forces
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady.compiled_round import Settled, prepare_rounds
+from netdesign.coupling.steady.hanging import (
+    Hanging,
+    SteadyProblem,
+    find_contact_curve,
+    hang_again,
+)
+from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import Outcome
+from netdesign.snow.flow import FlowResult, solve_flow
+from netdesign.snow.flow_state import FlowState
+from netdesign.snow.mesh import place_nodes
+from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
+from netdesign.words.message import Message, say
+
+_HALVINGS = 4
+# Layers whose creep rates differ by more may have no steady state that rounds find.
+_LAYER_CONTRAST = 1e3
+# So may nets of more slack (over the chord): they hang close to the ground.
+_MUCH_SLACK = 0.1
+
+
+class Start(NamedTuple):
+    """Start of a round.
+
+    Attributes
+    ----------
+    curve : ndarray, shape (2, n_net), or None
+        Of the last round on this mesh; None before the first [thickness].
+    state : FlowState or None
+        Where the flow starts.
+    hanging : Hanging
+        As the net hung last.
+    """
+
+    curve: Floats | None
+    state: FlowState | None
+    hanging: Hanging
+
+
+class Closeness(NamedTuple):
+    """Closeness of a round.
+
+    Attributes
+    ----------
+    tolerance : float
+        Relative error that the last step of its flow may leave [-].
+    still : float
+        Way of a net at rest [thickness].
+    """
+
+    tolerance: float
+    still: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Round:
+    """Flow along a curve, and the net that hangs under its forces.
+
+    Attributes
+    ----------
+    curve, image : ndarray, shape (2, n_net)
+        The net's nodes as given, and as found [thickness].
+    mesh, flow : PlacedMesh, FlowResult
+        Snow along the curve.
+    hanging : Hanging
+        The net.
+    settled : Settled or None
+        It once more, under the forces of the stresses alone, if that is known.
+    """
+
+    curve: Floats
+    mesh: PlacedMesh
+    flow: FlowResult
+    hanging: Hanging
+    image: Floats
+    settled: Settled | None = None
+
+    @property
+    def moved(self) -> float:
+        """Largest distance of curve and image along an axis [thickness]."""
+        return float(np.abs(self.image - self.curve).max())
+
+
+def play_round(
+    problem: SteadyProblem,
+    settings: SolverSettings,
+    wanted: Floats,
+    start: Start,
+    closeness: Closeness,
+) -> Round:
+    """Flow along the wanted curve or near it, and the net under its forces.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    settings : SolverSettings
+        Newton steps allowed, and who takes them.
+    wanted : ndarray, shape (2, n_net)
+        Curve of the net [thickness].
+    start : Start
+        Where it starts.
+    closeness : Closeness
+        How closely it is solved.
+
+    Raises
+    ------
+    SolveError
+        If no curve near enough has a mesh, a flow and a net in equilibrium.
+    """
+    core = None if settings.step else prepare_rounds(problem)
+    if core is not None:
+        found = core.play(
+            wanted, start.state, start.hanging, *closeness, settings.max_iterations
+        )
+        if found is not None:
+            return _end_round(problem, wanted, *found)
+    # step by step: nearer to the last curve where that helps, else with a reason
+    curve, mesh = _place_between(problem, start.curve, wanted)
+    flow = flow_along(problem, mesh, start.state, settings, closeness.tolerance)
+    on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
+    hanging = hang_again(problem, start.hanging, on_net)
+    return _end_round(problem, curve, mesh, flow, hanging)
+
+
+def _end_round(
+    problem: SteadyProblem,
+    curve: Floats,
+    mesh: PlacedMesh,
+    flow: FlowResult,
+    hanging: Hanging,
+    settled: Settled | None = None,
+) -> Round:
+    return Round(
+        curve=curve,
+        mesh=mesh,
+        flow=flow,
+        hanging=hanging,
+        image=find_contact_curve(problem, hanging),
+        settled=settled,
+    )
+
+
+def _place_between(
+    problem: SteadyProblem, last: Floats | None, wanted: Floats
+) -> tuple[Floats, PlacedMesh]:
+    """Mesh on the wanted curve, or as near to it from the last one as it can be."""
+    for _ in range(_HALVINGS):
+        try:
+            return wanted, place_along(problem, wanted)
+        except SolveError:
+            if last is None:
+                raise
+            wanted = (wanted + last) / 2
+    return wanted, place_along(problem, wanted)
+
+
+def place_along(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
+    """Mesh of the snow along a curve.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    curve : ndarray, shape (2, n_net)
+        Of the net [thickness].
+
+    Raises
+    ------
+    SolveError
+        If the curve touches the ground, or bulges so that the mesh folds over.
+    """
+    if curve[1, 1:].min() <= 0.0:
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            say("net.would_touch_ground"),
+        )
+    nodes = place_nodes(problem.template, curve)
+    mesh = build_placed_mesh(problem.template, nodes, problem.snow.element)
+    if not mesh.is_valid:
+        above = np.degrees(np.arctan2(curve[1, 1], curve[0, 1]))
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            say("net.bulges", angle=float(above)),
+        )
+    return mesh
+
+
+def flow_along(
+    problem: SteadyProblem,
+    mesh: PlacedMesh,
+    start: FlowState | None,
+    settings: SolverSettings,
+    tolerance: float,
+) -> FlowResult:
+    """Converged flow along a net at rest.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    mesh : PlacedMesh
+        Along the net.
+    start : FlowState or None
+        Where it starts.
+    settings : SolverSettings
+        Newton steps allowed, and who takes them.
+    tolerance : float
+        Relative error that the last step may leave [-].
+
+    Raises
+    ------
+    SolveError
+        If it does not converge.
+    """
+    flow = solve_flow(
+        problem.snow,
+        mesh,
+        start,
+        tolerance=tolerance,
+        max_iterations=settings.max_iterations,
+        step=settings.step,
+    )
+    if flow.outcome is not Outcome.CONVERGED:
+        raise explain_failure(
+            problem, flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
+        )
+    return flow
+
+
+def explain_failure(
+    problem: SteadyProblem, outcome: Outcome, what: Message
+) -> SolveError:
+    """Failure with what in the scene is known to leave no steady state.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    outcome : Outcome
+        As the iteration ended.
+    what : Message
+        Found of it.
+    """
+    snow, causes = problem.snow, []
+    if "one-sided" in (snow.ground_contact, snow.net_contact):
+        causes.append(say("steady.lifts_off"))
+    rates = [layer.fluidity_ratio for layer in snow.layers]
+    if max(rates) > _LAYER_CONTRAST * min(rates):
+        contrast = max(rates) / min(rates)
+        causes.append(say("steady.layers_contrast", contrast=contrast))
+    if problem.slack > _MUCH_SLACK:
+        causes.append(say("steady.much_slack", slack=float(problem.slack)))
+    if outcome is not Outcome.MAX_ITERATIONS or not causes:
+        return SolveError(outcome, what)
+    return SolveError(
+        Outcome.NO_EQUILIBRIUM,
+        say("steady.not_found", what=what, causes=tuple(causes)),
+    )
