@@ -139,6 +139,7 @@ class CompiledRounds:
         ValueError
             If an array is not of its shape.
         """
+        given = to_floats(curve, (2, self._n_net))  # a copy lives as long as the call
         results = np.empty(self.places["marks"].stop)
         state = self._view_state(results)
         if start is not None:
@@ -148,7 +149,7 @@ class CompiledRounds:
         self.argument.effort = ask_effort(tolerance, max_iterations)
         code = self.library.nd_round(
             ctypes.byref(self.argument),
-            ctypes.c_void_p(locate(to_floats(curve, (2, self._n_net)))),
+            ctypes.c_void_p(locate(given)),
             ctypes.c_double(still),
             int(state.base_shear is not None),
             int(start is not None),
