@@ -1,6 +1,6 @@
 /* A round of flow and net: the mesh along a curve, the flow on it, the net under it.
  *
- * One call for what coupling/steady/rounds.py does step by step: snow/mesh.py
+ * One call for what coupling/steady/played_round.py does step by step: snow/mesh.py
  * (place_nodes), snow/placed_mesh.py, snow/flow.py, coupling/interface.py
  * (share_net_forces) and coupling/steady/hanging.py. */
 #include "round.h"
@@ -74,8 +74,9 @@ static Hung take_net(double **next, const Scene *scene) {
     return net;
 }
 
-/* Places of the results; coupling/steady/compiled_round.py has the same list. */
-static void lay_out(const Scene *scene, double *results, int32_t slides, Found *to) {
+/* Places of the results, and how many numbers they take in all;
+ * coupling/steady/compiled_round.py has the same list. */
+static size_t lay_out(const Scene *scene, double *results, int32_t slides, Found *to) {
     size_t nodes = (size_t)scene->mesh.n_nodes, net = (size_t)scene->mesh.n_net;
     size_t points = (size_t)POINTS * (size_t)scene->mesh.n_triangles;
     size_t edges = (size_t)scene->mesh.n_edges;
@@ -101,6 +102,7 @@ static void lay_out(const Scene *scene, double *results, int32_t slides, Found *
     to->state.contact.is_pressed = (uint8_t *)next;
     to->state.contact.is_open = to->state.contact.is_pressed + net - 1;
     to->state.contact.is_lifted = to->state.contact.is_open + net - 1;
+    return (size_t)(next - results) + (2 * (net - 1) + 2 * edges) / sizeof *results + 1;
 }
 
 /* Nodes between the net's curve (2, n_net) and snow that does not follow it. */
@@ -282,14 +284,14 @@ static int settle(const Scene *scene, const Found *found) {
 }
 
 /* A round along a curve (2, n_net) above the ground. Its results are laid out in
- * ``results``, in which the state of the flow, the parts' lengths and the pull stand as
+ * ``results`` (size,), in which the state of the flow, the parts' lengths and the pull stand as
  * it starts; ``is_known`` tells whether the state does. A net that moves less than
  * ``still`` is settled. ENDED_BADLY where a step of the round fails: whoever asks finds
  * out which. */
 EXPORT int32_t nd_round(Scene *scene, const double *curve, double still, int32_t slides,
-                        int32_t is_known, double *results) {
+                        int32_t is_known, int64_t size, double *results) {
     Found found;
-    lay_out(scene, results, slides, &found);
+    if (lay_out(scene, results, slides, &found) != (size_t)size) return BAD_INPUT;
     found.unbalanced[0] = -1.0;
     for (int32_t i = 1; i < scene->mesh.n_net; i++)
         if (!(curve[scene->mesh.n_net + i] > 0.0)) return ENDED_BADLY;

@@ -153,6 +153,7 @@ class CompiledRounds:
             ctypes.c_double(still),
             int(state.base_shear is not None),
             int(start is not None),
+            ctypes.c_int64(results.size),
             ctypes.c_void_p(locate(results)),
         )
         if require_sound(code):

@@ -7,6 +7,7 @@ forces per metre of width in rho g d^2.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -32,9 +33,11 @@ from netdesign.words.message import Message, say
 
 _HALVINGS = 4
 # Layers whose creep rates differ by more may have no steady state that rounds find.
-_LAYER_CONTRAST = 1e3
+_LAYER_CONTRAST = 300.0
 # So may nets of more slack (over the chord): they hang close to the ground.
 _MUCH_SLACK = 0.1
+# And nets that leave their foot at less, whatever their slack [rad].
+_LOW = math.radians(5.0)
 
 
 class Start(NamedTuple):
@@ -247,7 +250,10 @@ def flow_along(
 
 
 def explain_failure(
-    problem: SteadyProblem, outcome: Outcome, what: Message
+    problem: SteadyProblem,
+    outcome: Outcome,
+    what: Message,
+    curve: Floats | None = None,
 ) -> SolveError:
     """Failure with what in the scene is known to leave no steady state.
 
@@ -259,6 +265,8 @@ def explain_failure(
         As the iteration ended.
     what : Message
         Found of it.
+    curve : ndarray, shape (2, n_net), optional
+        Of the last round, if the net could hang along it [thickness].
     """
     snow, causes = problem.snow, []
     if "one-sided" in (snow.ground_contact, snow.net_contact):
@@ -267,7 +275,8 @@ def explain_failure(
     if max(rates) > _LAYER_CONTRAST * min(rates):
         contrast = max(rates) / min(rates)
         causes.append(say("steady.layers_contrast", contrast=contrast))
-    if problem.slack > _MUCH_SLACK:
+    is_low = curve is not None and math.atan2(curve[1, 1], curve[0, 1]) < _LOW
+    if is_low or problem.slack > _MUCH_SLACK:
         causes.append(say("steady.much_slack", slack=float(problem.slack)))
     if outcome is not Outcome.MAX_ITERATIONS or not causes:
         return SolveError(outcome, what)

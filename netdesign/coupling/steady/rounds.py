@@ -201,7 +201,8 @@ def couple(
             curve = _mix(played)
     left = float(_measure_movement(played, guess))
     what = say("steady.still_moves", moved=left, rounds=tried)
-    raise explain_failure(problem, Outcome.MAX_ITERATIONS, what)
+    curve = played[-1].curve if played else curve
+    raise explain_failure(problem, Outcome.MAX_ITERATIONS, what, curve)
 
 
 def _mix(played: Sequence[Round]) -> Floats:
