@@ -58,7 +58,7 @@ class StepArgument(ctypes.Structure):
 
 
 class StateArgument(ctypes.Structure):
-    """``State`` of flow.c: an iterate of the flow, start and end."""
+    """``State`` of round.h: an iterate of the flow, start and end."""
 
     _fields_ = [
         ("numbers", _POINTER),
@@ -68,7 +68,7 @@ class StateArgument(ctypes.Structure):
 
 
 class EffortArgument(ctypes.Structure):
-    """``Effort`` of flow.c: what is asked of a flow, and what it took."""
+    """``Effort`` of round.h: what is asked of a flow, and what it took."""
 
     _fields_ = [
         *((name, _REAL) for name in ("tolerance", "linear_part")),
@@ -79,7 +79,7 @@ class EffortArgument(ctypes.Structure):
 
 
 class PlacementArgument(ctypes.Structure):
-    """``Placement`` of place.c: a template, where its nodes are, and the results."""
+    """``Placement`` of round.h: a template, where its nodes are, and the results."""
 
     _fields_ = [
         *((name, _INT) for name in ("n_nodes", "n_triangles", "n_net")),

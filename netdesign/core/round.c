@@ -208,20 +208,39 @@ static void share_forces(const Scene *scene, const double *reaction, double *for
     y[0] = y[1] / CORNER_SHARE;
 }
 
+static void fill_lengths(const Scene *scene, const Hung *net) {
+    for (int32_t e = 0; e < scene->n_elements; e++)
+        net->lengths[e] = scene->shares[e] * net->parts[scene->part[e]];
+}
+
+static int part(const Scene *scene, const Hung *net, double *pull) {
+    return nd_part(scene->n_elements, scene->n_parts, net->forces, scene->shares,
+                   scene->firsts, scene->rises, scene->head[0], scene->length,
+                   scene->stiffness, pull, net->parts);
+}
+
+static int stretch(const Scene *scene, const Hung *net, double *pull) {
+    return nd_hang(scene->n_elements, net->forces, net->lengths, scene->stiffness,
+                   scene->head, scene->tolerance, pull, net->curve, net->tension,
+                   net->ends);
+}
+
 /* The net under its forces. */
 static int hang(const Scene *scene, const Hung *net) {
-    int32_t n = scene->n_elements;
-    double pull[2] = {net->pull[0], net->pull[1]};
+    fill_lengths(scene, net);
     if (scene->n_parts > 1) {
-        int fault = nd_part(n, scene->n_parts, net->forces, scene->shares, scene->firsts,
-                            scene->rises, scene->head[0], scene->length, scene->stiffness,
-                            pull, net->parts);
+        double pull[2] = {net->pull[0], net->pull[1]};
+        int fault = part(scene, net, pull);
+        if (fault == OPEN) { /* once more from the pull of the lengths as they were */
+            pull[0] = net->pull[0];
+            pull[1] = net->pull[1];
+            fault = stretch(scene, net, pull);
+            if (!fault) fault = part(scene, net, pull);
+        }
         if (fault) return fault;
+        fill_lengths(scene, net);
     }
-    for (int32_t e = 0; e < n; e++)
-        net->lengths[e] = scene->shares[e] * net->parts[scene->part[e]];
-    return nd_hang(n, net->forces, net->lengths, scene->stiffness, scene->head,
-                   scene->tolerance, net->pull, net->curve, net->tension, net->ends);
+    return stretch(scene, net, net->pull);
 }
 
 /* Largest distance along an axis of the net and the curve that it was given. */

@@ -63,6 +63,8 @@ def parse_toml(content: bytes) -> dict[str, Any]:
         return tomllib.loads(decode_utf8(content))
     except tomllib.TOMLDecodeError as error:
         raise ContentError(_tell_toml(error)) from None
+    except ValueError:  # of Python's, which the parser lets through
+        raise ContentError(say("file.long_number")) from None
     except RecursionError:
         raise ContentError(say("file.nested")) from None
 
@@ -78,7 +80,7 @@ def decode_utf8(content: bytes) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
+        line = error.object.count(b"\n", 0, error.start) + 1  # without the mark
         raise ContentError(say("file.no_utf8", line=line)) from None
 
 
@@ -88,7 +90,8 @@ def _tell_toml(error: tomllib.TOMLDecodeError) -> Message:
     found = _TOML_PLACE.search(told)
     line, column = found.groups() if found else ("", "")
     place = say("file.at_line", line=line, column=column) if found else _AT_END
-    return say("file.twice" if "Cannot" in told else "file.no_value", place=place)
+    is_twice = told.startswith(("Cannot", "Duplicate"))
+    return say("file.twice" if is_twice else "file.no_value", place=place)
 
 
 def read_toml(path: Path) -> dict[str, Any]:

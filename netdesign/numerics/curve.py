@@ -20,14 +20,14 @@ def interpolate_curve(known: Floats, points: Floats, wanted: Floats) -> Floats:
     ----------
     known : ndarray, shape (n,)
         Ascending parameter of the points, n at least 2.
-    points : ndarray, shape (2, n)
+    points : ndarray, shape (k, n)
         The curve goes through them.
     wanted : ndarray, shape (m,)
         Parameters between the first and the last.
 
     Returns
     -------
-    ndarray, shape (2, m)
+    ndarray, shape (k, m)
         By cubic Hermite pieces whose slopes are those of the parabolas through
         three neighbours: third order, and local.
     """

@@ -21,8 +21,10 @@ from netdesign.coupling.steady.solve import _build_problem, solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.panel.equations import build_problem, guess_point
 from netdesign.panel.inputs import CUTS, Panel, Rope
-from netdesign.panel.solve import solve_panel
+from netdesign.panel.solve import _solve_compiled, solve_panel
+from netdesign.panel.strips import take_strip
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import remove_rounding
 from netdesign.snow.linear import SingularError
@@ -89,9 +91,17 @@ def try_spoilt_panel(solution, rng):
         cut=str(rng.choice(CUTS)),
         has_mid_anchors=bool(rng.random() < 0.5),
     )
-    solve_panel(solution, panel, stations=int(rng.integers(1, 11)))
-    spoilt = replace(solution, net_forces=spoil(solution.net_forces, rng))
-    solve_panel(spoilt, panel)
+    stations = int(rng.integers(1, 11))
+    solve_panel(solution, panel, stations=stations)
+    with suppress(SolveError):  # no net is left
+        problem = build_problem(take_strip(solution), panel, stations)
+        spoilt = replace(problem, deflection=spoil(problem.deflection, rng))
+        for one, point in (
+            (spoilt, guess_point(problem)),
+            (problem, spoil(guess_point(problem), rng)),
+        ):
+            with suppress(SolveError):
+                _solve_compiled(library.find_core(), one, point)
 
 
 def main():

@@ -21,6 +21,7 @@ from netdesign.coupling.steady.played_round import flow_along, place_along
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.snow import compiled_mesh
 from netdesign.snow.mesh import build_template
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
@@ -28,6 +29,7 @@ pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core he
 SETTINGS = SolverSettings()
 TOLERANCE, STILL = 1e-5, 1e9  # any net is settled
 CLOSE = 1e-9
+MOST_CONTRAST = 100.0
 
 
 def draw_problems(count):
@@ -66,6 +68,15 @@ def test_the_drawn_nets_are_of_every_kind():
     assert {one.has_freeboard for one in PROBLEMS} == {True, False}
     assert {one.ground_contact for one in snows} == {"one-sided", "two-sided"}
     assert {one.end_load > 0.0 for one in snows} == {True, False}
+    tame = [one for one in PROBLEMS if not amplifies_rounding(one)]
+    assert len(tame) > 0.7 * len(PROBLEMS)
+    assert sum(len(one.snow.layers) > 1 for one in tame) > 3
+
+
+def amplifies_rounding(problem):
+    """Layers that creep at most unlike rates: the last digit decides on contacts."""
+    rates = [layer.fluidity_ratio for layer in problem.snow.layers]
+    return max(rates) > MOST_CONTRAST * min(rates)
 
 
 def play(problem, state, hanging, curve):
@@ -94,12 +105,14 @@ def test_a_round_is_the_same_in_one_call(number):
     for _ in range(2):  # from nothing, then from the round before
         curve = find_contact_curve(problem, hanging)
         found, steps = play(problem, state, hanging, curve)
-        assert (found is None) == (steps is None)
-        if found is None:
+        assert steps is not None or found is None  # the core finds nothing of its own
+        if found is None:  # then the steps are taken
             return
         mesh, flow, hung = steps
         for name in ("nodes", "weights", "gradients", "load", "net_normal", "axes"):
             compare(getattr(found.mesh, name), getattr(mesh, name))
+        if amplifies_rounding(problem):
+            return
         assert found.flow.linear_solves == flow.linear_solves
         compare(found.flow.state.stress, flow.state.stress)
         compare(found.flow.state.reaction, flow.state.reaction)
@@ -118,7 +131,7 @@ def test_forces_of_the_stresses_are_the_same_in_one_call(number, monkeypatch):
     problem = PROBLEMS[number]
     hanging = start_hanging(problem)
     found, steps = play(problem, None, hanging, find_contact_curve(problem, hanging))
-    if found is None:
+    if found is None or amplifies_rounding(problem):
         return
     monkeypatch.setattr("netdesign.coupling.interface._ROUNDING", 1e9)  # none removed
     mesh, flow, hung = steps
@@ -157,3 +170,16 @@ def test_what_the_core_does_not_take_is_left_to_numpy(monkeypatch):
     monkeypatch.setattr(compiled_round, "describe_template", lambda *_: None)
     assert prepare_rounds(replace(problem)) is None  # a template too large for it
     compiled_round._describe_form.cache_clear()
+
+
+def test_what_the_core_reads_of_a_template_stays_with_its_form():
+    """Numbers have caches of their own, which may forget them before."""
+    problem = PROBLEMS[0]
+    compiled_round._describe_form.cache_clear()
+    compiled_mesh.number_template.cache_clear()
+    compiled_mesh._locate_template.cache_clear()
+    rounds = prepare_rounds(replace(problem))
+    kept = {one.__array_interface__["data"][0] for one in rounds.kept}
+    place = rounds.argument.place
+    assert {place.triangles, place.net, place.orientation} <= kept
+    assert {rounds.argument.mesh.triangles, rounds.argument.plan} <= kept

@@ -12,9 +12,14 @@ from netdesign.words.catalogue import render
 @pytest.mark.parametrize(
     ("content", "told"),
     [
-        ("a = 1.37\nb = 2 3\n", "in Zeile 2, Spalte 7: kein TOML"),
-        ("a =", "am Ende: kein TOML"),
-        ('a = """x\n', "am Ende: kein TOML"),
+        ("a = 1.37\nb = 2 3\n", "in Zeile 2, Spalte 7: kein gültiges TOML"),
+        ("a =", "am Ende: kein gültiges TOML"),
+        ('a = """x\n', "am Ende: kein gültiges TOML"),
+        (f"a = {'9' * 5000}", "eine Zahl darin ist zu lang"),
+        (
+            "a = {b=1, b=2}",
+            "in Zeile 1, Spalte 14: ein Schlüssel oder eine Tabelle zum zweiten Mal",
+        ),
         (
             "[a]\n[b]\n[a]\n",
             "in Zeile 3, Spalte 3: ein Schlüssel oder eine Tabelle zum zweiten Mal",
@@ -31,3 +36,5 @@ def test_bytes_that_are_no_text_are_told_by_their_line():
     with pytest.raises(ContentError, match="line 3 is not in UTF-8"):
         decode_utf8(b"a = 1\nb = 2\nc = '\xe9'\n")
     assert decode_utf8(b"\xef\xbb\xbfa = 1") == "a = 1"
+    with pytest.raises(ContentError, match="line 2 is"):
+        decode_utf8(b"\xef\xbb\xbfa = 1\n\xff\n")

@@ -325,6 +325,8 @@ def _describe_form(
     mesh = MeshArgument(*described.counts, *described.numbers)
     mesh.edge_shape = locate(EDGE_SHAPE)
     argument = SceneArgument(place=describe_placement(template, EDGE_TANGENT))
+    # numbers have caches of their own: the form keeps the arrays of one alone
+    argument.place.triangles, argument.place.net = mesh.triangles, mesh.net
     argument.mesh, argument.plan = mesh, described.plan
     argument.n_vertices = template.n_vertices
     for name, place in zip(_FRAME, locate_all(*frame), strict=True):
@@ -338,7 +340,7 @@ def _describe_form(
         argument=argument,
         lifts=described.lifts,
         places=_lay_out(template, net[0].size, net[-1].size, slides=slides),
-        kept=(*described.kept, *frame, *net, end),
+        kept=(*described.kept, *frame, *net, end, template.orientation),
     )
 
 
@@ -353,6 +355,7 @@ def _describe_net(template: MeshTemplate, top: float) -> _Arrays:
     )
 
 
+@lru_cache(maxsize=256)
 def _describe_frame(template: MeshTemplate) -> _Arrays:
     """Shares of nodes in the net's curve, as ``Scene`` of round.c has them."""
     heights, of_net = template.nodes[1], template.net_fractions
