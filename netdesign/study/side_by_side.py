@@ -115,7 +115,7 @@ def judge_rows(
 
 def _expect_work(job: RowsJob) -> int:
     """Measure of the work in a job; the most is begun first, so that none waits."""
-    return sum(_WORK[row.ground.kind] * len(row.layers or "1") for row in job.rows)
+    return sum(_WORK[row.ground.kind] * max(1, len(row.layers)) for row in job.rows)
 
 
 def judge_away(job: RowsJob) -> JudgedRows | None:
