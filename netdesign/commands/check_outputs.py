@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from netdesign.solving.runner import Runner
     from netdesign.study.records import Study
 
-_APART = (".xlsx", ".docx")  # each takes as long as the page
+# Made by other processes, which first read the study: so this one makes the workbook,
+# which takes longest.
+_APART = (".html", ".docx")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,8 +103,18 @@ def begin_outputs(
         path: pool.begin(render_kind, path.suffix, study, outputs.style)
         for study, paths in zip(studies, outputs.of_studies, strict=True)
         for path in paths
-        if path.suffix in _APART and len(paths) > 1
+        if path.suffix in _list_apart(paths)
     }
+
+
+def _list_apart(paths: Sequence[Path]) -> list[str]:
+    """Suffixes of a study's files that other processes make.
+
+    Not of its only file, nor of a page that is printed, too.
+    """
+    kinds = {path.suffix for path in paths}
+    apart = [one for one in _APART if not (one == ".html" and ".pdf" in kinds)]
+    return apart if len(paths) > 1 else []
 
 
 def render_outputs(

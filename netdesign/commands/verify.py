@@ -223,8 +223,7 @@ class _Shown:
         self, study: Study, again: Study, count: int, differences: Sequence[Difference]
     ) -> None:
         """Tell which values do not come out; the hash may differ in last digits."""
-        from netdesign.report.view.tables import hash_results
-        from netdesign.study.document import write_document
+        from netdesign.study.document import hash_results, write_document
         from netdesign.study.values import SAME
 
         stored, now = hash_results(study), hash_results(again)

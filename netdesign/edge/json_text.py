@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from dataclasses import MISSING, fields, is_dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import lru_cache
 from json.encoder import encode_basestring
 from math import isfinite
@@ -28,21 +28,78 @@ _FEW = 4  # values below which the encoder takes longer to set up than to write
 _MOST_KEYS = 200  # of one object
 
 
-def write_json(document: object) -> str:
+def write_json(document: object, depth: int = 0) -> str:
     """JSON text, one value a line; letters of every language stay as they are.
 
     Signs that would steer a terminal or turn the direction of writing become codes. A
-    dataclass is an object with its fields in their order.
+    dataclass is an object with its fields in their order. ``depth`` is the number of
+    lists and objects that the text will stand in.
 
     >>> write_json("\\x9b2J")
     '"\\\\u009b2J"'
     """
-    text = _write_value(document, "\n")
+    text = _write_value(document, _indent(depth))
     if text.replace("\n", "").isprintable():
         return text
     return "".join(
         sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1]
         for sign in text
+    )
+
+
+def _indent(depth: int) -> str:
+    """Line end, and the begin of the next line."""
+    return "\n" + depth * " "
+
+
+@dataclass(frozen=True, slots=True)
+class JsonPart:
+    """Part of a JSON document.
+
+    Attributes
+    ----------
+    text : str
+        As the document has it.
+    values : str
+        The same on one line and in ASCII, with every number as a float: equal for equal
+        values, since 2 and 2.0 are one number and become one when a document is read.
+    """
+
+    text: str
+    values: str
+
+
+def write_part(value: object, depth: int) -> JsonPart:
+    """Part of a document that stands in so many lists and objects."""
+    text = write_json(value, depth)
+    values = json.dumps(json.loads(text, parse_int=float), check_circular=False)
+    return JsonPart(text, values)
+
+
+def join_items(parts: Sequence[JsonPart], depth: int) -> JsonPart:
+    """List of parts, itself in so many lists and objects."""
+    return _join("[", [(one.text, one.values) for one in parts], "]", depth)
+
+
+def join_members(parts: Mapping[str, JsonPart], depth: int) -> JsonPart:
+    """Object with parts by their keys, itself in so many lists and objects."""
+    pairs = [
+        tuple(f"{_write_key(key)}: {one}" for one in (part.text, part.values))
+        for key, part in parts.items()
+    ]
+    return _join("{", pairs, "}", depth)
+
+
+def _join(
+    opening: str, pairs: Sequence[tuple[str, ...]], closing: str, depth: int
+) -> JsonPart:
+    if not pairs:
+        return JsonPart(opening + closing, opening + closing)
+    margin, inside = _indent(depth), _indent(depth + 1)
+    texts, values = zip(*pairs, strict=True)
+    return JsonPart(
+        f"{opening}{inside}{f',{inside}'.join(texts)}{margin}{closing}",
+        f"{opening}{', '.join(values)}{closing}",
     )
 
 

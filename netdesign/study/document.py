@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections import Counter
-from dataclasses import replace
 from datetime import datetime
-from functools import lru_cache
 from pathlib import Path
 
 from netdesign.edge.causes import explain, explain_shape
@@ -16,9 +13,15 @@ from netdesign.edge.given_files import (
     list_faults,
     read_bounded,
 )
-from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
+from netdesign.edge.json_text import (
+    MAX_JSON_BYTES,
+    JsonPart,
+    join_members,
+    read_json,
+    write_part,
+)
 from netdesign.errors import ContentError, StudyError
-from netdesign.study.records import SCHEMA, Study
+from netdesign.study.records import SCHEMA, RowStudy, Study
 from netdesign.words.message import say
 
 _OLD_SCHEMA = "netdesign.study/1"
@@ -34,35 +37,22 @@ def compute_digest(study: Study) -> str:
     was altered by somebody who did not think of it. Who alters a document on purpose
     can compute it again: only a new solve shows that the numbers are true.
     """
-    _, digest = _write_open(_Itself(study))
-    return digest
+    return hashlib.sha256(study.written.values.encode()).hexdigest()
 
 
-class _Itself:
-    """A study as a key, known by itself: to compare two takes long."""
-
-    def __init__(self, study: Study) -> None:
-        self.study = study
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Itself) and self.study is other.study
-
-    def __hash__(self) -> int:
-        return id(self.study)
+def write_row(row: RowStudy) -> JsonPart:
+    """Text of a net row, which the row keeps: a document is made of such texts."""
+    return row.written
 
 
-@lru_cache(maxsize=2)
-def _write_open(key: _Itself) -> tuple[str, str]:
-    """Text of a study without its digest, and that: page and document want both."""
-    text = write_json(replace(key.study, digest=""))
-    return text, _digest(text)
-
-
-def _digest(text: str) -> str:
-    # 2 and 2.0 are one number, and become one when a document is read
-    values = json.loads(text, parse_int=float)
-    text = json.dumps(values, check_circular=False)
-    return hashlib.sha256(text.encode()).hexdigest()
+def hash_results(study: Study) -> str:
+    """SHA-256 of verdict and net rows: equal for equal results, whenever made."""
+    results = {
+        "verdict": write_part(study.verdict, 1),
+        "profile": write_part(study.profile.sha256, 1),
+        "rows": study.written_rows,
+    }
+    return hashlib.sha256(join_members(results, 0).values.encode()).hexdigest()
 
 
 def write_document(study: Study) -> str:
@@ -70,9 +60,9 @@ def write_document(study: Study) -> str:
 
     Numbers stand in full, keys in the order of the fields.
     """
-    text, digest = _write_open(_Itself(study))
     # no text in the document has a line end of its own, so this line stands once
-    return text.replace(_OPEN_LINE, f'{_OPEN_LINE[:-1]}{digest}"', 1)
+    digest = f'{_OPEN_LINE[:-1]}{compute_digest(study)}"'
+    return study.written.text.replace(_OPEN_LINE, digest, 1)
 
 
 def read_document(text: str) -> Study:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from functools import cache
 from typing import TypeVar
 
@@ -99,14 +98,12 @@ def gather_study(
     site: Site, rows: Sequence[RowStudy], standard: Standard, run: CheckRun
 ) -> Study:
     """Study of a site whose rows are judged, in their order."""
-    monitoring = record_monitoring(site)
-    rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
         schema=SCHEMA,
         verdict=merge_verdicts(row.verdict for row in rows),
         project=site.project,
         profile=record_profile(standard),
-        rows=rows,
+        rows=list(rows),
         range_inputs=list(site.range_inputs),
         notes=list_site_notes(site, run.creep_law),
         provenance=record_provenance(site, run),
@@ -123,7 +120,7 @@ def judge_row(
     probe: Probe | None = None,
     on_check: Callable[[], None] = lambda: None,
 ) -> RowStudy:
-    """Study of one row of a site, as ``judge_site`` makes it, without monitoring."""
+    """Study of one row of a site, as ``judge_site`` makes it."""
     task = RowCheck(
         site=site,
         row=row,
@@ -168,6 +165,7 @@ def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
         inputs=list(row.inputs),
         drawing=record_drawing(row, governing),
         reasons=list_reasons(checks, independent),
+        monitoring=record_monitoring(task.site, row),
         anchors=record_anchors(governing, loads.effects),
         pulls=record_pulls(loads.pulls),
         head=head,

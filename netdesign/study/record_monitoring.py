@@ -1,26 +1,25 @@
-"""Measured series of a site, and what the model needs to stand beside them."""
+"""Measured series of a net row, and what the model needs to stand beside them."""
 
 from __future__ import annotations
 
-from netdesign.site.model import MonitoringSeries, Site
+from netdesign.site.model import MonitoringSeries, NetRow, Site
 from netdesign.study.records import MonitoringRecord
 from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_if_known
 from netdesign.words.message import Message, say
 
 
-def record_monitoring(site: Site) -> dict[str, list[MonitoringRecord]]:
-    """Measured series by net row; nothing is solved for them.
+def record_monitoring(site: Site, row: NetRow) -> list[MonitoringRecord]:
+    """Measured series of a net row; nothing is solved for them.
 
     Parameters
     ----------
     site : Site
         With its sheets Monitoring and Winter, where it has them.
+    row : NetRow
+        One of its rows.
     """
-    found: dict[str, list[MonitoringRecord]] = {}
-    for series in site.monitoring:
-        record = _record(series, _tell_model(series, site))
-        found.setdefault(series.row_id, []).append(record)
-    return found
+    of_row = (one for one in site.monitoring if one.row_id == row.id)
+    return [_record(one, _tell_model(one, site)) for one in of_row]
 
 
 def _tell_model(series: MonitoringSeries, site: Site) -> Message:

@@ -8,8 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import ClassVar, Literal
 
+from netdesign.edge.json_text import (
+    JsonPart,
+    join_items,
+    join_members,
+    list_fields,
+    write_part,
+)
 from netdesign.outcome import Verdict
 from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
@@ -29,6 +37,7 @@ from netdesign.study.support_records import (
 from netdesign.words.text_field import Text
 
 SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
+_DEPTH_OF_ROWS = 2  # in the document and in its list of rows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -275,6 +284,11 @@ class RowStudy:
     model_form: ModelFormRecord | None = None  # None where nothing governs
     end_effects: list[EndEffectRecord] = field(default_factory=list)
 
+    @cached_property
+    def written(self) -> JsonPart:
+        """Itself in the document; a process that judges rows sends it along."""
+        return write_part(self, _DEPTH_OF_ROWS)
+
 
 @dataclass(frozen=True, kw_only=True)
 class ProfileValue:
@@ -339,3 +353,18 @@ class Study:
     notes: list[Text]
     provenance: Provenance
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there
+
+    @cached_property
+    def written(self) -> JsonPart:
+        """Document without its digest: page and document want both."""
+        without = list_fields(self) | {"digest": ""}
+        parts = {
+            name: self.written_rows if name == "rows" else write_part(value, 1)
+            for name, value in without.items()
+        }
+        return join_members(parts, 0)
+
+    @cached_property
+    def written_rows(self) -> JsonPart:
+        """Net rows in the document."""
+        return join_items([row.written for row in self.rows], _DEPTH_OF_ROWS - 1)

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 
 from netdesign.checks import Standard
@@ -20,6 +21,7 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
+from netdesign.study.document import write_row
 from netdesign.study.judge import judge_row
 from netdesign.study.probe import Probe
 from netdesign.study.records import RowStudy
@@ -145,6 +147,8 @@ def _judge_away(job: RowsJob) -> JudgedRows:
                 told.append(say("store.going_on", reason=error.message))
         runner = Runner(store=store, tell=told.append)
         studies = _judge(job, runner, count)
+    for one in chain.from_iterable(studies):
+        write_row(one)  # here, while others judge
     return JudgedRows(
         studies=studies,
         counts=runner.counts,

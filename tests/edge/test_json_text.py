@@ -5,7 +5,12 @@ from dataclasses import asdict, dataclass, field
 
 import pytest
 
-from netdesign.edge.json_text import write_json
+from netdesign.edge.json_text import (
+    join_items,
+    join_members,
+    write_json,
+    write_part,
+)
 from netdesign.outcome import Verdict
 
 
@@ -61,3 +66,17 @@ def test_what_is_no_number_is_refused(document):
 def test_what_is_no_part_of_a_document_is_refused():
     with pytest.raises(TypeError, match="not JSON serializable"):
         write_json({"a": [object()]})
+
+
+@pytest.mark.parametrize("depth", [0, 3])
+def test_joined_parts_are_the_text_of_the_whole(depth):
+    """Text as a document has it, and its values: numbers as floats, on one line."""
+    whole = {"a": [WHOLE, 1.5, "\u202e é"], 'ke"y': {}, "none": [], "n": 7}
+    items = join_items([write_part(one, depth + 2) for one in whole["a"]], depth + 1)
+    parts = {key: write_part(value, depth + 1) for key, value in whole.items()}
+    joined = join_members({**parts, "a": items}, depth)
+    assert joined.text == write_json(whole, depth)
+    values = json.loads(joined.text, parse_int=float)
+    assert joined.values == json.dumps(values)
+    assert join_items([], depth) == write_part([], depth)
+    assert join_members({}, depth) == write_part({}, depth)

@@ -1,14 +1,23 @@
+import hashlib
 import json
 import math
+import pickle
 from dataclasses import fields, replace
 
 import pytest
 
+from netdesign.edge.json_text import write_json
 from netdesign.errors import StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
-from netdesign.study.document import compute_digest, read_document, write_document
+from netdesign.study.document import (
+    compute_digest,
+    hash_results,
+    read_document,
+    write_document,
+    write_row,
+)
 from netdesign.study.records import (
     CheckRecord,
     ProfileRecord,
@@ -169,6 +178,28 @@ def test_the_digest_is_of_all_but_itself(document):
         json.dumps(document)))  # fmt: skip
     later = replace(STUDY.provenance, started="2026-01-02T03:04:06+00:00")
     assert compute_digest(replace(STUDY, provenance=later)) != digest
+
+
+def test_a_document_is_the_text_of_its_study_whoever_wrote_its_rows():
+    """A row that another process wrote brings its text along; another one does not."""
+    row = STUDY.rows[0]
+    write_row(row)
+    sent = pickle.loads(pickle.dumps(row))
+    other = replace(sent, notes=[say("text.as_given", text="été 2,5 \u202e")])
+    for rows in ([row], [sent], [sent, other], []):
+        study = replace(STUDY, rows=rows)
+        digest = compute_digest(study)
+        assert write_document(study) == write_json(replace(study, digest=digest))
+        values = json.loads(write_json(study), parse_int=float)
+        assert digest == hashlib.sha256(json.dumps(values).encode()).hexdigest()
+
+
+def test_equal_results_have_one_hash_whenever_they_were_made():
+    later = replace(STUDY.provenance, started="2026-01-02T03:04:06+00:00")
+    read = read_document(write_document(replace(STUDY, provenance=later)))
+    assert hash_results(read) == hash_results(STUDY)
+    assert hash_results(replace(STUDY, rows=[])) != hash_results(STUDY)
+    assert hash_results(replace(STUDY, verdict=Verdict.FAIL)) != hash_results(STUDY)
 
 
 def test_a_document_of_before_has_no_digest(document):

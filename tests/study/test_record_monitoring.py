@@ -26,7 +26,7 @@ WINTER = StationWinter(series=HeightSeries(first_day=date(2003, 1, 1), heights=(
 
 def record(series=SERIES, winter=None):
     site = small_site.build_site(*small_site.ROWS, monitoring=(series,), winter=winter)
-    (found,) = record_monitoring(site)["R1"]
+    (found,) = record_monitoring(site, site.rows[0])
     return found
 
 
@@ -56,4 +56,5 @@ def test_a_sheet_without_winter_is_noted_on_the_first_page():
         )
         notes = map(str, list_site_notes(site, small_site.RUN.creep_law))
         assert sum("sheet Winter" in note for note in notes) == count
-    assert record_monitoring(small_site.build_site(*small_site.ROWS)) == {}
+    bare = small_site.build_site(*small_site.ROWS)
+    assert record_monitoring(bare, bare.rows[0]) == []

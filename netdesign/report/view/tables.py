@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome
 from netdesign.report.view.table import (
     Cell,
@@ -39,6 +36,7 @@ from netdesign.report.words import (
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.document import hash_results
 from netdesign.study.records import ProfileRecord, ProfileValue, RowStudy, Study
 from netdesign.words.names import name
 
@@ -373,19 +371,6 @@ def list_settings(study: Study, words: Words) -> list[tuple[str, str]]:
 def _show_setting(text: str, words: Words) -> str:
     """Setting as stored; a number, and only that, with the language's mark."""
     return words.write(text) if _NUMBER.fullmatch(text) else show_own(words, text)
-
-
-def hash_results(study: Study) -> str:
-    """SHA-256 of verdict and net rows: equal for equal results, whenever made."""
-    content = {
-        "verdict": study.verdict,
-        "profile": study.profile.sha256,
-        "rows": study.rows,
-    }
-    text = json.dumps(
-        content, default=list_fields, allow_nan=False, check_circular=False
-    )
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def stack_tables(
