@@ -166,8 +166,8 @@ def negative_share(forces: Floats) -> float:
         0 to 1 [-]; 1 where they pull as much as they press, or more: also where nothing
         presses.
     """
+    if np.min(forces, initial=0.0) >= 0.0:
+        return 0.0
     positive = float(np.maximum(forces, 0.0).sum())
     negative = float(np.maximum(-forces, 0.0).sum())
-    if negative == 0.0:
-        return 0.0
     return negative / positive if negative < positive else 1.0

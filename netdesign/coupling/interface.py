@@ -160,4 +160,4 @@ def measure_looseness(contact: Contact) -> Looseness:
         On net and ground.
     """
     lifts = contact.is_lifted.any() or contact.is_open.any()
-    return Looseness(slip=float((contact.sign != 0).mean()), lifts=bool(lifts))
+    return Looseness(slip=contact.slip_share, lifts=bool(lifts))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeVar
-
-import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize
@@ -94,22 +93,25 @@ class ErrorModel(NamedTuple):
         share = self.share + self.slip_share * held.slip + self.lift_share * held.lifts
         floor = self.floor + self.lift_floor * held.lifts
         floor *= self.floor_ratio ** (len(meshes) - 2)
-        sizes = np.array([np.hypot(*vector) for vector in meshes[-1]])
-        steps = np.array([self._remember(one) for one in zip(*meshes, strict=True)])
-        errors = share * steps + floor * sizes
-        relative = np.divide(errors, sizes, out=np.zeros_like(sizes), where=sizes > 0.0)
-        errors = np.maximum(errors, self.kinship * relative.max() * sizes)
+        sizes = [math.hypot(*vector) for vector in meshes[-1]]
+        steps = [self._remember(one) for one in zip(*meshes, strict=True)]
+        pairs = list(zip(steps, sizes, strict=True))
+        errors = [share * step + floor * size for step, size in pairs]
+        own = zip(errors, sizes, strict=True)
+        shared = self.kinship * max(
+            error / size if size else 0.0 for error, size in own
+        )
         return [
-            Estimate(vector=vector, error=float(error))
-            for vector, error in zip(meshes[-1], errors, strict=True)
+            Estimate(vector=vector, error=max(error, shared * size))
+            for vector, error, size in zip(meshes[-1], errors, sizes, strict=True)
         ]
 
     def _remember(self, meshes: Sequence[Floats]) -> float:
         """Difference of the last two meshes, or the remembered part of earlier ones."""
         step = 0.0
         for coarse, fine in pairwise(meshes):
-            step = np.maximum(np.hypot(*(fine - coarse)), self.memory * step)
-        return float(step)
+            step = max(math.hypot(*(fine - coarse)), self.memory * step)
+        return step
 
 
 # Of nets and walls at rest; measured on random scenes and along lines of scenes
@@ -167,6 +169,6 @@ def refine(
         states.append(solve(level, states[-1]))
         meshes.append(measure(states[-1]))
         estimates = model.estimate(meshes, loosen(states[-1]))
-        if all(e.error <= accuracy * np.hypot(*e.vector) for e in estimates):
+        if all(one.error <= accuracy * math.hypot(*one.vector) for one in estimates):
             break
     return states, estimates

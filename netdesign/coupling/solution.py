@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -55,7 +56,7 @@ class EndPull:
     @property
     def size(self) -> float:
         """Size of the force; at a net's end its tension there [N/m]."""
-        return float(np.hypot(self.x, self.y))
+        return math.hypot(self.x, self.y)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -287,6 +288,8 @@ def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:
     ndarray, shape (n_triangles,)
         That of the layer which a triangle lies in.
     """
+    if not scene.layer_tops:
+        return np.full(template.triangles.shape[1], scene.layers[0].density)
     heights = template.nodes[1, template.triangles[:3]].mean(axis=0)
     layer = np.searchsorted(np.array(scene.layer_tops), heights)
     return np.asarray(np.array([layer.density for layer in scene.layers])[layer])

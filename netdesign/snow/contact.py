@@ -41,6 +41,11 @@ class Contact:
     is_open: Mask
     is_lifted: Mask
 
+    @property
+    def slip_share(self) -> float:
+        """Share of the net's nodes on which the snow slips [-]."""
+        return float(np.count_nonzero(self.sign) / self.sign.size)
+
     def equals(self, other: Contact) -> bool:
         """Same state at every node (pressure alone does not count)."""
         return (

@@ -167,7 +167,7 @@ def build_template(
     if size.sectors:
         points = _add_rings(points, columns, size, interfaces)
     far = _FAR_ALONG_LAYERS if interfaces else _FAR
-    points = np.unique(points.round(12), axis=0)
+    points = _sort_out(points.round(12))
     mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect, interfaces)
     for _ in range(size.subdivisions):
         mesh = _subdivide(mesh)
@@ -369,10 +369,23 @@ def _column_points(
         heights = [np.array([0.0])]
         for below, above in pairwise(bounds):
             rows = max(_LEAST_ROWS, round((above - below) / across))
-            heights.append(np.linspace(below, above, rows + 1)[1:])
+            heights.append(_divide(below, above, rows))
         column = np.concatenate(heights)
         points.append(np.column_stack([np.full_like(column, place), column]))
     return np.vstack(points)
+
+
+@lru_cache(maxsize=256)
+def _divide(below: float, above: float, rows: int) -> Floats:
+    """Heights of so many equal rows, without the lowest."""
+    return _frozen(np.linspace(below, above, rows + 1)[1:])
+
+
+def _sort_out(points: Floats) -> Floats:
+    """Distinct points (n, 2), by distance, then by height."""
+    points = points[np.lexsort(points.T[::-1])]
+    is_new = np.append(True, (np.diff(points, axis=0) != 0.0).any(axis=1))
+    return np.asarray(points[is_new])
 
 
 def _add_rings(
@@ -467,7 +480,7 @@ def _connect(points: Floats) -> Ints:
     # collinear boundary points may leave triangles without area
     solid = np.abs(_twice_area(points[triangles])) > 1e-15
     triangles = triangles[solid]
-    if np.unique(triangles).size != len(points):
+    if np.bincount(triangles.ravel(), minlength=len(points)).min() == 0:
         # found while solving, on a mesh that the refinement asked for: an outcome
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import accumulate
 from typing import Any, NamedTuple
 
@@ -67,21 +67,34 @@ class Settled(NamedTuple):
     hanging: Hanging
 
 
-class Played(NamedTuple):
-    """Results of a round.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Played:
+    """Results of a round; what only the last one is asked for is read when it is.
 
     Attributes
     ----------
-    mesh, flow, hanging : PlacedMesh, FlowResult, Hanging
-        Snow along the curve, and the net under its forces.
-    settled : Settled or None
-        Of a net that hardly moved; its rounding is not removed.
+    core : CompiledRounds
+        Whose they are.
+    results : ndarray, shape (n,)
+        All of them.
+    flow, hanging : FlowResult, Hanging
+        Of the snow along the curve, and the net under its forces.
     """
 
-    mesh: PlacedMesh
+    core: CompiledRounds
+    results: Floats
     flow: FlowResult
     hanging: Hanging
-    settled: Settled | None
+
+    @cached_property
+    def mesh(self) -> PlacedMesh:
+        """Mesh along the curve."""
+        return self.core.view_mesh(self.results)
+
+    @cached_property
+    def settled(self) -> Settled | None:
+        """That of a net which hardly moved; its rounding is not removed."""
+        return self.core.view_settled(self.results)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -165,18 +178,21 @@ class CompiledRounds:
             linear_solves=effort.steps,
             change=effort.change,
         )
-        return Played(
-            mesh=self._view_mesh(results),
-            flow=flow,
-            hanging=self._view_hanging(results),
-            settled=self._view_settled(results),
-        )
+        hanging = self._view_hanging(results)
+        return Played(core=self, results=results, flow=flow, hanging=hanging)
 
     @property
     def _n_net(self) -> int:
         return int(self.problem.template.net.size)
 
-    def _view_mesh(self, results: Floats) -> PlacedMesh:
+    def view_mesh(self, results: Floats) -> PlacedMesh:
+        """Mesh of a round.
+
+        Parameters
+        ----------
+        results : ndarray, shape (n,)
+            Of the round.
+        """
         places, template = self.places, self.problem.template
         n_triangles = template.triangles.shape[1]
         return PlacedMesh(
@@ -227,7 +243,14 @@ class CompiledRounds:
             lengths=results[places[f"{prefix}lengths"]],
         )
 
-    def _view_settled(self, results: Floats) -> Settled | None:
+    def view_settled(self, results: Floats) -> Settled | None:
+        """Forces and net of a round that settled.
+
+        Parameters
+        ----------
+        results : ndarray, shape (n,)
+            Of the round.
+        """
         places, template = self.places, self.problem.template
         unbalanced = float(results[places["unbalanced"]][0])
         if unbalanced < 0.0:
@@ -256,7 +279,6 @@ def prepare_rounds(problem: SteadyProblem) -> CompiledRounds | None:
     return _prepare(library, problem)
 
 
-@lru_cache(maxsize=4)  # every round asks
 def _prepare(library: ctypes.PyDLL, problem: SteadyProblem) -> CompiledRounds | None:
     template, snow = problem.template, problem.snow
     top = float(problem.head[1])

@@ -116,7 +116,7 @@ def _find_tangent(problem: SteadyProblem, played: Round) -> Floats | None:
     with suppress(SingularError):
         return linearise_round(
             problem.snow,
-            played.mesh,
+            played.found.mesh,
             played.flow.state,
             hanging.cable,
             hanging.forces,

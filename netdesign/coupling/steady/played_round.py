@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.coupling.interface import share_net_forces
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.compiled_round import Settled, prepare_rounds
+from netdesign.coupling.steady.compiled_round import CompiledRounds, Played
 from netdesign.coupling.steady.hanging import (
     Hanging,
     SteadyProblem,
@@ -73,7 +74,24 @@ class Closeness(NamedTuple):
     still: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Stepped(NamedTuple):
+    """Results of a round that was taken step by step.
+
+    Attributes
+    ----------
+    mesh, flow, hanging : PlacedMesh, FlowResult, Hanging
+        Snow along the curve, and the net under its forces.
+    settled : None
+        The net under the forces of the stresses alone is not known.
+    """
+
+    mesh: PlacedMesh
+    flow: FlowResult
+    hanging: Hanging
+    settled: None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Round:
     """Flow along a curve, and the net that hangs under its forces.
 
@@ -81,22 +99,25 @@ class Round:
     ----------
     curve, image : ndarray, shape (2, n_net)
         The net's nodes as given, and as found [thickness].
-    mesh, flow : PlacedMesh, FlowResult
-        Snow along the curve.
-    hanging : Hanging
-        The net.
-    settled : Settled or None
-        It once more, under the forces of the stresses alone, if that is known.
+    found : Played or Stepped
+        Snow along the curve, and the net.
     """
 
     curve: Floats
-    mesh: PlacedMesh
-    flow: FlowResult
-    hanging: Hanging
     image: Floats
-    settled: Settled | None = None
+    found: Played | Stepped
 
     @property
+    def flow(self) -> FlowResult:
+        """Flow along the curve."""
+        return self.found.flow
+
+    @property
+    def hanging(self) -> Hanging:
+        """The net."""
+        return self.found.hanging
+
+    @cached_property
     def moved(self) -> float:
         """Largest distance of curve and image along an axis [thickness]."""
         return float(np.abs(self.image - self.curve).max())
@@ -105,6 +126,7 @@ class Round:
 def play_round(
     problem: SteadyProblem,
     settings: SolverSettings,
+    core: CompiledRounds | None,
     wanted: Floats,
     start: Start,
     closeness: Closeness,
@@ -117,6 +139,8 @@ def play_round(
         Scene on a mesh, dimensionless.
     settings : SolverSettings
         Newton steps allowed, and who takes them.
+    core : CompiledRounds or None
+        What plays a round in one call; None where NumPy has to do.
     wanted : ndarray, shape (2, n_net)
         Curve of the net [thickness].
     start : Start
@@ -129,37 +153,23 @@ def play_round(
     SolveError
         If no curve near enough has a mesh, a flow and a net in equilibrium.
     """
-    core = None if settings.step else prepare_rounds(problem)
     if core is not None:
         found = core.play(
             wanted, start.state, start.hanging, *closeness, settings.max_iterations
         )
         if found is not None:
-            return _end_round(problem, wanted, *found)
+            return _end_round(problem, wanted, found)
     # step by step: nearer to the last curve where that helps, else with a reason
     curve, mesh = _place_between(problem, start.curve, wanted)
     flow = flow_along(problem, mesh, start.state, settings, closeness.tolerance)
     on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
     hanging = hang_again(problem, start.hanging, on_net)
-    return _end_round(problem, curve, mesh, flow, hanging)
+    return _end_round(problem, curve, Stepped(mesh, flow, hanging))
 
 
-def _end_round(
-    problem: SteadyProblem,
-    curve: Floats,
-    mesh: PlacedMesh,
-    flow: FlowResult,
-    hanging: Hanging,
-    settled: Settled | None = None,
-) -> Round:
-    return Round(
-        curve=curve,
-        mesh=mesh,
-        flow=flow,
-        hanging=hanging,
-        image=find_contact_curve(problem, hanging),
-        settled=settled,
-    )
+def _end_round(problem: SteadyProblem, curve: Floats, found: Played | Stepped) -> Round:
+    image = find_contact_curve(problem, found.hanging)
+    return Round(curve=curve, image=image, found=found)
 
 
 def _place_between(

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.compiled_round import Settled
+from netdesign.coupling.steady.compiled_round import Settled, prepare_rounds
 from netdesign.coupling.steady.correction import (
     Correction,
     carry_tangent,
@@ -127,10 +127,10 @@ class Coupled:
         """
         return cls(
             problem=problem,
-            mesh=last.mesh,
+            mesh=last.found.mesh,
             state=last.flow.state,
             hanging=last.hanging,
-            settled=last.settled,
+            settled=last.found.settled,
             tangent=tangent,
             pull_gain=pull_gain,
             linear_solves=linear_solves,
@@ -171,6 +171,7 @@ def couple(
     correction: Correction | None = None
     corrects = guess is not None and guess.tangent is not None
     carried = _carry(problem, guess)
+    core = None if settings.step else prepare_rounds(problem)
     solves = tried = 0
     while tried < settings.max_rounds and solves <= allowed:
         tried += 1
@@ -178,7 +179,8 @@ def couple(
         inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
         try:
             begin = _begin(problem, guess, start, played)
-            now = play_round(problem, settings, curve, begin, Closeness(inner, still))
+            close = Closeness(inner, still)
+            now = play_round(problem, settings, core, curve, begin, close)
         except SolveError:
             if correction is None or not correction.may_halve:
                 raise
@@ -309,10 +311,12 @@ def _choose_tolerances(
 
 def _is_slow(played: Sequence[Round], guess: Coupled | None) -> bool:
     """Snow slips along the net, and the last round gained little, or the next would."""
-    slips = float((played[-1].flow.state.contact.sign != 0).mean())
+    last = played[-1]
     if len(played) > 1:
-        return slips > 0.0 and played[-1].moved > _SLOW * played[-2].moved
-    return guess is None and slips > _MOST_SLIPS and played[-1].moved < _NEAR_REST
+        is_slow = last.moved > _SLOW * played[-2].moved
+        return is_slow and last.flow.state.contact.slip_share > 0.0
+    is_near = guess is None and last.moved < _NEAR_REST
+    return is_near and last.flow.state.contact.slip_share > _MOST_SLIPS
 
 
 def _start_curve(

@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.coupling.steady import correction
 from netdesign.coupling.steady.correction import carry_tangent, correct_round
-from netdesign.coupling.steady.played_round import Round
+from netdesign.coupling.steady.played_round import Round, Stepped
 from netdesign.snow.linear import SingularError
 
 CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
@@ -16,7 +16,7 @@ CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
 def a_round(curve, image):
     hanging = SimpleNamespace(cable=None, forces=None, lengths=None)
     flow = SimpleNamespace(state=None)
-    return Round(curve=curve, mesh=None, flow=flow, hanging=hanging, image=image)
+    return Round(curve=curve, image=image, found=Stepped(None, flow, hanging))
 
 
 PROBLEM = SimpleNamespace(snow=None, stiffness=None)

@@ -5,6 +5,7 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.steady import rounds
+from netdesign.coupling.steady.played_round import Round, Stepped
 from netdesign.coupling.steady.rounds import couple
 from netdesign.coupling.steady.solve import _build_problem
 
@@ -58,10 +59,5 @@ def test_finer_meshes_wait_for_a_round_that_gains_little(smooth):
 def _a_round(end, moved):
     curve = end.hanging.cable.curve
     flow = type("Flow", (), {"state": end.state})
-    return rounds.Round(
-        curve=curve,
-        mesh=end.mesh,
-        flow=flow,
-        hanging=end.hanging,
-        image=curve + moved,
-    )
+    found = Stepped(end.mesh, flow, end.hanging)
+    return Round(curve=curve, image=curve + moved, found=found)
