@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from netdesign.evidence.benchmark.rows import Row
-    from netdesign.study.records import Study
 
 Kind = Literal["stress", "errors", "lines"]
 
@@ -216,19 +215,14 @@ def _run_envelope(missed: int, telling: _Telling, *, quick: bool) -> int:
         run_envelope_bench,
     )
     from netdesign.evidence.benchmark.figure_table import print_figure
-    from netdesign.report.files import render_files
     from netdesign.report.words import Words
-
-    def render(study: Study) -> object:
-        files = ("study.json", "report.html", "report.xlsx")
-        return render_files([study], [[Path(name) for name in files]])
 
     def show(row: dict[str, Any]) -> None:
         if not telling.as_json:
             print_figure(row, click.echo, Words(telling.language))
 
     size = QUICK if quick else BenchSize(missed_scenes=missed)
-    document = run_envelope_bench(render, size, show)
+    document = run_envelope_bench(size, show)
     if telling.as_json:
         telling.tell(document, show)
     return 0 if quick or document["pass"] else _EXIT_FAIL

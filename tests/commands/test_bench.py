@@ -56,7 +56,7 @@ def sizes(monkeypatch):
     """Sizes that were asked for; every figure is missed."""
     asked = []
 
-    def measure(_render, size, on_row):
+    def measure(size, on_row):
         asked.append(size)
         on_row(dict(ROW))
         return {"schema": envelope.SCHEMA, "pass": False, "rows": [dict(ROW)]}

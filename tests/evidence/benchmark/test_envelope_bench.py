@@ -23,21 +23,19 @@ TINY = BenchSize(grid=2, rows=1, missed_scenes=1, missed_grid=2, peaks=1,
 
 @pytest.mark.slow
 def test_the_table_is_complete_and_a_document():
-    rendered, shown = [], []
-    document = run_envelope_bench(rendered.append, TINY, shown.append)
+    shown = []
+    document = run_envelope_bench(TINY, shown.append)
     found = json.loads(json.dumps(document, allow_nan=False))
     assert found["schema"] == "netdesign.bench-envelope/1"
     assert found["size"]["rows"] == 1
-    assert found["rows"] == json.loads(json.dumps(shown))
+    assert found["rows"] == json.loads(json.dumps(shown, default=str))
     one, grid, batches, site, missed, narrow, workers, portfolio = found["rows"]
     assert all(isinstance(row["reached"], bool) for row in found["rows"])
     assert one["is_closed"]
     assert one["cases"] <= 80
     assert grid["cases"] == 8
     assert batches["cases"] == 18
-    assert [len(study.rows) for study in rendered] == [1, 1]
-    assert site["second"]["solved"] == 0
-    assert site["second"]["reused"] == site["first"]["solved"] + site["first"]["reused"]
+    assert 0.0 < site["second"]["wall_s"] < site["first"]["wall_s"]
     assert missed["missed"] == 0
     assert narrow["points"][0]["missed"] == 0
     assert 0 < workers["solved"] <= 8
@@ -65,6 +63,6 @@ def test_no_case_of_a_dense_grid_exceeds_the_bound(seed):
     """Nor that of a search which ended for want of cases, and says so."""
     task = build_random_task(seed)
     (found,) = search_rows([task], Runner())
-    assert ("could still exceed" in found.gap) is (seed in NOT_CLOSED)
+    assert ("could still exceed" in str(found.gap)) is (seed in NOT_CLOSED)
     assert (found.gap is None) is (seed not in NOT_CLOSED)
     assert measure_excess(task, found, 15) <= 0.0
