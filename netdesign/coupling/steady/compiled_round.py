@@ -93,7 +93,7 @@ class Played:
 
     @cached_property
     def settled(self) -> Settled | None:
-        """That of a net which hardly moved; its rounding is not removed."""
+        """Net that hardly moved, at rest; its rounding is not removed."""
         return self.core.view_settled(self.results)
 
 
