@@ -53,6 +53,7 @@ typedef struct {
     Hung settled; /* under the forces of its stresses alone */
     double *residual, *on_ground, *ground_normal; /* of these: (2 n_nodes,), (2,) ... */
     double *unbalanced; /* ... (2 n_edges,), (1,): not asked for below 0 */
+    double *way;        /* (1,): largest one of the net's nodes, along an axis */
 } Found;
 
 static double *take(double **next, size_t count) {
@@ -99,6 +100,7 @@ static size_t lay_out(const Scene *scene, double *results, int32_t slides, Found
     to->on_ground = take(&next, 2);
     to->ground_normal = take(&next, 2 * edges);
     to->unbalanced = take(&next, 1);
+    to->way = take(&next, 1);
     to->state.contact.is_pressed = (uint8_t *)next;
     to->state.contact.is_open = to->state.contact.is_pressed + net - 1;
     to->state.contact.is_lifted = to->state.contact.is_open + net - 1;
@@ -323,7 +325,7 @@ EXPORT int32_t nd_round(Scene *scene, const double *curve, double still, int32_t
                      found.net.forces);
         fault = hang(scene, &found.net);
     }
-    if (!fault && find_way(scene, curve, &found.net) < still)
-        fault = settle(scene, &found);
+    if (!fault) found.way[0] = find_way(scene, curve, &found.net);
+    if (!fault && found.way[0] < still) fault = settle(scene, &found);
     return fault == SINGULAR || fault > 0 ? ENDED_BADLY : fault;
 }

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,6 +32,7 @@ from netdesign.snow.law import FlowProblem, Material, sample_material
 from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
+from netdesign.snow.shared_mesh import find_once
 
 
 class Solved(NamedTuple):
@@ -330,14 +330,22 @@ def describe_law(
     return law, (bulk, fluidity)
 
 
-def describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
-    """Rules of contact as the core takes them; ``lifts`` is an address."""
+def describe_rules(problem: FlowProblem, lifts: Mask) -> RulesArgument:
+    """Rules of contact as the core takes them.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Contacts and friction.
+    lifts : ndarray of bool, shape (n_ground - 1,)
+        Ground nodes that may lift; the caller keeps it.
+    """
     return RulesArgument(
         problem.friction,
         problem.net_contact == "one-sided",
         problem.ground_contact == "one-sided",
         problem.ground == "no-slip",
-        lifts,
+        locate(lifts),
     )
 
 
@@ -352,14 +360,13 @@ class Described(NamedTuple):
         Of nodes, triangles, the net's nodes, edges on the ground.
     numbers : tuple of int
         Addresses of the nodes of triangles, net, ground, edges.
-    lifts, plan : int
-        Addresses of what may lift, and of the order of the nodes.
+    plan : int
+        Address of the order of the nodes.
     """
 
     kept: tuple[np.ndarray[Any, Any], ...]
     counts: tuple[int, int, int, int]
     numbers: tuple[int, ...]
-    lifts: int
     plan: int
 
 
@@ -383,7 +390,7 @@ def prepare_flow(
     load : ndarray, shape (n_dofs,)
         Of gravity, node axes [rho g d^2].
     """
-    described = describe_template(library, mesh.template)
+    described = describe_template(mesh.template, library)
     if described is None:
         return None
     base = mesh.base
@@ -391,29 +398,29 @@ def prepare_flow(
     kept = tuple(np.ascontiguousarray(one, dtype=np.float64) for one in arrays)
     argument = MeshArgument(*described.counts, *described.numbers, *locate_all(*kept))
     law, more = describe_law(problem, material, mesh.weights.shape)
+    lifts = may_lift(mesh.template)
     return CompiledFlow(
         library=library,
         mesh=mesh,
-        given=(argument, law, describe_rules(problem, described.lifts)),
+        given=(argument, law, describe_rules(problem, lifts)),
         plan=described.plan,
-        kept=(*described.kept, *kept, *more),
+        kept=(*described.kept, *kept, *more, lifts),
     )
 
 
-@lru_cache(maxsize=256)
+@find_once
 def describe_template(
-    library: ctypes.PyDLL, template: MeshTemplate
+    template: MeshTemplate, library: ctypes.PyDLL
 ) -> Described | None:
     """A template as the core takes it; None where it is too large."""
     plan = plan_template(library, template)
     if plan is None:
         return None
-    numbers, lifts = number_template(template), np.ascontiguousarray(may_lift(template))
+    numbers = number_template(template)
     counts = (template.nodes.shape[1], len(numbers.triangles))
     return Described(
-        kept=(*numbers, lifts, plan),
+        kept=(*numbers, plan),
         counts=(*counts, numbers.net.size, len(numbers.edges)),
         numbers=tuple(locate_all(*numbers)),
-        lifts=locate(lifts),
         plan=locate(plan),
     )

@@ -17,6 +17,7 @@ from netdesign.core.plan import Words, build_plan
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.element import reference_element
 from netdesign.snow.mesh import MeshTemplate, edge_triples
+from netdesign.snow.shared_mesh import find_once
 
 _POINTS = 3  # of a triangle, as ``POINTS`` of core.h
 
@@ -130,7 +131,7 @@ def describe_placement(template: MeshTemplate, tangents: Floats) -> PlacementArg
     )
 
 
-@lru_cache(maxsize=256)
+@find_once
 def _locate_template(template: MeshTemplate) -> tuple[Numbers, tuple[int, ...]]:
     """Numbers of a template, and where three of its arrays are while these live."""
     numbers = number_template(template)
@@ -145,7 +146,7 @@ def _reference() -> tuple[Floats, Floats, Floats]:
     return shape, gradients, weights
 
 
-@lru_cache(maxsize=256)
+@find_once
 def number_template(template: MeshTemplate) -> Numbers:
     """Numbers of a template."""
     triangles = np.ascontiguousarray(template.triangles.T, dtype=np.int32)

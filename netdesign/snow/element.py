@@ -13,6 +13,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.shared_mesh import find_once
 
 # Degree of exactness: strain rates of straight triangles are linear, the creep law of
 # them is not. Three points a triangle; six (degree 4) move end forces by some 0.005 %,
@@ -118,7 +119,7 @@ def build_strain_operator(
     return operator
 
 
-@lru_cache(maxsize=256)
+@find_once
 def _touch_net(template: MeshTemplate) -> Ints:
     """Triangles with a node on the net, whose axes are turned."""
     return np.flatnonzero(np.isin(template.triangles, template.net).any(axis=0))
@@ -150,7 +151,7 @@ def reference_element() -> tuple[Floats, Floats, Floats]:
     return np.array(values).T, np.array(gradients), np.full(x.size, 0.5 / x.size)
 
 
-@lru_cache(maxsize=256)
+@find_once
 def list_dofs(template: MeshTemplate, element: Element) -> Ints:
     """Unknowns of each triangle.
 

@@ -9,7 +9,6 @@ then, in the mixed element, one pressure per vertex. Plane tensors are stored as
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +18,7 @@ from netdesign.snow.element import reference_element
 from netdesign.snow.mesh import MeshTemplate, edge_triples
 from netdesign.snow.ordering import Blocks
 from netdesign.snow.placed_mesh import PlacedMesh
+from netdesign.snow.shared_mesh import find_once
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
@@ -163,7 +163,7 @@ def assemble_end_load(mesh: PlacedMesh, force: float) -> Floats:
     return mesh.to_node_axes(np.array([along, np.zeros_like(along)]))
 
 
-@lru_cache(maxsize=256)
+@find_once
 def share_end_load(template: MeshTemplate) -> Floats:
     """Shares of the nodes in a uniform traction on the upslope end.
 

@@ -36,7 +36,7 @@ _RING_RADIUS, _RING_GAP = 0.45, 0.4
 # end, and the share by which a column is wider than its neighbour.
 _RING_SHARE, _GROWTH = 1.8, 1.6
 _CLEARANCE = 1.3  # other points keep this many ring radii away
-_BESIDE = _CLEARANCE * _RING_RADIUS
+BESIDE = _CLEARANCE * _RING_RADIUS  # behind it columns begin
 _LEAST_ROWS = 2  # of triangles in each layer
 _LEAST_OFF = 0.8  # distance of other points from a layer's side, over half its pieces
 # Upslope of this many thicknesses the flow changes over lengths like the distance: the
@@ -116,6 +116,8 @@ class MeshTemplate:
         Upslope length over thickness.
     interfaces : tuple of float
         Heights between layers over the thickness, ascending.
+    source : MeshTemplate or None
+        Of another aspect, whose columns were moved: numbers and heights are its own.
     """
 
     nodes: Floats
@@ -128,6 +130,12 @@ class MeshTemplate:
     upstream: Ints
     aspect: float
     interfaces: tuple[float, ...] = ()
+    source: MeshTemplate | None = None
+
+    @property
+    def origin(self) -> MeshTemplate:
+        """Template that was triangulated: itself, or its source."""
+        return self.source or self
 
     @property
     def n_vertices(self) -> int:
@@ -161,7 +169,7 @@ def build_template(
     ModelError
         If the aspect is out of its range.
     """
-    require_within("upslope length over thickness", aspect, 0.25, 200.0)
+    require_aspect(aspect)
     columns = _column_places(aspect, size)
     points = _column_points(columns, size, interfaces)
     if size.sectors:
@@ -172,6 +180,22 @@ def build_template(
     for _ in range(size.subdivisions):
         mesh = _subdivide(mesh)
     return mesh
+
+
+def require_aspect(aspect: float) -> None:
+    """Refuse what no mesh is made for.
+
+    Parameters
+    ----------
+    aspect : float
+        Upslope length over thickness [-].
+
+    Raises
+    ------
+    ModelError
+        If it is out of its range.
+    """
+    require_within("upslope length over thickness", aspect, 0.25, 200.0)
 
 
 def triangulate(points: Floats, aspect: float) -> MeshTemplate:
@@ -393,10 +417,10 @@ def _add_rings(
 ) -> Floats:
     """The columns' points, beside the net rings in their place."""
     aspect = float(columns[-1])
-    first = float(columns[np.searchsorted(columns, min(_BESIDE, aspect))])
+    first = float(columns[np.searchsorted(columns, min(BESIDE, aspect))])
     to_foot = np.hypot(points[:, 0], points[:, 1])
     to_head = np.hypot(points[:, 0], 1.0 - points[:, 1])
-    apart = np.minimum(to_foot, to_head) > _BESIDE
+    apart = np.minimum(to_foot, to_head) > BESIDE
     points = np.vstack([_end_points(size, interfaces), points[apart]])
     # a short snowpack: the rings must not reach beyond its upslope end
     points = points[points[:, 0] <= aspect]

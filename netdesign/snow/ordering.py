@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints, gather
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.shared_mesh import find_once
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
@@ -258,7 +258,7 @@ def build_ordering(
     return _build_ordering(template, has_pressures, couples_net)
 
 
-@lru_cache(maxsize=256)
+@find_once
 def _build_ordering(
     template: MeshTemplate, has_pressures: bool, couples_net: bool
 ) -> Ordering:

@@ -25,6 +25,7 @@ from netdesign.snow.element import (
     reference_element,
 )
 from netdesign.snow.mesh import MeshTemplate, edge_triples
+from netdesign.snow.shared_mesh import find_once
 
 _EDGE_POINTS, EDGE_WEIGHTS = np.polynomial.legendre.leggauss(4)
 # Quadratic shape functions (n_points, 3) of an edge's start, middle and end, and their
@@ -302,7 +303,7 @@ class _Edges(NamedTuple):
     ground_dofs: Ints  # components of the velocity along the ground
 
 
-@lru_cache(maxsize=256)
+@find_once
 def _list_edges(template: MeshTemplate) -> _Edges:
     net, ground = (
         np.column_stack(edge_triples(chain))

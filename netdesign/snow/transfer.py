@@ -25,8 +25,8 @@ def transfer_state(
     """State carried to another mesh: a guess, in equilibrium with nothing.
 
     Stresses are those of the nearest quadrature point, contacts those of the nearest
-    support node, both in reference coordinates; velocities and reactions are 0 and
-    take the first step to be right.
+    support node, both in the coordinates of what was triangulated; velocities and
+    reactions are 0 and take the first step to be right.
 
     Parameters
     ----------
@@ -35,6 +35,7 @@ def transfer_state(
     source, target : MeshTemplate
         Of the old and of the new mesh, both of the same snowpack.
     """
+    source, target = source.origin, target.origin
     points = _nearest_points(source, target)
     per_triangle, rows = state.stress.shape[1:]
     stress = state.stress.reshape(-1, rows)[points]

@@ -17,6 +17,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.compiled_round import prepare_rounds
 from netdesign.coupling.steady.hanging import find_contact_curve, start_hanging
+from netdesign.coupling.steady.played_round import Guess
 from netdesign.coupling.steady.solve import _build_problem, solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
@@ -28,8 +29,9 @@ from netdesign.panel.strips import take_strip
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import remove_rounding
 from netdesign.snow.linear import SingularError
-from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.mesh import place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
+from netdesign.snow.shared_mesh import share_template
 
 
 def spoil(values, rng):
@@ -45,7 +47,7 @@ def try_spoilt(scene, rng):
     problem = scene.steady_flow_problem
     if problem.element != "velocity":
         return
-    template = build_template(
+    template = share_template(
         scene.modelled_aspect, SolverSettings().levels[0], scene.layer_tops
     )
     height = template.net_fractions
@@ -75,11 +77,11 @@ def try_spoilt_rounds(scene, rng):
     hanging = start_hanging(problem)
     curve = find_contact_curve(problem, hanging)
     for spoilt in (curve, spoil(curve, rng)):
-        found = rounds.play(spoilt, None, hanging, 1e-3, 1e9, 10)
+        found = rounds.play(spoilt, Guess(None, hanging), 1e-3, 1e9, 10)
         if found is not None:
-            state = found.flow.state
-            state = replace(state, stress=spoil(state.stress, rng))
-            rounds.play(curve, state, found.hanging, 1e-3, 1e9, 10)
+            rounds.play(curve, found, 1e-3, 1e9, 10)
+            state = replace(found.state, stress=spoil(found.state.stress, rng))
+            rounds.play(curve, Guess(state, found.hanging), 1e-3, 1e9, 10)
 
 
 def try_spoilt_panel(solution, rng):

@@ -175,10 +175,10 @@ def test_what_is_not_found_is_given_up_soon(work, friction_deg):
 
 @pytest.mark.parametrize(
     ("number", "cause"),
-    [(847, "steady.much_slack"), (1869, "steady.layers_contrast")],
+    [(847, "steady.much_slack"), (478, "steady.layers_contrast")],
 )
 def test_a_net_that_does_not_come_to_rest_has_its_cause_told(number, cause):
-    """Scenes of ``netdesign bench --stress 2000 --seed 1``, which had none."""
+    """Scenes of ``netdesign bench --stress 2000 --seed 1``."""
     failed = solve_steady(build_tables(draw_any_scene(1, number)))
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
     assert cause in [one.key for one in failed.reason.arguments["causes"]]

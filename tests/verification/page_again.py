@@ -266,7 +266,8 @@ class RowAgain:
         g = u if is_uphill else d
         compression = cross(pull, g) / cross(p, g)
         foot = b * math.hypot(state["fx"], state["fy"])
-        near = 2e-5 * size
+        # what the printed digits leave open of a pull, over the sine between members
+        near = 2e-5 * size / abs(cross(p, g))
         self.same(f"{what} |F_f|", state["|Ff|"], foot)
         self.same(f"{what} T_u", state["Tu"], max(tensions[0], 0.0), near)
         self.same(f"{what} T_d", state["Td"], 0.0 if is_uphill else tensions[1], near)

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import accumulate
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -41,7 +41,7 @@ from netdesign.snow.compiled import (
 from netdesign.snow.compiled_mesh import describe_placement
 from netdesign.snow.contact import Contact, may_lift
 from netdesign.snow.element import list_dofs
-from netdesign.snow.flow import FlowResult, ask_effort, make_linear
+from netdesign.snow.flow import ask_effort, make_linear
 from netdesign.snow.flow_state import FlowState
 from netdesign.snow.kernel import share_end_load
 from netdesign.snow.law import FlowProblem, sample_material
@@ -52,9 +52,12 @@ from netdesign.snow.placed_mesh import (
     EDGE_WEIGHTS,
     PlacedMesh,
 )
+from netdesign.snow.shared_mesh import find_once
 
-# Fields of ``SceneArgument``: how nodes follow the net, and the net's parts.
-_FRAME = ("reference", "follow", "below", "rise", "heights", "ends")
+# Fields of ``SceneArgument``: where nodes are and how they follow the net; which of
+# its nodes are beside them; its parts.
+_PLACED = ("reference", "follow")
+_FRAME = ("below", "rise", "heights", "ends")
 _NET = ("shares", "part", "firsts", "rises")
 
 _Arrays = tuple[np.ndarray[Any, Any], ...]
@@ -67,6 +70,18 @@ class Settled(NamedTuple):
     hanging: Hanging
 
 
+class Known(Protocol):
+    """Snow and net that a round starts from."""
+
+    @property
+    def state(self) -> FlowState | None:
+        """Flow; None if nothing is known of it."""
+
+    @property
+    def hanging(self) -> Hanging:
+        """Net as it hung last."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Played:
     """Results of a round; what only the last one is asked for is read when it is.
@@ -77,14 +92,37 @@ class Played:
         Whose they are.
     results : ndarray, shape (n,)
         All of them.
-    flow, hanging : FlowResult, Hanging
-        Of the snow along the curve, and the net under its forces.
+    linear_solves : int
+        Taken by the flow.
+    change : float
+        Relative error that its last step left [-].
     """
 
     core: CompiledRounds
     results: Floats
-    flow: FlowResult
-    hanging: Hanging
+    linear_solves: int
+    change: float
+
+    @property
+    def moved(self) -> float:
+        """Largest distance along an axis of the net and the curve given [thickness]."""
+        return float(self.results[self.core.places["way"].start])
+
+    @property
+    def image(self) -> Floats:
+        """Net's nodes in the snow as found, shape (2, n_net) [thickness]."""
+        curve = self.results[self.core.places["curve"]].reshape(2, -1)
+        return curve[:, : self.core.n_net]
+
+    @cached_property
+    def state(self) -> FlowState:
+        """Flow along the curve."""
+        return self.core.view_state(self.results)
+
+    @cached_property
+    def hanging(self) -> Hanging:
+        """Net under the flow's forces."""
+        return self.core.view_hanging(self.results)
 
     @cached_property
     def mesh(self) -> PlacedMesh:
@@ -124,8 +162,7 @@ class CompiledRounds:
     def play(
         self,
         curve: Floats,
-        start: FlowState | None,
-        hanging: Hanging,
+        start: Known,
         tolerance: float,
         still: float,
         max_iterations: int,
@@ -136,10 +173,8 @@ class CompiledRounds:
         ----------
         curve : ndarray, shape (2, n_net)
             Of the net in the snow [thickness].
-        start : FlowState or None
-            Where the flow starts.
-        hanging : Hanging
-            As the net hung last.
+        start : Known
+            Where it starts; the results of another round, for one.
         tolerance : float
             Relative error that the last step of the flow may leave [-].
         still : float
@@ -152,37 +187,47 @@ class CompiledRounds:
         ValueError
             If an array is not of its shape.
         """
-        given = to_floats(curve, (2, self._n_net))  # a copy lives as long as the call
+        given = to_floats(curve, (2, self.n_net))  # a copy lives as long as the call
         results = np.empty(self.places["marks"].stop)
-        state = self._view_state(results)
-        if start is not None:
-            _copy_state(start, state)
-        results[self.places["parts"]] = hanging.parts
-        results[self.places["pull"]] = hanging.cable.pull
+        is_known = self._copy_start(start, results)
         self.argument.effort = ask_effort(tolerance, max_iterations)
         code = self.library.nd_round(
             ctypes.byref(self.argument),
             ctypes.c_void_p(locate(given)),
             ctypes.c_double(still),
-            int(state.base_shear is not None),
-            int(start is not None),
+            int(self.places["shear"].stop > self.places["shear"].start),
+            int(is_known),
             ctypes.c_int64(results.size),
             ctypes.c_void_p(locate(results)),
         )
         if require_sound(code):
             return None
         effort = self.argument.effort
-        flow = FlowResult(
-            outcome=Outcome.CONVERGED,
-            state=state,
+        return Played(
+            core=self,
+            results=results,
             linear_solves=effort.steps,
             change=effort.change,
         )
-        hanging = self._view_hanging(results)
-        return Played(core=self, results=results, flow=flow, hanging=hanging)
+
+    def _copy_start(self, start: Known, results: Floats) -> bool:
+        """Write where a round starts into its results; whether the flow is known."""
+        places = self.places
+        if isinstance(start, Played) and start.core is self:
+            going_on = slice(places["unknowns"].start, places["pull"].stop)
+            for part in (going_on, places["marks"]):
+                results[part] = start.results[part]
+            return True
+        state, hanging = start.state, start.hanging
+        if state is not None:
+            _copy_state(state, self.view_state(results))
+        results[places["parts"]] = hanging.parts
+        results[places["pull"]] = hanging.cable.pull
+        return state is not None
 
     @property
-    def _n_net(self) -> int:
+    def n_net(self) -> int:
+        """Number of the net's nodes in the snow."""
         return int(self.problem.template.net.size)
 
     def view_mesh(self, results: Floats) -> PlacedMesh:
@@ -207,11 +252,18 @@ class CompiledRounds:
             axes=results[places["axes"]].reshape(2, -1),
         )
 
-    def _view_state(self, results: Floats) -> FlowState:
+    def view_state(self, results: Floats) -> FlowState:
+        """Flow of a round.
+
+        Parameters
+        ----------
+        results : ndarray, shape (n,)
+            Of the round.
+        """
         places, template = self.places, self.problem.template
         shear = results[places["shear"]]
         marks = results[places["marks"]].view(np.bool_)
-        n_net, n_ground = self._n_net - 1, template.ground.size - 1
+        n_net, n_ground = self.n_net - 1, template.ground.size - 1
         return FlowState(
             unknowns=results[places["unknowns"]],
             reaction=results[places["reaction"]],
@@ -225,7 +277,16 @@ class CompiledRounds:
             ),
         )
 
-    def _view_hanging(self, results: Floats, prefix: str = "") -> Hanging:
+    def view_hanging(self, results: Floats, prefix: str = "") -> Hanging:
+        """Net of a round.
+
+        Parameters
+        ----------
+        results : ndarray, shape (n,)
+            Of the round.
+        prefix : str
+            ``settled_`` for that under the forces of the stresses alone.
+        """
         places = self.places
         ends = results[places[f"{prefix}ends"]]
         cable = Funicular(
@@ -255,9 +316,9 @@ class CompiledRounds:
         unbalanced = float(results[places["unbalanced"]][0])
         if unbalanced < 0.0:
             return None
-        hanging = self._view_hanging(results, "settled_")
+        hanging = self.view_hanging(results, "settled_")
         forces = SupportForces(
-            on_net=hanging.forces[:, : self._n_net],
+            on_net=hanging.forces[:, : self.n_net],
             on_ground=results[places["on_ground"]],
             ground_normal=results[places["ground_normal"]][may_lift(template)],
             unbalanced=unbalanced,
@@ -282,14 +343,17 @@ def prepare_rounds(problem: SteadyProblem) -> CompiledRounds | None:
 def _prepare(library: ctypes.PyDLL, problem: SteadyProblem) -> CompiledRounds | None:
     template, snow = problem.template, problem.snow
     top = float(problem.head[1])
-    form = _describe_form(library, template, top, snow.ground == "sliding")
+    form = _describe_form(template, library, top, snow.ground == "sliding")
     if form is None:
         return None
     laws = _describe_laws(snow, template if snow.layers[1:] else None)
     head = np.array(problem.head, dtype=np.float64)
     argument = SceneArgument.from_buffer_copy(form.argument)
     argument.law, argument.first = laws.law, laws.first
-    argument.rules = describe_rules(snow, form.lifts)
+    placed, lifts = _describe_places(template), may_lift(template)
+    for name, place in zip(_PLACED, locate_all(*placed), strict=True):
+        setattr(argument, name, place)
+    argument.rules = describe_rules(snow, lifts)
     argument.gravity[:] = snow.gravity
     argument.is_uniform = int(laws.density.size == 1)
     argument.density, argument.head = locate_all(laws.density, head)
@@ -300,7 +364,7 @@ def _prepare(library: ctypes.PyDLL, problem: SteadyProblem) -> CompiledRounds | 
         problem=problem,
         argument=argument,
         places=form.places,
-        kept=(*form.kept, *laws.kept, laws.density, head),
+        kept=(*form.kept, *placed, lifts, *laws.kept, laws.density, head),
     )
 
 
@@ -330,16 +394,15 @@ class _Form(NamedTuple):
     """A template and a net of some height as the core takes them."""
 
     argument: SceneArgument
-    lifts: int
     places: Mapping[str, slice]
     kept: _Arrays
 
 
-@lru_cache(maxsize=256)
+@find_once
 def _describe_form(
-    library: ctypes.PyDLL, template: MeshTemplate, top: float, slides: bool
+    template: MeshTemplate, library: ctypes.PyDLL, top: float, slides: bool
 ) -> _Form | None:
-    described = describe_template(library, template)
+    described = describe_template(template, library)
     if described is None:
         return None
     frame, net = _describe_frame(template), _describe_net(template, top)
@@ -360,7 +423,6 @@ def _describe_form(
     argument.tolerance = CLOSED
     return _Form(
         argument=argument,
-        lifts=described.lifts,
         places=_lay_out(template, net[0].size, net[-1].size, slides=slides),
         kept=(*described.kept, *frame, *net, end, template.orientation),
     )
@@ -378,15 +440,21 @@ def _describe_net(template: MeshTemplate, top: float) -> _Arrays:
 
 
 @lru_cache(maxsize=256)
+def _describe_places(template: MeshTemplate) -> _Arrays:
+    """Nodes and how they follow the net, as ``Scene`` of round.c has them."""
+    return (
+        np.ascontiguousarray(template.nodes, dtype=np.float64),
+        np.ascontiguousarray(follow_net(template), dtype=np.float64),
+    )
+
+
 def _describe_frame(template: MeshTemplate) -> _Arrays:
-    """Shares of nodes in the net's curve, as ``Scene`` of round.c has them."""
+    """Places of nodes between those of the net, as ``Scene`` of round.c has them."""
     heights, of_net = template.nodes[1], template.net_fractions
     below = np.searchsorted(of_net, heights, side="right") - 1
     below = np.clip(below, 0, of_net.size - 1)
     rise = np.where(below < of_net.size - 1, heights - of_net[below], 0.0)
     return (
-        np.ascontiguousarray(template.nodes, dtype=np.float64),
-        np.ascontiguousarray(follow_net(template), dtype=np.float64),
         np.ascontiguousarray(below, dtype=np.int32),
         np.maximum(rise, 0.0),
         np.ascontiguousarray(of_net, dtype=np.float64),
@@ -416,7 +484,7 @@ def _lay_out(
         **hung,
         **{f"settled_{name}": size for name, size in hung.items()},
         **{"residual": 2 * nodes, "on_ground": 2, "ground_normal": ground},
-        **{"unbalanced": 1, "marks": (2 * (net - 1) + ground) // 8 + 1},
+        **{"unbalanced": 1, "way": 1, "marks": (2 * (net - 1) + ground) // 8 + 1},
     }
     ends = accumulate(sizes.values())
     return {

@@ -117,7 +117,7 @@ def _find_tangent(problem: SteadyProblem, played: Round) -> Floats | None:
         return linearise_round(
             problem.snow,
             played.found.mesh,
-            played.flow.state,
+            played.state,
             hanging.cable,
             hanging.forces,
             hanging.lengths,

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +21,7 @@ from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.shared_mesh import find_once
 from netdesign.words.message import say
 
 
@@ -110,7 +110,7 @@ def start_hanging(problem: SteadyProblem) -> Hanging:
     return _hang(problem, on_net, pull, heights * per_height)
 
 
-@lru_cache(maxsize=256)
+@find_once
 def _share_load(template: MeshTemplate) -> Floats:
     """Shares of the nodes in a uniform load per height, shape (n_net,)."""
     lengths = np.diff(template.net_fractions[::2])
@@ -203,7 +203,7 @@ class NetParts(NamedTuple):
     rises: Floats
 
 
-@lru_cache(maxsize=256)
+@find_once
 def cut_net(template: MeshTemplate, top: float) -> NetParts:
     """Parts of a net of some height.
 

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.coupling.interface import share_net_forces
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.compiled_round import CompiledRounds, Played
+from netdesign.coupling.steady.compiled_round import CompiledRounds, Known, Played
 from netdesign.coupling.steady.hanging import (
     Hanging,
     SteadyProblem,
@@ -48,13 +47,25 @@ class Start(NamedTuple):
     ----------
     curve : ndarray, shape (2, n_net), or None
         Of the last round on this mesh; None before the first [thickness].
-    state : FlowState or None
-        Where the flow starts.
-    hanging : Hanging
-        As the net hung last.
+    known : Known
+        What the last round found, or is known otherwise.
     """
 
     curve: Floats | None
+    known: Known
+
+
+class Guess(NamedTuple):
+    """Snow and net before the first round on a mesh, as far as they are known.
+
+    Attributes
+    ----------
+    state : FlowState or None
+        Where the flow starts.
+    hanging : Hanging
+        The net.
+    """
+
     state: FlowState | None
     hanging: Hanging
 
@@ -79,15 +90,19 @@ class Stepped(NamedTuple):
 
     Attributes
     ----------
-    mesh, flow, hanging : PlacedMesh, FlowResult, Hanging
+    mesh, state, hanging : PlacedMesh, FlowState, Hanging
         Snow along the curve, and the net under its forces.
+    linear_solves, change : int, float
+        Taken by the flow; relative error that its last step left [-].
     settled : None
         The net under the forces of the stresses alone is not known.
     """
 
     mesh: PlacedMesh
-    flow: FlowResult
+    state: FlowState
     hanging: Hanging
+    linear_solves: int
+    change: float
     settled: None = None
 
 
@@ -99,28 +114,26 @@ class Round:
     ----------
     curve, image : ndarray, shape (2, n_net)
         The net's nodes as given, and as found [thickness].
+    moved : float
+        Largest distance of the two along an axis [thickness].
     found : Played or Stepped
         Snow along the curve, and the net.
     """
 
     curve: Floats
     image: Floats
+    moved: float
     found: Played | Stepped
 
     @property
-    def flow(self) -> FlowResult:
+    def state(self) -> FlowState:
         """Flow along the curve."""
-        return self.found.flow
+        return self.found.state
 
     @property
     def hanging(self) -> Hanging:
         """The net."""
         return self.found.hanging
-
-    @cached_property
-    def moved(self) -> float:
-        """Largest distance of curve and image along an axis [thickness]."""
-        return float(np.abs(self.image - self.curve).max())
 
 
 def play_round(
@@ -154,22 +167,23 @@ def play_round(
         If no curve near enough has a mesh, a flow and a net in equilibrium.
     """
     if core is not None:
-        found = core.play(
-            wanted, start.state, start.hanging, *closeness, settings.max_iterations
-        )
-        if found is not None:
-            return _end_round(problem, wanted, found)
+        played = core.play(wanted, start.known, *closeness, settings.max_iterations)
+        if played is not None:
+            return Round(
+                curve=wanted, image=played.image, moved=played.moved, found=played
+            )
     # step by step: nearer to the last curve where that helps, else with a reason
     curve, mesh = _place_between(problem, start.curve, wanted)
-    flow = flow_along(problem, mesh, start.state, settings, closeness.tolerance)
+    flow = flow_along(problem, mesh, start.known.state, settings, closeness.tolerance)
     on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
-    hanging = hang_again(problem, start.hanging, on_net)
-    return _end_round(problem, curve, Stepped(mesh, flow, hanging))
-
-
-def _end_round(problem: SteadyProblem, curve: Floats, found: Played | Stepped) -> Round:
-    image = find_contact_curve(problem, found.hanging)
-    return Round(curve=curve, image=image, found=found)
+    hanging = hang_again(problem, start.known.hanging, on_net)
+    image = find_contact_curve(problem, hanging)
+    return Round(
+        curve=curve,
+        image=image,
+        moved=float(np.abs(image - curve).max()),
+        found=Stepped(mesh, flow.state, hanging, flow.linear_solves, flow.change),
+    )
 
 
 def _place_between(

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.compiled_round import Settled, prepare_rounds
+from netdesign.coupling.steady.compiled_round import Played, Settled, prepare_rounds
 from netdesign.coupling.steady.correction import (
     Correction,
     carry_tangent,
@@ -31,8 +31,10 @@ from netdesign.coupling.steady.hanging import (
 )
 from netdesign.coupling.steady.played_round import (
     Closeness,
+    Guess,
     Round,
     Start,
+    Stepped,
     explain_failure,
     play_round,
 )
@@ -80,10 +82,12 @@ class Coupled:
 
     Attributes
     ----------
-    problem, mesh, state, hanging : SteadyProblem, PlacedMesh, FlowState, Hanging
-        What was solved; the snow, and the net under its forces.
-    settled : Settled or None
-        The net under the forces of the stresses alone, if that is known.
+    problem : SteadyProblem
+        What was solved.
+    found : Played or Stepped
+        By the last round.
+    state, hanging : FlowState, Hanging
+        The snow, and the net under its forces.
     tangent : ndarray, shape (2, n_net, 2, n_net), or None
         Derivative of the last round, if plain rounds gained little [-].
     pull_gain : float
@@ -93,14 +97,23 @@ class Coupled:
     """
 
     problem: SteadyProblem
-    mesh: PlacedMesh
+    found: Played | Stepped
     state: FlowState
     hanging: Hanging
-    settled: Settled | None
     tangent: Floats | None
     pull_gain: float
     linear_solves: int
     rounds: int
+
+    @property
+    def mesh(self) -> PlacedMesh:
+        """Mesh of the snow."""
+        return self.found.mesh
+
+    @property
+    def settled(self) -> Settled | None:
+        """Net under the forces of the stresses alone, if that is known."""
+        return self.found.settled
 
     @classmethod
     def of_round(
@@ -127,10 +140,9 @@ class Coupled:
         """
         return cls(
             problem=problem,
-            mesh=last.found.mesh,
-            state=last.flow.state,
+            found=last.found,
+            state=last.state,
             hanging=last.hanging,
-            settled=last.found.settled,
             tangent=tangent,
             pull_gain=pull_gain,
             linear_solves=linear_solves,
@@ -188,8 +200,8 @@ def couple(
             curve, solves = correction.target, solves + _FAILED_FLOW
             continue
         played.append(now)
-        solves += now.flow.linear_solves
-        is_still = now.moved < still and now.flow.change < tolerance
+        solves += now.found.linear_solves
+        is_still = now.moved < still and now.found.change < tolerance
         if is_still and _has_settled(problem, played, guess, _SETTLED * still):
             tangent = correction.tangent if correction else carried
             gain = _measure_gain(problem, played, guess)
@@ -284,11 +296,11 @@ def _begin(
     """Start of the next round: the last one, else the guess."""
     if played:
         last = played[-1]
-        return Start(last.curve, last.flow.state, last.hanging)
+        return Start(last.curve, last.found)
     if guess is None:
-        return Start(None, None, hanging)
-    old, new = guess.mesh.template, problem.template
-    return Start(None, transfer_state(guess.state, old, new), hanging)
+        return Start(None, Guess(None, hanging))
+    old, new = guess.problem.template, problem.template
+    return Start(None, Guess(transfer_state(guess.state, old, new), hanging))
 
 
 def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> float:
@@ -314,9 +326,9 @@ def _is_slow(played: Sequence[Round], guess: Coupled | None) -> bool:
     last = played[-1]
     if len(played) > 1:
         is_slow = last.moved > _SLOW * played[-2].moved
-        return is_slow and last.flow.state.contact.slip_share > 0.0
+        return is_slow and last.state.contact.slip_share > 0.0
     is_near = guess is None and last.moved < _NEAR_REST
-    return is_near and last.flow.state.contact.slip_share > _MOST_SLIPS
+    return is_near and last.state.contact.slip_share > _MOST_SLIPS
 
 
 def _start_curve(
@@ -329,7 +341,7 @@ def _start_curve(
     source, target = guess.problem.template, problem.template
     # between its nodes as smooth as the net is, which a polygon is not
     if not source.interfaces and not target.interfaces:
-        return np.asarray(curve @ _weigh_nodes(source, target))
+        return np.asarray(curve @ _weigh_nodes(source.origin, target.origin))
     known, wanted = (locate_nodes(one, hanging) for one in (source, target))
     return interpolate_curve(known, curve, wanted)
 

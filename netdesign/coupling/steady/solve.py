@@ -45,7 +45,8 @@ from netdesign.coupling.steady.rounds import Coupled, couple
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template
+from netdesign.snow.mesh import MeshSize, MeshTemplate
+from netdesign.snow.shared_mesh import share_template
 from netdesign.words.message import say
 
 # Share of suction, over the largest accepted, that no finer mesh takes back.
@@ -283,7 +284,7 @@ def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
 
 
 def _build_template(scene: Scene, size: MeshSize) -> MeshTemplate:
-    return build_template(scene.modelled_aspect, size, scene.layer_tops)
+    return share_template(scene.modelled_aspect, size, scene.layer_tops)
 
 
 def _finish(end: Coupled) -> tuple[Coupled, SupportForces]:

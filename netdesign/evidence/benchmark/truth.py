@@ -14,7 +14,8 @@ from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
-from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.snow.mesh import MeshSize
+from netdesign.snow.shared_mesh import share_template
 
 HALVINGS = 2  # of every side: a truth is four times finer
 # Rounding in the balance grows with the mesh; a truth is not handed out as a result.
@@ -109,7 +110,7 @@ def _solve_finest(scene: Scene, settings: SolverSettings) -> Truth:
 
 def _require_finest(solution: Solution, size: MeshSize) -> None:
     """A result that was left to a coarser mesh is no truth."""
-    template = build_template(
+    template = share_template(
         solution.scene.modelled_aspect, size, solution.scene.layer_tops
     )
     if solution.cost.elements != template.triangles.shape[1]:
@@ -138,7 +139,7 @@ def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:
     """Level whose mesh a solution was found on, by its number of triangles."""
     aspect = solution.scene.modelled_aspect
     for level in levels:
-        template = build_template(aspect, level, solution.scene.layer_tops)
+        template = share_template(aspect, level, solution.scene.layer_tops)
         if template.triangles.shape[1] == solution.cost.elements:
             return level
     return levels[-1]

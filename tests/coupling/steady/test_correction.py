@@ -15,8 +15,9 @@ CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
 
 def a_round(curve, image):
     hanging = SimpleNamespace(cable=None, forces=None, lengths=None)
-    flow = SimpleNamespace(state=None)
-    return Round(curve=curve, image=image, found=Stepped(None, flow, hanging))
+    found = Stepped(None, None, hanging, 1, 0.0)
+    moved = np.abs(image - curve).max()
+    return Round(curve=curve, image=image, moved=moved, found=found)
 
 
 PROBLEM = SimpleNamespace(snow=None, stiffness=None)

@@ -58,6 +58,5 @@ def test_finer_meshes_wait_for_a_round_that_gains_little(smooth):
 
 def _a_round(end, moved):
     curve = end.hanging.cable.curve
-    flow = type("Flow", (), {"state": end.state})
-    found = Stepped(end.mesh, flow, end.hanging)
-    return Round(curve=curve, image=curve + moved, found=found)
+    found = Stepped(end.mesh, end.state, end.hanging, 1, 0.0)
+    return Round(curve=curve, image=curve + moved, moved=moved, found=found)
