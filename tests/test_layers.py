@@ -80,7 +80,7 @@ THIRD_PARTY = {
     "scipy": (
         "numerics.newton",
         "snow.*",
-        *("planview", "planview.*"),
+        "planview.special",
         "winter.table",
         "solving.store",
         "evidence.*",

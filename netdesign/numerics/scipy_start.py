@@ -35,26 +35,21 @@ def importing_scipy() -> Iterator[None]:
 
 
 @contextmanager
-def importing_parts_of(package: str) -> Iterator[None]:
-    """Time in which modules of a package of SciPy are imported without the others.
+def importing_parts_of(*packages: str) -> Iterator[None]:
+    """Time in which modules of packages of SciPy are imported without the others.
 
-    The package stands there by its place and is not executed. Afterwards it is as if
+    A package stands there by its place and is not executed. Afterwards it is as if
     nobody had asked for it: whoever does gets it whole, with the modules that are
-    loaded. Of ``scipy.spatial`` rotations and distances are left out, which take twice
-    as long as all else.
-
-    Parameters
-    ----------
-    package : str
-        As ``scipy.spatial``.
+    loaded. Of ``scipy.spatial`` rotations and distances are left out, of
+    ``scipy.special`` its copies for other kinds of arrays, which take longer than all
+    else.
     """
     with importing_scipy():
-        spec = None if package in sys.modules else find_spec(package)
-        if spec is None:
-            yield
-            return
-        sys.modules[package] = module_from_spec(spec)
+        specs = {one: find_spec(one) for one in packages if one not in sys.modules}
+        placed = {one: module_from_spec(spec) for one, spec in specs.items() if spec}
+        sys.modules.update(placed)
         try:
             yield
         finally:
-            del sys.modules[package]
+            for one in placed:
+                del sys.modules[one]

@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.special import erf, erfc
 
 from netdesign.numerics.arrays import Floats
 from netdesign.planview.gap import GapFlow
+from netdesign.planview.special import erf, erfc
 from netdesign.planview.waves import (
     FUNCTIONS,
     load_bessel,

@@ -10,10 +10,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import digamma, eval_gegenbauer, gamma, gammaln, roots_gegenbauer
 
 from netdesign.numerics.arrays import Floats
 from netdesign.planview.gap import GapFlow
+from netdesign.planview.special import (
+    eval_gegenbauer,
+    find_gegenbauer_places,
+    gamma,
+    gammaln,
+    psi,
+)
 from netdesign.planview.waves import (
     FEWER,
     FUNCTIONS,
@@ -70,8 +76,7 @@ def solve_pulled_gap(half: float, *, functions: int = FUNCTIONS) -> GapFlow:
 @lru_cache(maxsize=1)
 def _list_places() -> tuple[Floats, Floats]:
     """Points in the gap and weights of Gegenbauer, made once."""
-    places, weights = roots_gegenbauer(_PLACES, _VELOCITY)
-    return places, weights
+    return find_gegenbauer_places(_PLACES, _VELOCITY)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -154,8 +159,8 @@ def _integrate_first() -> float:
     is_long = waves.numbers < 1.0
     numbers, weights = waves.numbers[is_long], waves.weights[is_long]
     start = _PULL_MEAN**2
-    finite = math.log(2.0) + float(digamma(0.75))
-    finite -= (np.euler_gamma + float(digamma(0.5))) / 2.0
+    finite = math.log(2.0) + float(psi(0.75))
+    finite -= (np.euler_gamma + float(psi(0.5))) / 2.0
     return float(start * finite + weights @ (start / numbers))
 
 

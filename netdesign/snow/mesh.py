@@ -490,7 +490,7 @@ def _is_clear(points: Floats, line: Floats) -> Mask:
 @cache
 def load_delaunay() -> Any:
     """SciPy's triangulation: the longest import of a solve, when first asked for."""
-    with suppress(ImportError), importing_parts_of("scipy.spatial"):
+    with suppress(ImportError), importing_parts_of("scipy.linalg", "scipy.spatial"):
         from scipy.spatial._qhull import Delaunay
 
         return Delaunay

@@ -17,6 +17,8 @@ from netdesign.snow.mesh import MeshTemplate
 
 # Added between layers, more than any distance in one [thickness].
 _FAR_APART = 1e4
+# Distances of all pairs that are measured sooner than SciPy's tree is imported.
+_MOST_PAIRS = 1_000_000
 
 
 def transfer_state(
@@ -61,8 +63,12 @@ def transfer_state(
 
 @lru_cache(maxsize=256)
 def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
-    tree = _load_tree()(_list_points(source))
-    _, nearest = tree.query(_list_points(target))
+    known, wanted = _list_points(source), _list_points(target)
+    if len(known) * len(wanted) <= _MOST_PAIRS:
+        (x, y), (x_known, y_known) = wanted.T[..., None], known.T
+        distances = (x - x_known) ** 2 + (y - y_known) ** 2
+        return np.asarray(distances.argmin(axis=1), dtype=np.int64)
+    _, nearest = _load_tree()(known).query(wanted)
     return np.asarray(nearest, dtype=np.int64)
 
 

@@ -30,7 +30,7 @@ from netdesign.search.known_search import KnownSearch, decode_search, encode_sea
 from netdesign.solving.state import CaseEnd, decode_end, encode_end
 from netdesign.words.message import Message, say
 
-_LAYOUT = 4  # of the tables
+_LAYOUT = 5  # of the tables
 BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _SOLVER_PARTS = ("numerics", "core", "snow", "cable", "coupling", "solving")
@@ -215,13 +215,14 @@ class CaseStore:
         if not tables:
             base.execute("CREATE TABLE origin (layout INTEGER, solver TEXT)")
             base.execute("INSERT INTO origin VALUES (?, ?)", (_LAYOUT, version))
+            # entries are long: they stay in the order in which they come
             base.execute(
                 "CREATE TABLE cases (name TEXT PRIMARY KEY, numbers TEXT NOT NULL, "
-                "shape BLOB NOT NULL, seal TEXT NOT NULL) WITHOUT ROWID"
+                "shape BLOB NOT NULL, seal TEXT NOT NULL)"
             )
             base.execute(
                 "CREATE TABLE searches (name TEXT PRIMARY KEY, text TEXT NOT NULL, "
-                "seal TEXT NOT NULL) WITHOUT ROWID"
+                "seal TEXT NOT NULL)"
             )
         base.execute("COMMIT")
         if tables and not {"origin", "cases"} <= tables:

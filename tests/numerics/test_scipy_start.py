@@ -52,16 +52,31 @@ def test_the_rest_of_a_package_is_not_loaded():
     loaded = run(*PARTS)
     assert "scipy.spatial._qhull" in loaded
     assert {"scipy.spatial", "scipy.spatial.transform"}.isdisjoint(loaded)
+    assert "scipy.linalg.cython_lapack" in loaded
+    assert {"scipy.linalg", "scipy.linalg._basic"}.isdisjoint(loaded)
+
+
+def test_special_functions_come_without_their_package():
+    loaded = run("import netdesign.planview.end_effect")
+    assert "scipy.special._ufuncs" in loaded
+    assert {"scipy.special", "scipy.linalg"}.isdisjoint(loaded)
 
 
 def test_a_package_is_whole_for_whoever_asks_later():
     run(
         *PARTS,
-        "import numpy as np, scipy.interpolate, scipy.spatial",
+        "import netdesign.planview.special as special",
+        "import numpy as np, scipy.interpolate, scipy.linalg, scipy.spatial",
+        "import scipy.special, scipy.sparse.linalg",
         "assert parts == (scipy.spatial.Delaunay, scipy.spatial.cKDTree)",
         "points = np.array([[0.0, 0.0], [1.3, 0.0], [0.0, 1.7], [1.1, 0.9]])",
         "assert scipy.spatial.ConvexHull(points).volume > 0.0",
         "assert scipy.spatial.transform.Rotation.identity().magnitude() == 0.0",
+        "np.testing.assert_allclose(scipy.linalg.solve([[2.3]], [1.0]), 1.0 / 2.3)",
+        "assert scipy.special.psi is special.psi",
+        "assert scipy.special.roots_gegenbauer(3, 0.7)[0].size == 3",
+        "solve = scipy.sparse.linalg.splu(scipy.sparse.eye(3, format='csc')).solve",
+        "np.testing.assert_allclose(solve(np.ones(3)), 1.0)",
         "found = scipy.interpolate.LinearNDInterpolator(points, points[:, 0])",
         "np.testing.assert_allclose(found([[0.31, 0.27]]), 0.31)",
     )

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow.contact import start_contact
+from netdesign.snow import transfer
+from netdesign.snow.contact import Contact, start_contact
 from netdesign.snow.element import point_heights
 from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
+from netdesign.snow.shared_mesh import share_template
 from netdesign.snow.transfer import transfer_state
 
 TOPS = (0.317, 0.574)
@@ -40,3 +42,45 @@ def test_stress_stays_in_its_layer(old, new):
     )
     carried = transfer_state(state, source.template, target.template)
     np.testing.assert_array_equal(carried.stress[..., 0], number_layers(target))
+
+
+@pytest.mark.parametrize("tops", [(), TOPS])
+def test_nearest_points_are_those_of_the_tree(monkeypatch, tops):
+    """Also where two are as near: any of them is right."""
+    source, target = (
+        build_template(7.31, MESH_LEVELS[level], tops) for level in (0, 1)
+    )
+    known, wanted = map(transfer._list_points, (source, target))
+
+    def measure():
+        transfer._nearest_points.cache_clear()
+        near = known[transfer._nearest_points(source, target)]
+        return np.hypot(*(near - wanted).T)
+
+    measured = measure()
+    monkeypatch.setattr(transfer, "_MOST_PAIRS", 0)
+    np.testing.assert_allclose(measured, measure(), rtol=0.0, atol=1e-12)
+    transfer._nearest_points.cache_clear()
+
+
+def test_a_stretched_mesh_takes_over_what_its_origin_would():
+    states = []
+    for find, aspect in ((share_template, 5.21), (build_template, 5.0)):
+        source, target = (find(aspect, level) for level in MESH_LEVELS[:2])
+        points = 3 * source.triangles.shape[1]
+        state = FlowState(
+            unknowns=np.zeros(2 * source.nodes.shape[1]),
+            reaction=np.zeros(2 * source.nodes.shape[1]),
+            stress=np.arange(3.0 * points).reshape(-1, 3, 3),
+            base_shear=np.arange(4.0 * (source.ground.size // 2)).reshape(-1, 4),
+            contact=Contact(
+                sign=np.arange(source.net.size - 1) % 3 - 1,
+                is_pressed=np.arange(source.net.size - 1) % 2 == 0,
+                is_open=np.zeros(source.net.size - 1, dtype=bool),
+                is_lifted=np.zeros(source.ground.size - 1, dtype=bool),
+            ),
+        )
+        states.append(transfer_state(state, source, target))
+    for name in ("stress", "base_shear"):
+        np.testing.assert_array_equal(*(getattr(one, name) for one in states))
+    np.testing.assert_array_equal(*(one.contact.sign for one in states))
