@@ -245,13 +245,17 @@ static int hang(const Scene *scene, const Hung *net) {
     return stretch(scene, net, net->pull);
 }
 
-/* Largest distance along an axis of the net and the curve that it was given. */
+/* Largest distance along an axis of the net and the curve that it was given; no number
+ * where one of them is none. */
 static double find_way(const Scene *scene, const double *curve, const Hung *net) {
     double way = 0.0;
     for (int axis = 0; axis < 2; axis++) {
         const double *now = net->curve + axis * (2 * scene->n_elements + 1);
-        for (int32_t i = 0; i < scene->mesh.n_net; i++)
-            way = fmax(way, fabs(now[i] - curve[axis * scene->mesh.n_net + i]));
+        for (int32_t i = 0; i < scene->mesh.n_net; i++) {
+            double away = fabs(now[i] - curve[axis * scene->mesh.n_net + i]);
+            if (isnan(away)) return away;
+            way = fmax(way, away);
+        }
     }
     return way;
 }

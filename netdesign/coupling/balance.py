@@ -166,7 +166,7 @@ def negative_share(forces: Floats) -> float:
         0 to 1 [-]; 1 where they pull as much as they press, or more: also where nothing
         presses.
     """
-    if np.min(forces, initial=0.0) >= 0.0:
+    if forces.min(initial=0.0) >= 0.0:
         return 0.0
     positive = float(np.maximum(forces, 0.0).sum())
     negative = float(np.maximum(-forces, 0.0).sum())

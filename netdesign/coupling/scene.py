@@ -231,6 +231,8 @@ class Scene:
             - self.modelled_aspect
         )
         problem = self.flow_problem
+        if not beyond:
+            return problem
         return replace(problem, end_load=beyond * problem.gravity[0])
 
     @property

@@ -330,22 +330,22 @@ def describe_law(
     return law, (bulk, fluidity)
 
 
-def describe_rules(problem: FlowProblem, lifts: Mask) -> RulesArgument:
+def describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:
     """Rules of contact as the core takes them.
 
     Parameters
     ----------
     problem : FlowProblem
         Contacts and friction.
-    lifts : ndarray of bool, shape (n_ground - 1,)
-        Ground nodes that may lift; the caller keeps it.
+    lifts : int
+        Address of the marks (n_ground - 1,) of ground nodes that may lift [-].
     """
     return RulesArgument(
         problem.friction,
         problem.net_contact == "one-sided",
         problem.ground_contact == "one-sided",
         problem.ground == "no-slip",
-        locate(lifts),
+        lifts,
     )
 
 
@@ -402,7 +402,7 @@ def prepare_flow(
     return CompiledFlow(
         library=library,
         mesh=mesh,
-        given=(argument, law, describe_rules(problem, lifts)),
+        given=(argument, law, describe_rules(problem, locate(lifts))),
         plan=described.plan,
         kept=(*described.kept, *kept, *more, lifts),
     )

@@ -20,7 +20,7 @@ CHECKED = (
 @pytest.mark.slow
 def test_nothing_is_found(tmp_path):
     """``pytest -m slow tests/core/test_sanitizers.py``; SANITIZED_SCENES=10000 draws
-    as many scenes, in some hours.
+    as many scenes, in a quarter of an hour.
     """
     if shutil.which("gcc") is None:
         pytest.skip("needs gcc, to find its runtime")

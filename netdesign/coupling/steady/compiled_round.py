@@ -54,9 +54,7 @@ from netdesign.snow.placed_mesh import (
 )
 from netdesign.snow.shared_mesh import find_once
 
-# Fields of ``SceneArgument``: where nodes are and how they follow the net; which of
-# its nodes are beside them; its parts.
-_PLACED = ("reference", "follow")
+# Fields of ``SceneArgument``: which of the net's nodes are beside a node; its parts.
 _FRAME = ("below", "rise", "heights", "ends")
 _NET = ("shares", "part", "firsts", "rises")
 
@@ -350,10 +348,9 @@ def _prepare(library: ctypes.PyDLL, problem: SteadyProblem) -> CompiledRounds | 
     head = np.array(problem.head, dtype=np.float64)
     argument = SceneArgument.from_buffer_copy(form.argument)
     argument.law, argument.first = laws.law, laws.first
-    placed, lifts = _describe_places(template), may_lift(template)
-    for name, place in zip(_PLACED, locate_all(*placed), strict=True):
-        setattr(argument, name, place)
-    argument.rules = describe_rules(snow, lifts)
+    places = _describe_places(template)
+    argument.reference, argument.follow = places.addresses
+    argument.rules = describe_rules(snow, places.lifts)
     argument.gravity[:] = snow.gravity
     argument.is_uniform = int(laws.density.size == 1)
     argument.density, argument.head = locate_all(laws.density, head)
@@ -364,7 +361,7 @@ def _prepare(library: ctypes.PyDLL, problem: SteadyProblem) -> CompiledRounds | 
         problem=problem,
         argument=argument,
         places=form.places,
-        kept=(*form.kept, *placed, lifts, *laws.kept, laws.density, head),
+        kept=(*form.kept, *places.kept, *laws.kept, laws.density, head),
     )
 
 
@@ -439,12 +436,23 @@ def _describe_net(template: MeshTemplate, top: float) -> _Arrays:
     )
 
 
+class _Places(NamedTuple):
+    """Nodes of a template, how they follow the net, and which may lift."""
+
+    kept: _Arrays
+    addresses: tuple[int, int]  # of the first two
+    lifts: int
+
+
 @lru_cache(maxsize=256)
-def _describe_places(template: MeshTemplate) -> _Arrays:
-    """Nodes and how they follow the net, as ``Scene`` of round.c has them."""
-    return (
-        np.ascontiguousarray(template.nodes, dtype=np.float64),
-        np.ascontiguousarray(follow_net(template), dtype=np.float64),
+def _describe_places(template: MeshTemplate) -> _Places:
+    nodes = np.ascontiguousarray(template.nodes, dtype=np.float64)
+    follow = np.ascontiguousarray(follow_net(template), dtype=np.float64)
+    lifts = may_lift(template)
+    return _Places(
+        kept=(nodes, follow, lifts),
+        addresses=(locate(nodes), locate(follow)),
+        lifts=locate(lifts),
     )
 
 

@@ -310,15 +310,15 @@ def _build_solution(
     )
     along = end.problem.head / np.hypot(*end.problem.head)
     offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
-    tensions = [*(cable.tension.ravel() * scale), foot.size, head.size]
+    tensions = np.append(cable.tension * scale, (foot.size, head.size))
     held = cable.foot_pull + cable.head_pull
     return Solution(
         scene=scene,
         method="steady",
         foot=foot,
         head=head,
-        tension_min=min(tensions),
-        tension_max=max(tensions),
+        tension_min=float(tensions.min()),
+        tension_max=float(tensions.max()),
         sag=float(offsets.max()) * thickness,
         net_curve=cable.curve * thickness,
         net_forces=forces.on_net * scale,
