@@ -117,9 +117,14 @@ class Surrogate:
 
 def _fade_scores(distances: Floats, scores: Floats, far_shares: Floats) -> Floats:
     """Largest held-out score around each place, faded with distance."""
-    share = np.maximum(np.exp(-((distances / REACH) ** 2)), far_shares)
+    marked = scores.any(axis=1)  # of most cases they are 0
+    near = np.exp(-((distances[:, marked] / REACH) ** 2))
+    share = np.maximum(near, far_shares[marked])
     by_case = np.ascontiguousarray(share.T)  # largest over rows: half the time
-    each = [np.max(by_case * column[:, None], axis=0) for column in scores.T]
+    each = [
+        np.max(by_case * column[:, None], axis=0, initial=0.0)
+        for column in scores[marked].T
+    ]
     return np.stack(each, axis=1)
 
 

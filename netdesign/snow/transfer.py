@@ -18,7 +18,7 @@ from netdesign.snow.mesh import MeshTemplate
 # Added between layers, more than any distance in one [thickness].
 _FAR_APART = 1e4
 # Distances of all pairs that are measured sooner than SciPy's tree is imported.
-_MOST_PAIRS = 1_000_000
+_MOST_PAIRS = 2_000_000
 
 
 def transfer_state(
