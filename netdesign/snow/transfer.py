@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-from functools import cache, lru_cache
-from typing import Any
+from functools import lru_cache
 
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.numerics.scipy_start import importing_parts_of
 from netdesign.snow.contact import Contact
 from netdesign.snow.element import interpolate_reference
 from netdesign.snow.flow_state import FlowState
@@ -17,8 +14,9 @@ from netdesign.snow.mesh import MeshTemplate
 
 # Added between layers, more than any distance in one [thickness].
 _FAR_APART = 1e4
-# Distances of all pairs that are measured sooner than SciPy's tree is imported.
-_MOST_PAIRS = 2_000_000
+# Points whose distances from all others are in the processor's cache. A tree of points
+# finds the nearest sooner, but is imported for as long as twenty meshes take.
+_AT_ONCE = 256
 
 
 def transfer_state(
@@ -64,12 +62,19 @@ def transfer_state(
 @lru_cache(maxsize=256)
 def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
     known, wanted = _list_points(source), _list_points(target)
-    if len(known) * len(wanted) <= _MOST_PAIRS:
-        (x, y), (x_known, y_known) = wanted.T[..., None], known.T
-        distances = (x - x_known) ** 2 + (y - y_known) ** 2
-        return np.asarray(distances.argmin(axis=1), dtype=np.int64)
-    _, nearest = _load_tree()(known).query(wanted)
-    return np.asarray(nearest, dtype=np.int64)
+    starts = range(0, len(wanted), _AT_ONCE)
+    pieces = [_find_nearest(known, wanted[k : k + _AT_ONCE]) for k in starts]
+    return np.concatenate(pieces)
+
+
+def _find_nearest(known: Floats, wanted: Floats) -> Ints:
+    """Nearest of some points (n, 2) to each of some others."""
+    (x_known, y_known), (x, y) = known.T, wanted.T[..., None]
+    distance, across = x - x_known, y - y_known
+    distance *= distance
+    across *= across
+    distance += across
+    return np.asarray(distance.argmin(axis=1), dtype=np.int64)
 
 
 @lru_cache(maxsize=256)
@@ -80,18 +85,6 @@ def _nearest_nodes(source: MeshTemplate, target: MeshTemplate) -> tuple[Ints, In
         _nearest(source.net_fractions[1:], target.net_fractions[1:]),
         _nearest(*on_ground),
     )
-
-
-@cache
-def _load_tree() -> Any:
-    """SciPy's tree of points, the first time it is asked for."""
-    with suppress(ImportError), importing_parts_of("scipy.spatial"):
-        from scipy.spatial._ckdtree import cKDTree
-
-        return cKDTree
-    from scipy.spatial import cKDTree  # of a SciPy that has it elsewhere
-
-    return cKDTree
 
 
 def _list_points(template: MeshTemplate) -> Floats:

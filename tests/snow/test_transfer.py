@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import transfer
@@ -45,22 +46,18 @@ def test_stress_stays_in_its_layer(old, new):
 
 
 @pytest.mark.parametrize("tops", [(), TOPS])
-def test_nearest_points_are_those_of_the_tree(monkeypatch, tops):
+@pytest.mark.parametrize("at_once", [256, 7])
+def test_nearest_points_are_those_of_a_tree(monkeypatch, tops, at_once):
     """Also where two are as near: any of them is right."""
+    monkeypatch.setattr(transfer, "_AT_ONCE", at_once)
+    transfer._nearest_points.cache_clear()
     source, target = (
         build_template(7.31, MESH_LEVELS[level], tops) for level in (0, 1)
     )
     known, wanted = map(transfer._list_points, (source, target))
-
-    def measure():
-        transfer._nearest_points.cache_clear()
-        near = known[transfer._nearest_points(source, target)]
-        return np.hypot(*(near - wanted).T)
-
-    measured = measure()
-    monkeypatch.setattr(transfer, "_MOST_PAIRS", 0)
-    np.testing.assert_allclose(measured, measure(), rtol=0.0, atol=1e-12)
-    transfer._nearest_points.cache_clear()
+    near = known[transfer._nearest_points(source, target)]
+    distance, _ = cKDTree(known).query(wanted)
+    np.testing.assert_allclose(np.hypot(*(near - wanted).T), distance, atol=1e-12)
 
 
 def test_a_stretched_mesh_takes_over_what_its_origin_would():
