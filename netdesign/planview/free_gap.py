@@ -101,4 +101,4 @@ def find_isolated_excess(distance: float) -> float:
         return 0.5
     root = math.sqrt(distance)
     fading = root * math.exp(-distance) / math.sqrt(math.pi)
-    return 0.5 * erf(root) - distance * erfc(root) + fading
+    return float(0.5 * erf(root) - distance * erfc(root) + fading)

@@ -3,30 +3,31 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
+from typing import Any
 
 import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.scipy_start import importing_parts_of, importing_scipy
 
-try:
-    with importing_parts_of("scipy.special"):
-        from scipy.special._ufuncs import erf as erf
-        from scipy.special._ufuncs import erfc as erfc
-        from scipy.special._ufuncs import eval_gegenbauer as eval_gegenbauer
-        from scipy.special._ufuncs import gamma as gamma
-        from scipy.special._ufuncs import gammaln as gammaln
-        from scipy.special._ufuncs import iti0k0 as iti0k0
-        from scipy.special._ufuncs import jv as jv
-        from scipy.special._ufuncs import k1 as k1
-        from scipy.special._ufuncs import psi as psi
-        from scipy.special._ufuncs import rgamma as rgamma
-except ImportError:  # a SciPy that has them elsewhere
-    with importing_scipy():
-        from scipy.special import (
-            eval_gegenbauer,
-            gammaln,
-        )
+
+def _load_functions() -> Any:
+    with suppress(ImportError), importing_parts_of("scipy.special"):
+        from scipy.special import _ufuncs
+
+        return _ufuncs
+    with importing_scipy():  # of a SciPy that has them elsewhere
+        import scipy.special
+
+        return scipy.special
+
+
+_functions = _load_functions()
+erf, erfc = _functions.erf, _functions.erfc
+gamma, gammaln, rgamma = _functions.gamma, _functions.gammaln, _functions.rgamma
+psi, eval_gegenbauer = _functions.psi, _functions.eval_gegenbauer
+iti0k0, jv, k1 = _functions.iti0k0, _functions.jv, _functions.k1
 
 _STEPS = 6  # of Newton: the fourth is below the last digit (2 to 1,000 places)
 

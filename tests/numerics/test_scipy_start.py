@@ -91,6 +91,20 @@ def test_where_a_module_has_moved_the_package_is_asked():
     assert "scipy.spatial" in loaded
 
 
+def test_where_special_functions_have_moved_their_package_is_asked():
+    loaded = run(
+        "import importlib.util, pathlib",
+        "spec = importlib.util.find_spec('netdesign.planview.special')",
+        "text = pathlib.Path(spec.origin).read_text().replace('_ufuncs', '_moved')",
+        "space = {'__name__': 'moved'}",
+        "exec(text, space)",
+        "import netdesign.planview.special as special",
+        "names = 'erf erfc eval_gegenbauer gamma gammaln iti0k0 jv k1 psi rgamma'",
+        "assert all(space[n] is getattr(special, n) for n in names.split())",
+    )
+    assert "scipy.special" in loaded
+
+
 def test_numpy_lists_all_its_names_again_even_after_a_failure():
     names, listed = list(np.__all__), dir(np)
     error = ImportError("spoilt")
