@@ -76,7 +76,7 @@ static Hung take_net(double **next, const Scene *scene) {
 }
 
 /* Places of the results, and how many numbers they take in all;
- * coupling/steady/compiled_round.py has the same list. */
+ * coupling/steady/compiled_scene.py has the same list. */
 static size_t lay_out(const Scene *scene, double *results, int32_t slides, Found *to) {
     size_t nodes = (size_t)scene->mesh.n_nodes, net = (size_t)scene->mesh.n_net;
     size_t points = (size_t)POINTS * (size_t)scene->mesh.n_triangles;

@@ -10,22 +10,22 @@ shares the reference; only the node positions differ. Theory: snow/THEORY.md, se
 from __future__ import annotations
 
 from collections import defaultdict
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.numerics.scipy_start import importing_parts_of
-from netdesign.outcome import Outcome
-from netdesign.snow.triangulation import Triangulation, number_nodes
-from netdesign.words.message import say
+from netdesign.snow.triangulation import (
+    Triangulation,
+    connect_points,
+    measure_twice_areas,
+    number_nodes,
+)
 
 # Radii of rings are powers of equal steps: the forces that a triangle near a singular
 # point adds fall with its size. Then depth over width of the outermost triangles.
@@ -176,7 +176,9 @@ def build_template(
         points = _add_rings(points, columns, size, interfaces)
     far = _FAR_ALONG_LAYERS if interfaces else _FAR
     points = _sort_out(points.round(12))
-    mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect, interfaces)
+    mesh = _build_mesh(
+        points, connect_points(_squeeze(points, far)), aspect, interfaces
+    )
     for _ in range(size.subdivisions):
         mesh = _subdivide(mesh)
     return mesh
@@ -208,7 +210,7 @@ def triangulate(points: Floats, aspect: float) -> MeshTemplate:
     aspect : float
         Upslope length over thickness [-].
     """
-    return _build_mesh(points, _connect(points), aspect)
+    return _build_mesh(points, connect_points(points), aspect)
 
 
 def _subdivide(mesh: MeshTemplate) -> MeshTemplate:
@@ -225,7 +227,7 @@ def _build_mesh(
     mesh = number_nodes(points, triangles)
     nodes = mesh.nodes
     # placing maps xi to -X and so turns every triangle over
-    orientation = -np.sign(_twice_area(points[mesh.triangles[:3].T]))
+    orientation = -np.sign(measure_twice_areas(points[mesh.triangles[:3].T]))
     ground, upstream, surface, net = _find_sides(points, mesh, aspect)
     # points were rounded; a side lies where it is said to lie
     nodes[1, ground], nodes[0, upstream] = 0.0, aspect
@@ -485,38 +487,6 @@ def _is_clear(points: Floats, line: Floats) -> Mask:
     off = np.abs(points[:, 1] - line[0, 1])
     radius = radii[nearest]
     return np.asarray((distance > radius * (1.0 + 1e-9)) & (off > _LEAST_OFF * radius))
-
-
-@cache
-def load_delaunay() -> Any:
-    """SciPy's triangulation: the longest import of a solve, when first asked for."""
-    with suppress(ImportError), importing_parts_of("scipy.linalg", "scipy.spatial"):
-        from scipy.spatial._qhull import Delaunay
-
-        return Delaunay
-    from scipy.spatial import Delaunay  # of a SciPy that has it elsewhere
-
-    return Delaunay
-
-
-def _connect(points: Floats) -> Ints:
-    triangles = load_delaunay()(points).simplices
-    # collinear boundary points may leave triangles without area
-    solid = np.abs(_twice_area(points[triangles])) > 1e-15
-    triangles = triangles[solid]
-    if np.bincount(triangles.ravel(), minlength=len(points)).min() == 0:
-        # found while solving, on a mesh that the refinement asked for: an outcome
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            say("snow.mesh_too_fine"),
-        )
-    return np.asarray(triangles, dtype=np.int64)
-
-
-def _twice_area(corners: Floats) -> Floats:
-    """Signed double areas, shape (n,), of triangles of shape (n, 3, 2)."""
-    (x0, y0), (x1, y1), (x2, y2) = (corners[:, k].T for k in range(3))
-    return np.asarray((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0))
 
 
 def _frozen(array: NDArray[Any]) -> NDArray[Any]:

@@ -1,4 +1,4 @@
-"""Six-node triangles of a triangulation: its edges, their middles, its boundary.
+"""Triangles between points, and their six nodes: edges, their middles, the boundary.
 
 Numbers and places are those of scikit-fem to the last digit, without its import, which
 takes longer than a solve (tests/snow/test_triangulation.py compares the two).
@@ -6,11 +6,18 @@ takes longer than a solve (tests/snow/test_triangulation.py compares the two).
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 import numpy as np
 
+from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.scipy_start import importing_parts_of
+from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 # Vertices of each edge of a triangle; reference coordinates of its six nodes.
 _EDGES = ((0, 1), (1, 2), (0, 2))
@@ -42,6 +49,66 @@ class Triangulation:
     def n_vertices(self) -> int:
         """Number of corner nodes."""
         return int(self.nodes.shape[1] - self.edges.shape[1])
+
+
+@cache
+def load_delaunay() -> Any:
+    """SciPy's triangulation: the longest import of a solve, when first asked for."""
+    with suppress(ImportError), importing_parts_of("scipy.linalg", "scipy.spatial"):
+        from scipy.spatial._qhull import Delaunay
+
+        return Delaunay
+    from scipy.spatial import Delaunay  # of a SciPy that has it elsewhere
+
+    return Delaunay
+
+
+def connect_points(points: Floats) -> Ints:
+    """Delaunay's triangles between points, those without area left out.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        Of any unit.
+
+    Returns
+    -------
+    ndarray of int, shape (n_triangles, 3)
+        Points of each triangle.
+
+    Raises
+    ------
+    SolveError
+        If a point is in no triangle: the mesh is too fine for its digits.
+    """
+    triangles = load_delaunay()(points).simplices
+    # collinear boundary points may leave triangles without area
+    solid = np.abs(measure_twice_areas(points[triangles])) > 1e-15
+    triangles = triangles[solid]
+    if np.bincount(triangles.ravel(), minlength=len(points)).min() == 0:
+        # found while solving, on a mesh that the refinement asked for: an outcome
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            say("snow.mesh_too_fine"),
+        )
+    return np.asarray(triangles, dtype=np.int64)
+
+
+def measure_twice_areas(corners: Floats) -> Floats:
+    """Signed double areas of triangles.
+
+    Parameters
+    ----------
+    corners : ndarray, shape (n, 3, 2)
+        Of any unit.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        In the square of that unit.
+    """
+    (x0, y0), (x1, y1), (x2, y2) = (corners[:, k].T for k in range(3))
+    return np.asarray((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0))
 
 
 def number_nodes(points: Floats, triangles: Ints) -> Triangulation:

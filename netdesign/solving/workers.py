@@ -28,7 +28,7 @@ from netdesign.coupling.solution import FailedSolution, WallSolution
 from netdesign.errors import ModelError, NetDesignError, SolveError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
-from netdesign.snow.mesh import load_delaunay
+from netdesign.snow.triangulation import load_delaunay
 from netdesign.solving.describe import describe_case
 from netdesign.solving.solve import Settings, solve_scene
 from netdesign.solving.state import CaseEnd, is_stuck, keep_state

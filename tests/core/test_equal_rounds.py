@@ -9,7 +9,7 @@ from netdesign.cable.net import Net
 from netdesign.core.library import find_core
 from netdesign.coupling.interface import find_support_forces, share_net_forces
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady import compiled_round
+from netdesign.coupling.steady import compiled_scene
 from netdesign.coupling.steady.compiled_round import prepare_rounds
 from netdesign.coupling.steady.hanging import (
     SteadyProblem,
@@ -192,16 +192,16 @@ def test_what_the_core_does_not_take_is_left_to_numpy(monkeypatch):
     problem = PROBLEMS[0]
     mixed = replace(problem, snow=replace(problem.snow, element="mixed"))
     assert prepare_rounds(mixed) is None
-    compiled_round._describe_form.__wrapped__.cache_clear()
-    monkeypatch.setattr(compiled_round, "describe_template", lambda *_: None)
+    compiled_scene._describe_form.__wrapped__.cache_clear()
+    monkeypatch.setattr(compiled_scene, "describe_template", lambda *_: None)
     assert prepare_rounds(replace(problem)) is None  # a template too large for it
-    compiled_round._describe_form.__wrapped__.cache_clear()
+    compiled_scene._describe_form.__wrapped__.cache_clear()
 
 
 def test_what_the_core_reads_of_a_template_stays_with_its_form():
     """Numbers have caches of their own, which may forget them before."""
     problem = PROBLEMS[0]
-    compiled_round._describe_form.__wrapped__.cache_clear()
+    compiled_scene._describe_form.__wrapped__.cache_clear()
     compiled_mesh.number_template.__wrapped__.cache_clear()
     compiled_mesh._locate_template.__wrapped__.cache_clear()
     rounds = prepare_rounds(replace(problem))

@@ -22,7 +22,7 @@ def run(*lines):
 
 @pytest.mark.parametrize(
     "first",
-    ["from netdesign.snow.mesh import load_delaunay; load_delaunay()",
+    ["from netdesign.snow.triangulation import load_delaunay; load_delaunay()",
      "import netdesign.planview.free_gap"],
 )  # fmt: skip
 def test_tools_that_nothing_uses_are_not_loaded(first):
@@ -31,7 +31,7 @@ def test_tools_that_nothing_uses_are_not_loaded(first):
 
 def test_whoever_uses_them_later_finds_them():
     lines = (
-        "from netdesign.snow.mesh import load_delaunay",
+        "from netdesign.snow.triangulation import load_delaunay",
         "load_delaunay()",
         "import numpy as np, scipy.linalg, scipy.special, scipy.stats",
         "np.testing.assert_allclose(scipy.linalg.norm([3.0, 4.0]), 5.0)",
@@ -42,7 +42,7 @@ def test_whoever_uses_them_later_finds_them():
 
 
 PARTS = (
-    "from netdesign.snow.mesh import load_delaunay",
+    "from netdesign.snow.triangulation import load_delaunay",
     "part = load_delaunay()",
 )
 
@@ -83,7 +83,7 @@ def test_a_package_is_whole_for_whoever_asks_later():
 
 def test_where_a_module_has_moved_the_package_is_asked():
     loaded = run(
-        "import inspect, netdesign.snow.mesh as mesh",
+        "import inspect, netdesign.snow.triangulation as mesh",
         "text = inspect.getsource(mesh.load_delaunay).replace('_qhull', '_moved')",
         "exec(text, vars(mesh))",
         "assert mesh.load_delaunay().__name__ == 'Delaunay'",
