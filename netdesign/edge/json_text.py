@@ -10,7 +10,7 @@ from json.encoder import encode_basestring
 from math import isfinite
 from operator import attrgetter
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from netdesign.errors import ContentError
 from netdesign.words.message import say
@@ -165,20 +165,30 @@ def list_fields(value: Any) -> dict[str, Any]:
     if isinstance(value, MappingProxyType):
         return dict(value)
     shape: type = type(value)
-    names, read = _open_shape(shape)
+    names, read, leaves_out = _open_shape(shape)
     pairs = zip(names, read(value), strict=True)
-    if getattr(shape, "LEAVES_OUT_NONE", False):
+    if leaves_out:
         return {name: one for name, one in pairs if one is not None}
     return dict(pairs)
 
 
-@lru_cache(maxsize=256)
-def _open_shape(shape: type) -> tuple[tuple[str, ...], Callable[[object], Any]]:
+class _Shape(NamedTuple):
     """Names of a dataclass's fields, and what reads all their values."""
+
+    names: tuple[str, ...]
+    read: Callable[[object], Any]
+    leaves_out_none: bool
+
+
+@lru_cache(maxsize=256)
+def _open_shape(shape: type) -> _Shape:
     names = tuple(one.name for one in fields(shape))
+    leaves_out = bool(getattr(shape, "LEAVES_OUT_NONE", False))
     if len(names) > 1:
-        return names, attrgetter(*names)
-    return names, lambda value: [getattr(value, name) for name in names]
+        return _Shape(names, attrgetter(*names), leaves_out)
+    return _Shape(
+        names, lambda value: [getattr(value, name) for name in names], leaves_out
+    )
 
 
 @lru_cache

@@ -10,7 +10,7 @@ from netdesign.errors import StudyError
 from netdesign.study.check_run import CheckRun, read_method
 from netdesign.study.record_provenance import name_law
 from netdesign.study.records import Study
-from netdesign.study.values import Difference, compare_values, list_values
+from netdesign.study.values import Difference, compare_listed, list_values
 from netdesign.words.message import say
 
 _REPEATED = ("accuracy", "method")
@@ -69,9 +69,8 @@ def list_differences(stored: Study, again: Study) -> tuple[int, list[Difference]
         Number of values compared, and those that differ: numbers by more than a
         millionth, all else at all.
     """
-    old, new = (_leave_out_versions(study) for study in (stored, again))
-    count = len(list_values(old) | list_values(new))
-    return count, compare_values(old, new)
+    old, new = (list_values(_leave_out_versions(study)) for study in (stored, again))
+    return len(old | new), compare_listed(old, new)
 
 
 def is_of_ties(difference: Difference) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, is_dataclass
 from enum import Enum
 from typing import Any
@@ -16,6 +16,7 @@ ROUNDING = 1e-12  # relative; of the same number, summed in another order
 # Absolute, of residuals, shares and small differences, which are rounding themselves.
 _NOISE = 1e-6
 _PERCENT = "_percent"  # end of the name of a difference or an error
+_PLAIN = frozenset({float, int, str, bool, type(None)})  # have no values within
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +47,9 @@ def list_values(part: object) -> dict[str, Any]:
     Members of a list stand under their ids, if each has its own; the order of these
     is a value too.
     """
-    return dict(_flatten(part, ""))
+    values: dict[str, Any] = {}
+    _collect(part, "", values)
+    return values
 
 
 def compare_values(
@@ -62,7 +65,21 @@ def compare_values(
         Numbers count as different by more than their rounding; otherwise by more than
         a millionth, which other machines and libraries do not reach.
     """
-    old, new = list_values(stored), list_values(again)
+    return compare_listed(list_values(stored), list_values(again), is_exact=is_exact)
+
+
+def compare_listed(
+    old: Mapping[str, Any], new: Mapping[str, Any], *, is_exact: bool = False
+) -> list[Difference]:
+    """Places at which two parts differ, in the order of the first.
+
+    Parameters
+    ----------
+    old, new : mapping
+        What ``list_values`` gives of the two parts.
+    is_exact : bool
+        As in ``compare_values``.
+    """
     places = dict.fromkeys((*old, *new))
     return [
         Difference(place=place, stored=old.get(place), again=new.get(place))
@@ -73,23 +90,31 @@ def compare_values(
     ]
 
 
-def _flatten(value: Any, place: str) -> Iterator[tuple[str, Any]]:
+def _collect(value: Any, place: str, values: dict[str, Any]) -> None:
+    """Add the values of a part to those known, in the order of the part."""
+    if type(value) in _PLAIN:
+        values[place] = value
+        return
     if is_dataclass(value):
         value = list_fields(value)
-    if isinstance(value, Mapping):
-        value = dict(value)
-    if not isinstance(value, dict | list | tuple):
-        yield place, str(value) if isinstance(value, Enum) else value
+    if not isinstance(value, Mapping | list | tuple):
+        values[place] = str(value) if isinstance(value, Enum) else value
         return
+    ids: list[str] = []
+    names: Iterable[object] = value
+    parts: Iterable[object] = value
+    if isinstance(value, Mapping):
+        parts = value.values()
+    else:
+        ids = _list_ids(value)
+        names = ids or range(len(value))
     if not value:
-        yield place, type(value)()
-    ids = [] if isinstance(value, dict) else _list_ids(value)
+        values[place] = {} if isinstance(value, Mapping) else type(value)()
+    before = f"{place}." if place else ""
     if ids:
-        yield f"{place}.order".removeprefix("."), ", ".join(ids)
-    names = list(value) if isinstance(value, dict) else ids or range(len(value))
-    parts = value.values() if isinstance(value, dict) else value
+        values[f"{before}order"] = ", ".join(ids)
     for name, part in zip(names, parts, strict=True):
-        yield from _flatten(part, f"{place}.{name}".removeprefix("."))
+        _collect(part, f"{before}{name}", values)
 
 
 def _list_ids(members: Sequence[Any]) -> list[str]:

@@ -40,7 +40,7 @@ class Message:
         return render(self, "en")
 
     def __hash__(self) -> int:
-        return hash((self.key, tuple(sorted(self.arguments))))
+        return hash((self.key, frozenset(self.arguments.items())))
 
     def __reduce__(self) -> tuple[object, ...]:
         """The plain values: a mapping that cannot be changed is not pickled."""

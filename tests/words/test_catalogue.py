@@ -129,6 +129,13 @@ def test_words_of_ours_are_rendered_in_the_language_of_the_whole():
     ]
 
 
+def test_messages_that_differ_in_their_values_are_told_apart_by_their_hash():
+    """Else a table of them takes as long as the square of its lines."""
+    lines = [say("unit.count_cases", count=number) for number in range(997)]
+    assert len(set(map(hash, lines))) == len(lines)
+    assert hash(say("unit.count_cases", count=37)) == hash(lines[37])
+
+
 def test_a_message_goes_from_process_to_process():
     message = say("unit.count_cases", count=3)
     assert pickle.loads(pickle.dumps(message)) == message

@@ -209,9 +209,10 @@ def _audit_snow(place: Message, check: CheckRecord, row: RowStudy) -> Iterator[M
     """No pass on a force of snow for which the creep law is not given."""
     points = [one.case for one in list_bringing(check, row) if one.high_kN]
     if check.verdict is Verdict.PASS and any(
-        same_point(point, case.case) and not case.is_calibrated
-        for point in points
+        same_point(point, case.case)
         for case in row.cases
+        if not case.is_calibrated
+        for point in points
     ):
         yield say("audit.extrapolated_pass", place=place)
 

@@ -1,6 +1,5 @@
 """Whatever is altered in a stored study, `report` refuses it or `verify` notices."""
 
-import copy
 import json
 import random
 import re
@@ -134,14 +133,14 @@ def shorten(part):
 
 def list_draws(text, seed):
     """Studies with one value of each name altered, beside the value's path."""
-    draw, whole = random.Random(seed), shorten(json.loads(text))
-    leaves = list_leaves(whole)
+    draw, whole = random.Random(seed), json.dumps(shorten(json.loads(text)))
+    leaves = list_leaves(json.loads(whole))
     named = {tuple(p for p in path if isinstance(p, str)): path
              for path in draw.sample(leaves, len(leaves))}  # fmt: skip
-    yield (), read_document(json.dumps(whole))
+    yield (), read_document(whole)
     for name, path in named.items():
         if name not in (("schema",), ("digest",)):
-            document = copy.deepcopy(whole)
+            document = json.loads(whole)
             if alter_leaf(document, path, draw) > NOISE:
                 yield name, read_document(json.dumps(document))
 
