@@ -75,6 +75,6 @@ def draw_contact(rng, problem, mesh):
     )
 
 
-def compare(found, expected, close=CLOSE):
+def assert_alike(found, expected, close=CLOSE):
     assert np.isfinite(expected).all()
     np.testing.assert_allclose(found, expected, atol=close * np.abs(expected).max())

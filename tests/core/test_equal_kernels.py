@@ -9,7 +9,7 @@ from netdesign.core.library import find_core
 from netdesign.outcome import Outcome
 from netdesign.snow.flow_step import compute_residual
 from netdesign.snow.placed_mesh import build_placed_mesh
-from tests.core.drawn import NUMBERS, compare, draw_case
+from tests.core.drawn import NUMBERS, assert_alike, draw_case
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
 
@@ -22,7 +22,7 @@ def test_a_placed_mesh_is_that_of_numpy(number, element, in_numpy):
     found = build_placed_mesh(*arguments)
     expected = in_numpy(build_placed_mesh, *arguments)
     for name in ("weights", "gradients", "load", "net_normal", "axes", "operator"):
-        compare(getattr(found, name), getattr(expected, name), 1e-13)
+        assert_alike(getattr(found, name), getattr(expected, name), 1e-13)
     np.testing.assert_array_equal(found.dofs, expected.dofs)
     assert found.n_dofs == expected.n_dofs
 
@@ -37,7 +37,7 @@ def test_a_triangle_that_is_turned_over_is_not_valid():
 @pytest.mark.parametrize("number", NUMBERS)
 def test_the_forces_of_a_state_are_those_of_numpy(number, in_numpy):
     case = draw_case(number)
-    compare(compute_residual(*case), in_numpy(compute_residual, *case), 1e-12)
+    assert_alike(compute_residual(*case), in_numpy(compute_residual, *case), 1e-12)
 
 
 def draw_cable(number):
@@ -58,7 +58,7 @@ def test_a_cable_is_that_of_numpy(number, in_numpy):
     found, expected = solve_funicular(*drawn), in_numpy(solve_funicular, *drawn)
     assert found.outcome is expected.outcome is Outcome.CONVERGED
     for name in ("curve", "tension", "pull", "foot_pull", "head_pull"):
-        compare(getattr(found, name), getattr(expected, name), 1e-9)
+        assert_alike(getattr(found, name), getattr(expected, name), 1e-9)
 
 
 @pytest.mark.parametrize("fault", [np.nan, np.inf])
@@ -97,6 +97,6 @@ def test_parts_of_cables_are_those_of_numpy(in_numpy):
         lengths, expected = part_cable(*drawn), in_numpy(part_cable, *drawn)
         assert (lengths is None) == (expected is None)
         if expected is not None:
-            compare(lengths, expected, 1e-10)
+            assert_alike(lengths, expected, 1e-10)
             found += 1
     assert 10 < found < 60

@@ -93,7 +93,7 @@ def play(problem, state, hanging, curve):
     return found, (mesh, flow, hung)
 
 
-def compare(one, other):
+def assert_alike(one, other):
     size = np.abs(other).max()
     np.testing.assert_allclose(one, other, rtol=0.0, atol=CLOSE * max(size, 1e-300))
 
@@ -110,19 +110,19 @@ def test_a_round_is_the_same_in_one_call(number):
             return
         mesh, flow, hung = steps
         for name in ("nodes", "weights", "gradients", "load", "net_normal", "axes"):
-            compare(getattr(found.mesh, name), getattr(mesh, name))
+            assert_alike(getattr(found.mesh, name), getattr(mesh, name))
         if amplifies_rounding(problem):
             return
         assert found.linear_solves == flow.linear_solves
-        compare(found.state.stress, flow.state.stress)
-        compare(found.state.reaction, flow.state.reaction)
+        assert_alike(found.state.stress, flow.state.stress)
+        assert_alike(found.state.reaction, flow.state.reaction)
         for name in ("sign", "is_pressed", "is_open", "is_lifted"):
             one, other = (getattr(f.state.contact, name) for f in (found, flow))
             np.testing.assert_array_equal(one, other)
         for name in ("forces", "lengths", "parts"):
-            compare(getattr(found.hanging, name), getattr(hung, name))
+            assert_alike(getattr(found.hanging, name), getattr(hung, name))
         for name in ("curve", "tension", "foot_pull", "head_pull"):
-            compare(getattr(found.hanging.cable, name), getattr(hung.cable, name))
+            assert_alike(getattr(found.hanging.cable, name), getattr(hung.cable, name))
         state, hanging = flow.state, hung
 
 
@@ -137,12 +137,14 @@ def test_forces_of_the_stresses_are_the_same_in_one_call(number, monkeypatch):
     mesh, flow, hung = steps
     _, expected = find_support_forces(problem.snow, mesh, flow.state)
     forces, settled = found.settled
-    compare(forces.on_net, expected.on_net)
-    compare(forces.on_ground, expected.on_ground)
-    compare(forces.ground_normal, expected.ground_normal)
+    assert_alike(forces.on_net, expected.on_net)
+    assert_alike(forces.on_ground, expected.on_ground)
+    assert_alike(forces.ground_normal, expected.ground_normal)
     size = np.abs(expected.on_net).max()
     assert forces.unbalanced == pytest.approx(expected.unbalanced, abs=1e-9 * size)
-    compare(settled.cable.curve, hang_again(problem, hung, expected.on_net).cable.curve)
+    assert_alike(
+        settled.cable.curve, hang_again(problem, hung, expected.on_net).cable.curve
+    )
 
 
 @pytest.mark.parametrize("number", range(0, len(PROBLEMS), 4))

@@ -14,7 +14,7 @@ from netdesign.snow.flow_step import (
     linearise_reaction,
     remove_rounding,
 )
-from tests.core.drawn import CLOSE, NUMBERS, compare, draw_case
+from tests.core.drawn import CLOSE, NUMBERS, assert_alike, draw_case
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
 
@@ -35,11 +35,11 @@ def test_a_step_is_that_of_numpy(number, in_numpy):
     unbalanced = np.abs(expected.reaction - compute_residual(problem, mesh, expected))
     slack = max(CLOSE, 100 * unbalanced.max() / np.abs(expected.reaction).max())
     assert slack < 1e-6
-    compare(found.stress, expected.stress, slack)
-    compare(found.reaction, expected.reaction, slack)
-    compare(found.unknowns, expected.unknowns, slack)
+    assert_alike(found.stress, expected.stress, slack)
+    assert_alike(found.reaction, expected.reaction, slack)
+    assert_alike(found.unknowns, expected.unknowns, slack)
     if state.base_shear is not None:
-        compare(found.base_shear, expected.base_shear, slack)
+        assert_alike(found.base_shear, expected.base_shear, slack)
     assert left == pytest.approx(known, rel=1e-6)
     # where nothing presses, rounding decides on which side of 0 the pressure is
     pressure = expected.reaction[net_components(mesh)[0]]
@@ -53,7 +53,7 @@ def test_a_step_is_that_of_numpy(number, in_numpy):
 @pytest.mark.parametrize("number", NUMBERS[:12])
 def test_a_correction_is_that_of_numpy(number, in_numpy):
     problem, mesh, state = draw_case(number)
-    compare(
+    assert_alike(
         remove_rounding(problem, mesh, state).stress,
         in_numpy(remove_rounding, problem, mesh, state).stress,
         1e-8,
@@ -63,7 +63,7 @@ def test_a_correction_is_that_of_numpy(number, in_numpy):
 @pytest.mark.parametrize("number", NUMBERS[:12])
 def test_the_derivative_of_a_round_is_that_of_numpy(number, in_numpy):
     problem, mesh, state = draw_case(number)
-    compare(
+    assert_alike(
         linearise_reaction(problem, mesh, state),
         in_numpy(linearise_reaction, problem, mesh, state),
         1e-8,
@@ -94,7 +94,7 @@ def test_changes_that_are_taken_back_are_those_of_numpy(
     monkeypatch.setattr(flow, "_PATIENCE", patience)
     case = draw_case(number)
     found, expected = take_back(*case), in_numpy(take_back, *case)
-    compare(found.reaction, expected.reaction, 1e-7)
+    assert_alike(found.reaction, expected.reaction, 1e-7)
     for name in ("sign", "is_open", "is_lifted"):
         one, other = getattr(found.contact, name), getattr(expected.contact, name)
         np.testing.assert_array_equal(one, other)

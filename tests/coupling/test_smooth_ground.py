@@ -21,7 +21,7 @@ DAY = 86400.0
 STARTS = ("steady", "sagged", "straight")
 
 
-def measure_pulls(scene):
+def require_pulls(scene):
     solution = solve_steady(scene, SolverSettings(accuracy=0.02))
     assert isinstance(solution, Solution), solution.reason
     assert solution.balance.relative_residual < 1e-8
@@ -43,7 +43,7 @@ def follow(scene, start):
 def require_steady_demand(scene):
     """FACTS.md, section 12: 5 % over the steady state on sliding ground."""
     history = follow(scene, "steady")
-    over = np.array([history.foot.size, history.head.size]) / measure_pulls(scene)
+    over = np.array([history.foot.size, history.head.size]) / require_pulls(scene)
     assert history.history.plateau.reached
     assert over.min() > 0.97
     assert over.max() < 1.05
@@ -57,7 +57,7 @@ def put_on(scene, glide_factor):
 
 @pytest.mark.parametrize("seed", range(24))
 def test_a_smooth_site_is_solved(seed):
-    measure_pulls(draw_smooth_site(seed))
+    require_pulls(draw_smooth_site(seed))
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 3])  # two-sided ground
@@ -70,14 +70,14 @@ def test_pulls_grow_with_the_glide_factor_towards_those_of_free_ground(seed):
     scene = draw_smooth_site(seed)
     grounds = [put_on(scene, glide) for glide in (1.0, 1.5, 2.4, 2.8, 3.2)]
     grounds.append(replace(scene, ground=GroundLaw(kind="free")))
-    pulls = np.array([measure_pulls(one) for one in grounds])
+    pulls = np.array([require_pulls(one) for one in grounds])
     assert (np.diff(np.log(pulls), axis=0) > math.log(1.02)).all()
 
 
 @pytest.mark.robustness
 def test_hundreds_of_smooth_sites_are_solved():
     for seed in range(24, 824):
-        measure_pulls(draw_smooth_site(seed))
+        require_pulls(draw_smooth_site(seed))
 
 
 @pytest.mark.robustness

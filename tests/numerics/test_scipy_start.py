@@ -62,7 +62,7 @@ def test_special_functions_come_without_their_package():
 
 
 def test_a_package_is_whole_for_whoever_asks_later():
-    run(
+    loaded = run(
         *PARTS,
         "import netdesign.planview.special as special",
         "import numpy as np, scipy.interpolate, scipy.linalg, scipy.spatial",
@@ -79,6 +79,7 @@ def test_a_package_is_whole_for_whoever_asks_later():
         "found = scipy.interpolate.LinearNDInterpolator(points, points[:, 0])",
         "np.testing.assert_allclose(found([[0.31, 0.27]]), 0.31)",
     )
+    assert {"scipy.special", "scipy.linalg", "scipy.spatial"} <= set(loaded)
 
 
 def test_where_a_module_has_moved_the_package_is_asked():

@@ -29,7 +29,7 @@ def day_of(season_day):
     return date(2020, 11, 1) + timedelta(days=season_day.index)
 
 
-def judge(ground, foot, head, at_highest, density):
+def assert_season(ground, foot, head, at_highest, density):
     """Peaks within 3 %; of the largest height up to 9 % above, by its layers."""
     season = solve_winter(ground)
     governing = season.governing
@@ -45,7 +45,7 @@ def judge(ground, foot, head, at_highest, density):
 
 
 def test_winter_without_slip():
-    judge(GroundLaw(kind="no-slip"), 18.2, 16.5, 14.9, 263.0)
+    assert_season(GroundLaw(kind="no-slip"), 18.2, 16.5, 14.9, 263.0)
 
 
 @pytest.mark.slow
@@ -59,7 +59,7 @@ def test_winter_without_slip():
     ids=["N 1.2", "N 2.4", "free"],
 )
 def test_winter_on_ground_that_slips(ground, foot, head, at_highest, density):
-    judge(ground, foot, head, at_highest, density)
+    assert_season(ground, foot, head, at_highest, density)
 
 
 def test_four_layers_pull_as_eight():

@@ -36,7 +36,7 @@ def values_of(fitted):
     return dict(zip(names, map(float, fitted.fit.posterior.values), strict=True))
 
 
-def recovers(task, places):
+def assert_recovered(task, places):
     """Slip length and density of own data without noise, both within 1 %."""
     design = name_design(task)
     truth = {"slip_length": design["slip_length"] + 0.53, "density_factor": 0.057}
@@ -57,16 +57,16 @@ def recovers(task, places):
 
 
 def test_own_data_of_uniform_snow_give_slip_length_and_density_again():
-    recovers(a_task(SPRING, layered=False, known=SURVEYED), SPRING)
+    assert_recovered(a_task(SPRING, layered=False, known=SURVEYED), SPRING)
 
 
 @pytest.mark.slow
 def test_own_data_of_layers_give_slip_length_and_density_again():
     """Run by ``pytest -m slow tests/winter/test_fit.py``."""
-    recovers(a_task(WINTER, layered=True, meshes=3, known=SURVEYED), WINTER)
+    assert_recovered(a_task(WINTER, layered=True, meshes=3, known=SURVEYED), WINTER)
 
 
-def refuses_uniform(places, meshes, share, known=()):
+def assert_uniform_refused(places, meshes, share, known=()):
     """Layers fitted by uniform snow miss by more than three times the noise."""
     noise = Noise(reading=share, cell=0.0, rope=0.0)
     layered = a_task(places, layered=True, meshes=meshes, noise=noise)
@@ -81,13 +81,13 @@ def refuses_uniform(places, meshes, share, known=()):
 
 
 def test_layers_fitted_by_uniform_snow_are_refused():
-    refuses_uniform(SEASON, 2, 0.04, known=("friction_angle",))
+    assert_uniform_refused(SEASON, 2, 0.04, known=("friction_angle",))
 
 
 @pytest.mark.slow
 def test_layers_of_a_whole_season_fitted_by_uniform_snow_are_refused():
     """Every parameter is free; run by ``pytest -m slow tests/winter/test_fit.py``."""
-    refuses_uniform(WINTER, 3, 0.03)
+    assert_uniform_refused(WINTER, 3, 0.03)
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +96,7 @@ def replaced():
     return stand_in(a_task(SPRING, layered=False, noise=Noise()))
 
 
-def hold_as_often_as_they_say(errors):
+def assert_normal(errors):
     """Errors over their deviations are those of a normal distribution.
 
     Of 200 the share has a standard error of 2 %, the root mean square one of 5 %.
@@ -112,7 +112,7 @@ def test_bands_hold_the_force_as_often_as_they_say(replaced):
     The stand-in has the chain's own forces as designed and one deviation of the prior
     to each side, of each parameter for itself. The chain itself is below, slow.
     """
-    hold_as_often_as_they_say(measure_errors(replaced, SPRING, 200))
+    assert_normal(measure_errors(replaced, SPRING, 200))
 
 
 @pytest.mark.slow
@@ -124,7 +124,7 @@ def test_bands_of_the_chain_itself_hold_the_force_as_often_as_they_say():
     little: of the first 77 fits 74 hold.
     """
     task = a_task(SPRING, layered=False, noise=Noise())
-    hold_as_often_as_they_say(measure_errors(task, SPRING, 200))
+    assert_normal(measure_errors(task, SPRING, 200))
 
 
 def test_the_force_is_known_and_its_parameters_are_not(replaced):
