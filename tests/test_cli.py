@@ -18,7 +18,9 @@ import pytest
 
 from netdesign import __version__, cli
 from netdesign.commands.running import EXIT_CODES
+from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
 from netdesign.edge.resources import find_resource
+from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
 from netdesign.study.document import read_document, write_document
@@ -605,6 +607,11 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
             assert check["verdict"] in ("pass", "fail", "not_proven", "declared")
             assert check["reason"]
     assert listing(tmp_path) == set()
+    largest = max((json.dumps(row, indent=1) for row in document["rows"]), key=len)
+    whole = 1.25 * MAX_NET_ROWS  # of a site as large as it may be, with some room
+    assert whole * len(largest) < MAX_JSON_BYTES
+    assert whole * largest.count(",") < MAX_VALUES
+    assert whole * largest.count("{") < MAX_OBJECTS
 
 
 # --- init --------------------------------------------------------------------------

@@ -19,10 +19,11 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
     from pydantic import TypeAdapter
     from pydantic_core import SchemaValidator
 
-# A study of 20,000 cases has some 10 MiB, 300,000 values and 45,000 objects.
-MAX_JSON_BYTES = 32 * 2**20
-MAX_VALUES = 800_000
-MAX_OBJECTS = 150_000
+# A study of as many net rows as a site may have (``site/cells/limits.py``), with some
+# room: a row has up to 280 kB, 10,600 values and 1,600 objects.
+MAX_JSON_BYTES = 160 * 2**20
+MAX_VALUES = 6_000_000
+MAX_OBJECTS = 900_000
 _SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
 _FEW = 4  # values below which the encoder takes longer to set up than to write
 _MOST_KEYS = 200  # of one object

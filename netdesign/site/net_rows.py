@@ -10,6 +10,7 @@ from types import MappingProxyType
 from netdesign.coupling.scene import is_overtopped
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal
+from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.end_supports import (
     EndsByRow,
     echo_ends,
@@ -110,8 +111,7 @@ def build_net_rows(
         In the order of the sheet.
     """
     rows = list(read_rows(table, findings))
-    if not rows:
-        refusal = Refusal(say("nets.no_row"), say("nets.one_line"))
+    if refusal := _judge_count(len(rows)):
         findings.append(table.sheet.finding(refusal))
     by_id = index_by_id(rows, findings)
     refuse_unknown_rows(snow, by_id, findings)
@@ -129,6 +129,16 @@ def build_net_rows(
     ]
     refuse_missing_sheets(table, [*rows, *ends.values()], absent, findings)
     return tuple(net_row for net_row in built if net_row is not None)
+
+
+def _judge_count(count: int) -> Refusal | None:
+    """Reason against so many net rows; None if they are a site."""
+    if not count:
+        return Refusal(say("nets.no_row"), say("nets.one_line"))
+    if count > MAX_NET_ROWS:
+        accepted = say("nets.most_rows", most=MAX_NET_ROWS)
+        return Refusal(say("nets.many_rows", count=count), accepted)
+    return None
 
 
 def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:

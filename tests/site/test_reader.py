@@ -5,6 +5,7 @@ import math
 import pytest
 import xlsxwriter
 
+from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import (
@@ -465,6 +466,16 @@ def test_sheets_without_headings_or_lines_are_refused(sheets, save, refused):
         ("Ropes!", "has no row of headings"),
         ("Nets!", "has no net row"),
     ]
+
+
+def test_more_net_rows_than_a_report_holds_are_refused(sheets, save, refused):
+    first = sheets["Nets"][FIRST]
+    sheets["Nets"][FIRST:] = [[f"W{k}", *first[1:]] for k in range(MAX_NET_ROWS)]
+    assert len(read_site(save(sheets)).rows) == MAX_NET_ROWS
+    sheets["Nets"].append(["one more", *first[1:]])
+    (finding,) = refused(save(sheets))
+    assert (finding.sheet, str(finding.rule)) == ("Nets", "has 401 net rows")
+    assert str(finding.accepted) == "at most 400 in one site: divide it"
 
 
 def test_two_sheets_of_one_kind_are_refused(sheets, save, refused):
