@@ -149,6 +149,8 @@ def envelope(
 
 def _require_usable(given: dict[str, GivenRange]) -> bool:
     """Refuse ranges that make no envelope; True if they ask for a grid."""
+    from netdesign.envelope.ranges import MOST_GRID_CASES
+
     if not given:
         flags = tuple(flag for flag, _, _ in _OPTIONS)
         raise UsageRefusal(say("usage.no_range", flags=flags))
@@ -159,6 +161,9 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
     counts = [one.count is not None for one in given.values()]
     if any(counts) and not all(counts):
         raise UsageRefusal(say("usage.mixed_ranges"))
+    cases = math.prod(one.count or 1 for one in given.values())
+    if cases > MOST_GRID_CASES:
+        raise UsageRefusal(say("usage.large_grid", cases=cases, most=MOST_GRID_CASES))
     return all(counts)
 
 

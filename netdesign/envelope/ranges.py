@@ -19,6 +19,8 @@ from netdesign.words.message import Message, say
 # What every case has; the other parameters only where they range.
 USUAL = ("density", "friction_angle", "inclination")
 _USUAL_COUNT = 3  # of a range without a count, beside one with a count
+# Of one grid, over all net rows of a site. A search takes some 50 a row, with a bound.
+MOST_GRID_CASES = 100_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,6 +112,14 @@ class Ranges:
         """Some range has a sample count, or none of them is a range at all."""
         wide = [span for _, span in self.intervals if span.low < span.high]
         return not wide or any(span.count is not None for span in wide)
+
+    @property
+    def grid_cases(self) -> int:
+        """Number of cases of the grid; 0 for ranges that are searched."""
+        if not self.is_grid:
+            return 0
+        wide = [span for _, span in self.intervals if span.low < span.high]
+        return math.prod(span.count or _USUAL_COUNT for span in wide)
 
     @property
     def axes(self) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from dataclasses import field as of_dataclass
 
 from netdesign.envelope.parameters import ONE_QUANTITY
-from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.envelope.ranges import MOST_GRID_CASES, Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, quote
@@ -110,6 +110,29 @@ def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
         inputs=tuple(echo for echoes in inputs for echo in echoes),
         ends=ends,
     )
+
+
+def refuse_large_grid(
+    table: Table, ranges: Ranges, n_rows: int, findings: list[Finding]
+) -> None:
+    """Refuse a grid of more cases than anybody waits for, or a study holds.
+
+    Parameters
+    ----------
+    table : Table
+        Sheet Ranges.
+    ranges : Ranges
+        As read from it.
+    n_rows : int
+        Net rows, each of which has the whole grid.
+    findings : list of Finding
+        Appended to.
+    """
+    count = n_rows * ranges.grid_cases
+    if count > MOST_GRID_CASES:
+        accepted = say("range.most_cases", most=MOST_GRID_CASES)
+        refusal = Refusal(say("range.large_grid", count=count), accepted)
+        findings.append(table.sheet.finding(refusal))
 
 
 def _refuse_doubles(names: Mapping[str, Reading], findings: list[Finding]) -> list[str]:

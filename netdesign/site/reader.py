@@ -40,7 +40,7 @@ from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id, list_catalogue
 from netdesign.site.ranged_columns import free_columns
-from netdesign.site.ranges import RangesSheet, build_ranges
+from netdesign.site.ranges import RangesSheet, build_ranges, refuse_large_grid
 from netdesign.site.readings import Row, refuse
 from netdesign.site.replaced import replace_cells, tell_replaced
 from netdesign.site.snow_layers import check_layers, read_layers
@@ -110,7 +110,8 @@ def read_site(
             nets, type_sheets, snow, findings, absent, ends, ranged
         )
     built = _read_ranges(ranges, findings)
-    if built.ranges:
+    if ranges and built.ranges:
+        refuse_large_grid(ranges, built.ranges, len(net_rows), findings)
         check_layers(net_rows, snow, built.ranges, findings)
     ids = _list_ids(nets)
     monitoring = read_monitoring(tables[MONITORING.name], ids, findings)

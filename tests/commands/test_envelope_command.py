@@ -175,6 +175,11 @@ def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
         (("--density", "250-450"), 2, "accepted is low:high"),
         ((), 2, "no range is given: accepted are --density"),
         (("--density", "250:450:3", "--friction", "15:45"), 2, "give n in all of them"),
+        (
+            ("--density", "250:450:401", "--friction", "15:45:250"),
+            2,
+            "100250 cases: at most 100000 in a grid",
+        ),
         (("--density", "250:950"), 3, "snow density = 950.0: must lie above 0"),
         (("--friction", "15:80"), 3, "friction"),
         (

@@ -478,6 +478,19 @@ def test_more_net_rows_than_a_report_holds_are_refused(sheets, save, refused):
     assert str(finding.accepted) == "at most 400 in one site: divide it"
 
 
+def test_a_grid_of_too_many_cases_is_refused(sheets, save, refused):
+    """Of 25 by 25 samples, and three of the inclination: 53 net rows may have it."""
+    first, (_, *lines) = sheets["Nets"][FIRST], sheets["Ranges"]
+    for line in lines:
+        line[-1] = 25
+    sheets["Nets"][FIRST:] = [[f"W{k}", *first[1:]] for k in range(53)]
+    assert read_site(save(sheets)).ranges.grid_cases == 1875
+    sheets["Nets"].append(["one more", *first[1:]])
+    (finding,) = refused(save(sheets))
+    assert (finding.sheet, str(finding.rule)) == ("Ranges", "asks for 101250 cases")
+    assert "at most 100000 cases over all net rows" in str(finding.accepted)
+
+
 def test_two_sheets_of_one_kind_are_refused(sheets, save, refused):
     sheets["Netze"] = sheets["Nets"]
     (finding,) = refused(save(sheets))
