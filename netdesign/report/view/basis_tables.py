@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from netdesign.outcome import Outcome
 from netdesign.report.view.table import Cell, Table, given_cell, name_columns, text_cell
@@ -42,6 +42,8 @@ _MODEL = (
 
 # Left empty, its factor is taken by the guideline's load.
 _ALTITUDE = say("column.Nets.altitude")
+# Net rows of which each is named; of more, those that are left out may be fewer.
+_FEW_ROWS = 8
 
 
 def list_scope(words: Words) -> tuple[str, ...]:
@@ -128,7 +130,24 @@ def _group_defaults(
             elif echo.label == _ALTITUDE and echo.value == "":
                 shown = words("show.largest_altitude_factor")
                 found.setdefault((label, shown), []).append(place)
-    return {key: show_text(", ".join(names)) for key, names in found.items()}
+    return {
+        key: show_text(name_rows(names, study, words)) for key, names in found.items()
+    }
+
+
+def name_rows(names: Sequence[str], study: Study, words: Words) -> str:
+    """Names of net rows; of a large site all of them, or all but a few, in a phrase.
+
+    What is named beside them, such as the ranges, stands before.
+    """
+    ids = [row.id for row in study.rows]
+    beside = [name for name in names if name not in ids]
+    others = [name for name in ids if name not in names]
+    if len(ids) <= _FEW_ROWS or len(others) > _FEW_ROWS:
+        return ", ".join(names)
+    key = "show.all_rows_but" if others else "show.all_rows"
+    told = words(key, count=len(ids), others=", ".join(others))
+    return ", ".join([*beside, told])
 
 
 def list_defaults(study: Study, words: Words) -> str:

@@ -493,5 +493,5 @@ def _list_assumed(study: Study, words: Words) -> str:
     kinds = [row.id for row in study.rows if not all(p.kind for p in row.pulls)]
     for key, rows in (("show.assumed_axes", axes), ("show.assumed_kinds", kinds)):
         if rows:
-            names.append(words(key, rows=tuple(rows)))
+            names.append(words(key, rows=basis_tables.name_rows(rows, study, words)))
     return ", ".join(show_text(name) for name in names)

@@ -4,7 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.view.basis_tables import build_assumptions, list_defaults
+from netdesign.report.view.basis_tables import (
+    build_assumptions,
+    list_defaults,
+    name_rows,
+)
 from netdesign.report.view.row_tables import build_floor
 from netdesign.report.words import Words
 from netdesign.site.model import InputEcho
@@ -52,3 +56,31 @@ def test_floor_s_table_tells_what_a_force_follows_from_and_what_is_assumed():
         assert cells[key].number == getattr(force, key)
     plain = replace(row, floor=replace(row.floor, assumed=[]))
     assert build_floor(plain, words).caption == words("caption.floor")
+
+
+def name_of(missing, language, rows=23):
+    """Names of all rows of a site but some."""
+    (row,) = build_study(rows=1).rows
+    ids = [f"W{number}" for number in range(rows)]
+    study = replace(build_study(rows=1), rows=[replace(row, id=one) for one in ids])
+    named = [one for number, one in enumerate(ids) if number not in missing]
+    return name_rows(named, study, Words(language)), named
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [("en", "all 23 net rows"), ("fr", "les 23 rangées"), ("de", "alle 23 Werkreihen")],
+)
+def test_all_rows_of_a_large_site_are_named_in_a_phrase(language, told):
+    assert name_of((), language)[0] == told
+    found, _ = name_of((3, 17), language)
+    assert found.startswith(told)
+    assert found.endswith(" W3, W17")
+
+
+def test_each_row_is_named_where_a_phrase_would_not_be_shorter():
+    """Of few rows, and where many are left out: no name is lost."""
+    few, named = name_of((), "en", rows=8)
+    assert few.split(", ") == named
+    half, named = name_of(range(0, 23, 2), "en")
+    assert half.split(", ") == named
