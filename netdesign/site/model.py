@@ -113,6 +113,7 @@ class Resistance:
     tests: PullOutTests | None = None  # instead of a value
     dimensions: AnchorType | PostSection | BaseFriction | None = None
     lack: Message | None = None  # why there is no value, where that needs more words
+    buckling_length: float | None = None  # of a post, with which it was computed [m]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -427,6 +427,7 @@ def _describe_type(
     basis = kind["basis"].word if mode == "pull_out" else "declared"
     if is_derived:
         basis = "computed"
+    is_strut = is_derived and mode == "compression"
     place = kind["test_least"].place if tests else resistance.place
     return Resistance(
         member=member,
@@ -437,6 +438,7 @@ def _describe_type(
         source=place or sheet,
         derivation=resistance.derivation if is_given else None,
         tests=tests,
+        buckling_length=kind["buckling_length"].si if is_strut else None,
     )
 
 

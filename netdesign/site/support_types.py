@@ -8,6 +8,7 @@ what the study needs to work such a resistance out.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from netdesign.errors import ModelError
 from netdesign.resistance.catalogue import find_imperfection, load_catalogue
@@ -147,7 +148,8 @@ def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
         buckling=buckling.value,
     )
     place = line["post_width"].place
-    return _open(named, Member.POST, mode, section, source=place)
+    found = _open(named, Member.POST, mode, section, source=place)
+    return replace(found, buckling_length=section.length)
 
 
 def compute_buckling(line: Row) -> BucklingResistance:

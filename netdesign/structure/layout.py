@@ -107,6 +107,20 @@ def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
     )
 
 
+def measure_post(layout: SupportLayout, head: Point) -> float:
+    """Length of the post from its base to the head [m].
+
+    Parameters
+    ----------
+    layout : SupportLayout
+        What the engineer chose.
+    head : tuple of float, shape (2,)
+        Where the net hangs, (x, y) from its foot [m].
+    """
+    x_head, y_head = head
+    return math.hypot(x_head - locate_base(layout, x_head, y_head), y_head)
+
+
 def locate_base(layout: SupportLayout, x_head: Number, y_head: Number) -> Number:
     """Post base downslope of the net's foot [m], below a head or below many.
 

@@ -335,5 +335,7 @@ def _list_resistance_changes(
         solves=0,
         note=note,
     )
-    kind = find_type_change(task.site, given, result.demand.high, task.standard)
+    kind = find_type_change(
+        task.site, task.row, given, result.demand.high, task.standard
+    )
     return [change, kind] if kind else [change]

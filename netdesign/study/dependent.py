@@ -32,6 +32,7 @@ from netdesign.resistance.steel import (
     compute_bent_bar_resistance,
 )
 from netdesign.site.model import AnchorType, BaseFriction, NetRow, Resistance
+from netdesign.structure.layout import measure_post
 from netdesign.study.corners import list_corners
 from netdesign.study.effects import find_row_glide_factor, load_guideline
 from netdesign.study.pulls import AnchorPull
@@ -39,6 +40,8 @@ from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 _LARGEST_ANGLE = math.radians(89.0)
+# Share of a post that the buckling length of its type may lack: lengths are rounded.
+_ROUNDED = 0.01
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +76,29 @@ def settle_resistance(given: Resistance, known: Circumstances) -> Resistance:
             return _settle_base(given, given.dimensions, known)
         case _:
             return given
+
+
+def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message | None:
+    """Lack of a post's resistance that was computed for a shorter post than the row's.
+
+    Theory: resistance/THEORY.md, (R5). The post is longest at one end of the net's
+    inclinations.
+    """
+    if given.buckling_length is None:
+        return None
+    span = ranges["inclination"]
+    longest = max(
+        measure_post(row.layout, (row.net_height * math.tan(angle), row.net_height))
+        for angle in (span.low, span.high)
+    )
+    if given.buckling_length >= (1.0 - _ROUNDED) * longest:
+        return None
+    return say(
+        "check.short_buckling",
+        type=given.type_id,
+        length=given.buckling_length,
+        post=longest,
+    )
 
 
 def _settle_bending(

@@ -20,7 +20,7 @@ from netdesign.study.changes import (
     list_targets,
 )
 from netdesign.study.demand import tell_governing
-from netdesign.study.dependent import Circumstances, settle_resistance
+from netdesign.study.dependent import Circumstances, find_short_post, settle_resistance
 from netdesign.study.effects import RowEffects
 from netdesign.study.holds import solve_ends
 from netdesign.study.member_check import MemberCheck, RowCheck
@@ -203,6 +203,11 @@ def _judge_member(
     if given.member in (Member.POST, Member.POST_BASE) and width.position == "edge":
         gap = gap or find_lack(task.row, given)  # its end guy presses it
     action = demand.action if demand else None
+    result = judge_forces(action, given, task.standard, gap=gap, doubt=doubt)
+    short = find_short_post(given, task.row, task.site.ranges)
+    if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
+        given = replace(given, value=None, lack=short)
+        result = judge_forces(action, given, task.standard, gap=gap, doubt=doubt)
     return MemberCheck(
         given=given,
         width=width,
@@ -210,7 +215,7 @@ def _judge_member(
         demand=demand,
         gap=gap,
         doubt=doubt,
-        result=judge_forces(action, given, task.standard, gap=gap, doubt=doubt),
+        result=result,
     )
 
 

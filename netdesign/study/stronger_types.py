@@ -7,7 +7,8 @@ import math
 from netdesign.checks import Standard, find_characteristic
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import compute_rope_resistance
-from netdesign.site.model import NAMED_BY, Resistance, Site
+from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
+from netdesign.study.dependent import find_short_post
 from netdesign.study.records import ChangeRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -18,7 +19,7 @@ _DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
 
 
 def find_type_change(
-    site: Site, given: Resistance, demand: float, standard: Standard
+    site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
 ) -> ChangeRecord | None:
     """Type whose design resistance reaches the design ``demand`` [N].
 
@@ -30,7 +31,7 @@ def find_type_change(
         return None
     enough: dict[str, tuple[float, float]] = {}  # design, characteristic [N]
     for other in site.catalogue:
-        if other.mode != given.mode:
+        if other.mode != given.mode or find_short_post(other, row, site.ranges):
             continue
         factor = standard.find_resistance_factor(other.mode, other.basis)
         value, lack = find_characteristic(other, standard)

@@ -82,6 +82,16 @@ def study_row(
 
     Without a floor by the guideline's load the given pulls are the demand.
     """
+    path = write_row(tmp_path, anchor=anchor, post=post, **nets)
+    site = read_site(path)
+    result = give_pulls(site, foot, head)
+    run = CheckRun(settings=SolverSettings())
+    standard = replace(load_standard(profile), floor=floor)
+    return judge_site(site, [RowGrid(results=[result])], standard, run)
+
+
+def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets):
+    """Workbook of the row; pulls are none of its cells."""
     sheets = {
         "Nets": NETS | {key.replace("_", " "): v for key, v in nets.items()},
         "Anchors": {"id": "A"} | anchor,
@@ -104,11 +114,7 @@ def study_row(
         ranges.append(line)
     path = tmp_path / "site.xlsx"
     workbook.save(path)
-    site = read_site(path)
-    result = give_pulls(site, foot, head)
-    run = CheckRun(settings=SolverSettings())
-    standard = replace(load_standard(profile), floor=floor)
-    return judge_site(site, [RowGrid(results=[result])], standard, run)
+    return path
 
 
 def give_pulls(site, foot, head) -> CaseResult:

@@ -1,12 +1,16 @@
 """Checks beyond axial force on a row with given pulls: what they need and say."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
+from netdesign.checks import load_standard
 from netdesign.errors import SiteDataError
 from netdesign.outcome import Verdict
-from tests.checks.given_pulls import POST, judge_row, study_row
+from netdesign.site.reader import read_site
+from netdesign.study.stronger_types import find_type_change
+from tests.checks.given_pulls import POST, judge_row, study_row, write_row
 
 SWISS = "swiss-guideline-2007"
 GUYS, SPLAY = "guys on each side of the post", "splay of the guys [deg]"
@@ -308,3 +312,46 @@ def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path)
     verdict, text = told(judge(tmp_path, mine, anchor=few)["foot_anchor.pull_out"])
     assert verdict is Verdict.NOT_PROVEN
     assert "no correlation factors for 2 tests" in text
+
+
+# Net height, tilt, and base downslope of the foot in the tilt's place: a longer post.
+@pytest.mark.parametrize(
+    ("height", "tilt", "base"),
+    [(2.917, 11.3, None), (3.371, 26.9, None), (3.0731, None, -0.273)],
+)
+@pytest.mark.parametrize("share", [0.71, 0.987, 0.992, 1.37])
+def test_a_post_passes_by_no_buckling_length_but_its_own(
+    tmp_path, height, tilt, base, share
+):
+    aside = height * math.tan(math.radians(30)) - base if base else None
+    true = math.hypot(height, aside) if base else height / math.cos(math.radians(tilt))
+    post = POST | {"buckling length [m]": round(share * true, 4)}
+    row = {"net height [m]": height, "post tilt [deg]": tilt, "head": (1.0, -4.0)}
+    row["post base distance [m]"] = base
+    checks = judge(tmp_path, post=post, **row)
+    for mode in ("compression", "compression_bending"):
+        verdict, text = told(checks[f"post.{mode}"])
+        is_long = share > 0.99
+        assert verdict is (Verdict.PASS if is_long else Verdict.NOT_PROVEN), text
+        assert ("shorter than the post of this net row" in text) is not is_long
+        assert is_long or f"{true:.2f} m" in text
+
+
+def test_a_post_that_fails_by_a_short_buckling_length_fails(tmp_path):
+    post = POST | {"buckling length [m]": 2.173}
+    checks = judge(tmp_path, post=post, head=(31.7, -190.3))
+    assert checks["post.compression"].verdict is Verdict.FAIL
+
+
+def test_a_type_for_shorter_posts_is_no_remedy(tmp_path):
+    site = read_site(write_row(tmp_path, **ROW))
+    (row,), (given,) = site.rows, (
+        one for one in site.rows[0].resistances if one.mode == "compression"
+    )  # fmt: skip
+    short = replace(given, type_id="short", value=9e6, buckling_length=2.9)
+    long = replace(given, type_id="long", value=9.1e6, buckling_length=3.2)
+    standard = load_standard(SWISS)
+    for catalogue, found in (((short,), None), ((short, long), "long")):
+        stocked = replace(site, catalogue=catalogue)
+        change = find_type_change(stocked, row, given, 5.3e6, standard)
+        assert (change and change.quantity.arguments["type"]) == found

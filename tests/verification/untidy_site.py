@@ -99,7 +99,7 @@ def _list_posts(vary):
         "id": "slim",
         "area": vary(54.3),
         "second_moment": vary(889.0),
-        "buckling_length": vary(4.1),
+        "buckling_length": vary(4.9),
         "yield_strength": 355,
         "buckling_curve": "b",
         "post_width": vary(160.0),
