@@ -14,6 +14,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.rows import Confirmation, RowEnvelope, build_point_task
 from netdesign.envelope.run import CaseResult, CaseTask, Compared, run_cases
+from netdesign.panel.solution import FailedPanel
 from netdesign.solving.runner import Runner
 from netdesign.words.message import say
 
@@ -113,18 +114,22 @@ def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
     """The steady result, or the history's forces where these are surely larger.
 
     Where one is, the drawn state is the history's too. A failed history fails the
-    case.
+    case. A steady state whose panel failed keeps that gap, whatever the history's is.
     """
     if not history.is_converged:
         reason = say("envelope.history_failed", reason=history.reason or "")
         return replace(history, reason=reason)
     compared = Compared(steady=steady, history=history)
     forces = {
-        member: _take_demand(compared, member) for member in history.member_forces
+        member: _take_demand(compared, member)
+        for member in history.member_forces
+        if member in steady.member_forces
     }
     raised = any(compared.exceeds(member) for member in forces)
     if raised:  # of the panel, too, its own forces count, if it has some
-        return replace(history, member_forces=forces, compared=compared)
+        is_lost = isinstance(steady.panel, FailedPanel)
+        panel = steady.panel if is_lost else history.panel
+        return replace(history, member_forces=forces, panel=panel, compared=compared)
     return replace(
         steady, member_forces=steady.member_forces | forces, compared=compared
     )

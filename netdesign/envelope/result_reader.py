@@ -175,7 +175,7 @@ class ResultReader:
             sources = name_sources(member, is_shared=self.is_shared)
             allowed = [upper[self.quantities.index(name)] for name in sources]
             if allowed:
-                upper[place] = max(maxima.maximum[place], 0.0, *allowed)
+                upper[place] = float(np.max([maxima.maximum[place], 0.0, *allowed]))
         return replace(maxima, upper_bound=tuple(upper))
 
     def _find_signed(self, result: CaseResult) -> dict[str, float] | None:

@@ -166,7 +166,8 @@ class RowEnvelope:
 
     def _bound(self, extreme: Extreme) -> Extreme:
         place, member = self.members.index(extreme.member), extreme.member
-        hidden = max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
+        gap = self.maxima.upper_bound[place] - self.maxima.maximum[place]
+        hidden = 0.0 if gap <= 0.0 else gap  # what is no number stays none
         if math.isinf(hidden):  # not searched, since some case has no panel: a gap
             hidden = 0.0
         confirmed = [

@@ -110,12 +110,11 @@ class Compared:
     def exceeds(self, member: str) -> bool:
         """The history's force is larger by more than both state as their errors.
 
-        A history may have no forces by the panel between posts.
+        Either may have no forces by the panel between posts.
         """
-        if member not in self.history.member_forces:
-            return False
-        history = self.history.member_forces[member]
-        return history.low > self.steady.member_forces[member].high
+        history = self.history.member_forces.get(member)
+        steady = self.steady.member_forces.get(member)
+        return bool(history and steady and history.low > steady.high)
 
 
 def run_cases(

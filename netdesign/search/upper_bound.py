@@ -51,7 +51,7 @@ class Bounds:
     def open(self) -> tuple[int, ...]:
         """Deciding quantities whose gap is larger than its tolerance."""
         gaps = (self.upper - self.best) / self.tolerance
-        return tuple(q for q in self.deciding if gaps[q] > 1.0 + 1e-9)
+        return tuple(q for q in self.deciding if not gaps[q] <= 1.0 + 1e-9)
 
     @property
     def gap(self) -> float:

@@ -83,8 +83,12 @@ def _identify(parts: tuple[str, ...], package: Path, core: str) -> str:
 
 
 def name_case(scene: object, settings: Hashable) -> str:
-    """Key of a case: equal for equal inputs, whoever asks."""
-    text = f"[{write_parts(scene)}, {_write_settings(settings)}]"
+    """Key of a case under this version of the solver: equal for equal inputs.
+
+    Two versions may have one file open.
+    """
+    solver = identify_solver()
+    text = f"[{solver!r}, {write_parts(scene)}, {_write_settings(settings)}]"
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -235,8 +235,8 @@ def _resolve(
     tension = _cross(pull, post) / divisor
     # A pull along the guy's own line leaves a post force of rounding size.
     rounding = _ROUNDING * measure_length(*pull) / abs(divisor)
-    is_pushed = tension < 0.0
-    is_pulled = compression < -rounding
+    is_pushed = find_none(tension >= 0.0)  # also what is no number
+    is_pulled = find_none(compression >= -rounding)
     return _Pair(
         signed_compression=compression,
         compression=take_larger(compression, 0.0),

@@ -11,6 +11,7 @@ closed form.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import count, product
 
 from netdesign.envelope.ranges import Case
@@ -32,8 +33,6 @@ _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
 # moved quantity, and for none. At most 0.57 of thickness (1,023 rivals) and 0.09 of
 # density (358) were seen, taken higher; assumed.
 _DRIFTS, _STILL_DRIFT = {"thickness": 1.0, "density": 0.3}, 0.01
-_LEAST_FLOOR = 1e-3  # utilisation by a floor, that a secant is taken with
-_MOST_ROUNDS = 4
 _LEAST_FLOOR = 1e-3  # utilisation by a floor, that a secant is taken with
 _MOST_ROUNDS = 4
 # Utilisation up to which a rival does not fail between two others of less and of more
@@ -89,7 +88,7 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
         step=_STEPS["density"],
         power=1.5,
     )
-    if bound is not None and not _lighter_snow_passes(target, bound):
+    if bound is not None and not _less_passes(target, "density", bound):
         bound, note = None, say("change.lighter_snow_fails")
     if bound is not None and bound < target.ranges["density"].low:
         note = say("change.below_range")
@@ -107,8 +106,9 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
 def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     """Largest snow thickness, normal to the slope, at which a check passes.
 
-    Where the thickness ranges, all of it has to stay below. Coupled force and floor
-    both rise with it; the lower of the two limits counts.
+    Where the thickness ranges, all of it has to stay below, and thinner snow that was
+    solved has to pass: the force of a guy may fall while the snow grows. The floor
+    rises with it; the lower of the two limits counts.
     """
     thickness = target.row.snow_thickness
     least, most = _LEAST_SHARE * thickness, target.row.net_height
@@ -130,6 +130,8 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     limit = most if highest is None else highest
     if bound is not None and limit < most and bound > limit - _STEPS["thickness"]:
         note = say("change.floor_limits")
+    if bound is not None and not _less_passes(target, "thickness", bound):
+        bound, note = None, say("change.thinner_snow_fails")
     if bound is not None and bound < _find_thinnest(target):
         note = say("change.below_range")
     return ChangeRecord(
@@ -186,9 +188,8 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     """Friction angle from or up to which a failing check passes.
 
     Within the range that was given; None where the check passes all over it. The
-    force is not monotonic in the friction angle: the part of the range beside the
-    governing case is told, between the nearest sample that passes and the one that
-    does not.
+    force is not monotonic in the friction angle: the end of the range beside the
+    governing case is told on which every sample passes, from the nearest of them.
     """
     now = degree_from_radian(target.governing.friction_angle)
     if target.use_least() > 1.0:
@@ -198,8 +199,12 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     if all(one is not None and one <= 1.0 for one in worst):
         return None
     place = samples.index(target.governing.friction_angle)
-    passing = [k for k, one in enumerate(worst) if one is not None and one <= 1.0]
-    if not passing or place in passing:
+    passes = [one is not None and one <= 1.0 for one in worst]
+    passing = _list_passing_ends(passes, place)
+    if not passing or passes[place]:
+        note = say("change.no_friction_angle")
+        if any(passes) and not passes[place]:
+            note = say("change.friction_between")
         return ChangeRecord(
             quantity=say("change.friction_angle"),
             unit="deg",
@@ -207,7 +212,7 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
             bound=None,
             sense="at most",
             solves=0,
-            note=say("change.no_friction_angle"),
+            note=note,
         )
     nearest = min(passing, key=lambda k: abs(k - place))
     beside = nearest + (1 if place > nearest else -1)
@@ -225,6 +230,12 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
         sense="at most" if is_upper else "at least",
         solves=probe.count - before,
     )
+
+
+def _list_passing_ends(passes: Sequence[bool], place: int) -> list[int]:
+    """Places from which on all pass, away from that of the governing case."""
+    ends = range(len(passes))
+    return [k for k in ends if all(passes[k:] if k > place else passes[: k + 1])]
 
 
 def _list_friction_angles(target: Target) -> list[float]:
@@ -277,11 +288,12 @@ def _worst_at(target: Target, angle: float) -> float | None:
     return max(numbers) if len(numbers) == len(known) and numbers else None
 
 
-def _lighter_snow_passes(target: Target, density: float) -> bool:
+def _less_passes(target: Target, name: str, bound: float) -> bool:
+    """Every solved case passes that has no more of a quantity than a bound."""
     return all(
         _is_met(target, result)
         for result in target.results
-        if result.case.density <= density
+        if (target.find_value(result.case, name) or 0.0) <= bound
     )
 
 

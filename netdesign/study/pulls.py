@@ -277,7 +277,7 @@ def _check_bar(
     limit = standard.find(BAR_ANGLE)
     most = limit.value if limit else 0.0
     angle = degree_from_radian(pull.angle)
-    if limit is None or angle > most:
+    if limit is None or not angle <= most:
         lack = say("direction.no_lever", angle=angle, most=most)
         return _result(pull, Verdict.NOT_PROVEN, not_proven(lack))
     if gap is not None:

@@ -222,9 +222,10 @@ class Target:
         return self._shares_of_use[case]
 
     def find_value(self, case: Case, name: str) -> float | None:
-        """Value that a case has, or the row as far as it may be asked for."""
-        of_row = self.row.snow_thickness if name == "thickness" else None
-        return case.values.get(name, of_row)
+        """Value that a case has, or the row in it as far as it may be asked for."""
+        if name == "thickness":  # or the snow height ranges, which is the same
+            return self.row.at(case).snow_thickness
+        return case.values.get(name)
 
     def use_least(self, move: Move | None = None) -> float:
         """Utilisation by the guideline's load alone [-], of what is moved."""

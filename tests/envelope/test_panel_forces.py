@@ -259,6 +259,21 @@ def test_where_a_history_is_the_demand_nothing_is_known_of_the_panel(share):
         assert "by the panel between posts" in str(grid.gap)
 
 
+@pytest.mark.parametrize("share", [0.83, 1.37])
+def test_a_panel_that_the_steady_state_lacks_stays_a_gap(share):
+    """Whatever the history's panel is: of the steady one nothing is known."""
+    whole = solve(draw_case(np.random.default_rng(11)))
+    lost = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("outcome.nonfinite"))
+    own = {name: whole.member_forces[name] for name in CARRYING_MEMBERS}
+    steady = replace(whole, member_forces=own, panel=lost)
+    forces = {name: one.times(share) for name, one in whole.member_forces.items()}
+    merged = merge_history(steady, replace(whole, member_forces=forces))
+    assert "by the panel between posts" in str(RowGrid(results=[merged]).gap)
+    for name, band in own.items():
+        assert merged.member_forces[name].high >= band.high
+    assert merged.compared.exceeds("panel_post") is False
+
+
 def test_ropes_that_nothing_checks_cost_no_case_and_keep_their_bounds(
     found, grid, runner
 ):

@@ -13,6 +13,7 @@ from netdesign.search.maxima import (
     Watched,
 )
 from netdesign.search.questions import list_first_design
+from netdesign.search.upper_bound import Bounds
 from tests.search.synthetic import (
     answer,
     drive,
@@ -301,3 +302,17 @@ def test_a_kink_by_the_maximum_leaves_six_parameters_closed():
     assert len(found.points) < 250
     corner = np.array([[1.0, 0.0, 0.0, 1.0, 0.0, 1.0]])
     assert found.maximum[0] <= force(corner)[0] <= found.upper_bound[0]
+
+
+def test_a_bound_that_is_no_number_closes_nothing():
+    bounds = Bounds(
+        best=np.array([1.3, 0.7]),
+        tolerance=np.array([0.013, 0.007]),
+        upper=np.array([1.31, math.nan]),
+        watched=(0, 1),
+        deciding=(0, 1),
+        summits=(),
+        wanted=(),
+    )
+    assert bounds.open == (1,)
+    assert not bounds.is_closed

@@ -252,3 +252,10 @@ def test_a_store_that_breaks_under_way_costs_its_use_not_the_run(opened, said):
     assert end.outcome is Outcome.CONVERGED
     assert runner.store is None
     assert "going on without it" in str(said[0])
+
+
+def test_cases_of_two_versions_of_the_solver_are_told_apart(monkeypatch):
+    """Both may have one file open: the second to come began it anew."""
+    own = name_case(SCENE, COARSE)
+    monkeypatch.setattr(module, "identify_solver", lambda: "another+0123")
+    assert name_case(SCENE, COARSE) != own

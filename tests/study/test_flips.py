@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.checks import Band
@@ -354,3 +355,80 @@ def test_a_case_without_its_force_is_solved_again():
     move = Move(name="density", value=target.governing.density)
     replace(target, results=lost).solve(probe, [target.governing], move)
     assert probe.count == 1
+
+
+def draw_peak(seed):
+    """A force that is largest where the snow has some drawn share of its thickness."""
+    draw = np.random.default_rng(seed)
+    share, sharp = draw.uniform(0.55, 0.95), draw.uniform(4.0, 40.0)
+
+    def force(row, case):
+        away = row.at(case).snow_thickness / 2.5 - share
+        return math.exp(-sharp * away**2) * (case.density / 400.0) ** 0.37
+
+    return force, float(draw.uniform(0.9, 1.4))
+
+
+@pytest.mark.parametrize("name", ["thickness", "snow_height"])
+@pytest.mark.parametrize("seed", range(7))
+def test_no_thickness_is_told_up_to_which_some_solved_snow_fails(seed, name):
+    force, scale = draw_peak(seed)
+    steep = 1.0 / math.cos(ROW.slope_angle) if name == "snow_height" else 1.0
+    ranges = Ranges(
+        intervals=(
+            *RANGES.intervals,
+            (name, Interval(low=1.2345 * steep, high=2.5 * steep, count=7)),
+        )
+    )
+    results = [MadeUpProbe(force).solve(ROW, case) for case in build_cases(ranges)]
+    target = Target(
+        row=ROW,
+        ranges=ranges,
+        member="post",
+        scale=scale,
+        governing=max(results, key=lambda r: r.member_forces["post"].value).case,
+        results=results,
+    )
+    change = find_height_change(target, MadeUpProbe(force))
+    below = [
+        target.utilisation(result)
+        for result in results
+        if change.bound and ROW.at(result.case).snow_thickness <= change.bound
+    ]
+    assert max(below, default=0.0) <= 1.0
+    is_peak_below = scale > 1.0 and change.bound is None
+    assert not is_peak_below or change.note is not None
+
+
+def test_a_case_of_a_snow_height_has_a_thickness_of_its_own():
+    height = 1.7713
+    case = build_cases(RANGES)[0].with_value("snow_height", height)
+    found = a_target(1.0).find_value(case, "thickness")
+    assert found == pytest.approx(height * math.cos(ROW.slope_angle), rel=1e-12)
+    assert a_target(1.0).find_value(build_cases(RANGES)[0], "thickness") == 2.5
+
+
+@pytest.mark.parametrize(
+    ("used", "bound", "note"),
+    [
+        ((1.05, 0.90, 1.10), None, "only angles between others pass"),
+        ((0.93, 0.90, 1.10), "at most", ""),
+        ((1.10, 0.91, 0.97), "at least", ""),
+        ((1.03, 1.02, 1.10), None, "at no friction angle"),
+    ],
+)
+def test_friction_angles_are_told_only_where_all_beyond_them_pass(used, bound, note):
+    angles = [math.radians(15), math.radians(30), math.radians(45)]
+
+    def force(_, case):
+        return float(np.interp(case.friction_angle, angles, used))
+
+    change = find_friction_change(a_target(1.0, force), MadeUpProbe(force))
+    assert note in str(change.note or "")
+    if bound is None:
+        assert change.bound is None
+        return
+    assert change.sense == bound
+    told = math.radians(change.bound)
+    beyond = np.linspace(told, angles[0 if bound == "at most" else -1], 37)
+    assert max(np.interp(beyond, angles, used)) <= 1.0 + 1e-9
