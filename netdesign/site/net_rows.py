@@ -175,13 +175,11 @@ def _build_net_row(
     named = [row, end] if end else [row]
     for one in named:
         refuse_unknown_types(one, type_sheets, findings)
-    check_panel(row, findings)
-    if (
-        _is_faulty(named, type_sheets)
-        or thickness is None
-        or ground is None
-        or len(findings) > count_before
-    ):
+    check_panel(row, type_sheets["Ropes"] or {}, findings)
+    is_refused = any(one.severity == "error" for one in findings[count_before:])
+    if is_refused or _is_faulty(named, type_sheets):
+        return None
+    if thickness is None or ground is None:
         return None
     if is_overtopped(row["net_height"].si, thickness):
         rule = say("nets.overtopped", thickness=thickness)

@@ -13,17 +13,31 @@ from netdesign.words.message import Message, say
 # Without these there is no panel: none of them has a default.
 _NEEDED = ("net_cut", "ridge_rope", "ridge_sag", "lower_rope", "lower_sag")
 _ROPES = ("ridge_rope", "lower_rope")
+_OPTIONAL = (*_NEEDED, "mid_anchors")
+_WITHOUT_MODEL = ("none", "triangular")
 
 
-def check_panel(row: Row, findings: list[Finding]) -> None:
-    """Refuse what a line says of ropes beside a panel system of no ropes."""
+def check_panel(row: Row, ropes: Mapping[str, Row], findings: list[Finding]) -> None:
+    """Refuse what a line says of ropes beside a panel system of no ropes.
+
+    Of a panel that lacks something it is noted that what is there is not used.
+    """
     system = row["panel_system"]
-    if system.word != "none":
-        return
-    for key in (*_NEEDED, "mid_anchors"):
-        if row[key].state == "given":
+    begun = [row[key] for key in _OPTIONAL if row[key].state == "given"]
+    if system.word == "none":
+        for reading in begun:
             rule = say("panel.beside_none", place=system.place)
-            refuse(row[key], rule, say("panel.empty_or_ropes"), findings)
+            refuse(reading, rule, say("panel.empty_or_ropes"), findings)
+    named = [ropes.get(one.word) for one in list_ropes(row)]
+    of_ropes = [rope["axial_stiffness"] for rope in named if rope]
+    read = [system, *(row[key] for key in _OPTIONAL), *of_ropes]
+    is_faulty = None in named or any(one.state == "faulty" for one in read)
+    if is_faulty or system.word in _WITHOUT_MODEL:
+        return
+    begun += [system] if system.state == "given" else []
+    if begun and (lacking := _list_lacking(row, ropes)):
+        rule = say("panel.unused", names=tuple(lacking))
+        refuse(begun[-1], rule, say("panel.whole"), findings, severity="note")
 
 
 def read_panel(

@@ -80,9 +80,14 @@ def test_a_workbook_without_the_columns_reads_as_before(sheets, save):
 )
 def test_what_is_missing_is_named_and_leaves_no_panel(with_panel, save, heading):
     put(with_panel, heading, None)
-    row = read_site(save(with_panel)).rows[0]
+    site = read_site(save(with_panel))
+    row = site.rows[0]
     assert row.panel is None
     assert heading.split(" [")[0] in lack(row)
+    (note,) = site.notes  # on the terminal and the first pages: typed, and not used
+    assert "is not used: of the panel" in str(note)
+    assert heading.split(" [")[0] in str(note)
+    assert "Nets › " in str(note)
 
 
 def test_a_rope_without_stiffness_is_named(with_panel, save):
@@ -90,6 +95,13 @@ def test_a_rope_without_stiffness_is_named(with_panel, save):
     row = read_site(save(with_panel)).rows[0]
     assert row.panel is None
     assert "axial stiffness of rope B2" in lack(row)
+
+
+def test_mid_anchors_without_a_panel_are_not_used_and_told(sheets, save):
+    sheets["Nets"][0].append("foot anchors in mid-panel")
+    sheets["Nets"][1].append("yes")
+    (note,) = read_site(save(sheets)).notes
+    assert 'O2: "yes" is not used: of the panel' in str(note)
 
 
 def test_mid_anchors_may_stay_empty(with_panel, save):
