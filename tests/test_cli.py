@@ -704,7 +704,7 @@ def test_report_ends_with_the_verdict_of_the_study(study, tmp_path, verdict, cod
         (None, "cannot be read"),
         (b"\xff\xfe", "cannot be read"),
         (b"{}", "schema: "),
-        (b"no json", "Invalid JSON"),
+        (b"no json", "is not JSON, or ends too early (line 1, column 2)"),
     ],
 )
 def test_report_refuses_what_is_no_study(tmp_path, content, message):

@@ -334,7 +334,7 @@ def _describe_extreme(one: dict[str, Any], words: Words) -> Message:
     bound = one["upper_bound"]
     limit = say("envelope.no_bound")
     if bound is not None:
-        limit = say("envelope.nowhere_above", bound=bound)
+        limit = say("envelope.nowhere_above", bound=bound, high=one["high"])
     return say("envelope.at_case", max=one["max"], limit=limit, case=case)
 
 

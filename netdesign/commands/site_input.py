@@ -130,9 +130,12 @@ def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> Non
     """
     from dataclasses import replace
 
-    def read_bare(cells: Mapping[str, str]) -> Site:
-        """Site but for what only says that a cell was replaced."""
-        site = read(cells)
+    def read_bare(cells: Mapping[str, str]) -> Site | None:
+        """Site but for what only says that a cell was replaced; None if refused."""
+        try:
+            site = read(cells)
+        except SiteDataError:  # the cell that is left out is needed by another one
+            return None
         rows = (
             replace(row, inputs=tuple(replace(e, derivation=None) for e in row.inputs))
             for row in site.rows

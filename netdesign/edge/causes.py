@@ -28,6 +28,7 @@ _LIMITS = {
     "less_than": "lt",
     "less_than_equal": "le",
 }
+_JSON_PLACE = re.compile(r"line (\d+) column (\d+)")
 _PLAIN = (
     *("missing", "extra_forbidden", "finite_number", "float_type", "int_type"),
     *("bool_type", "string_type", "list_type", "dict_type"),
@@ -39,6 +40,7 @@ _ALIKE = {
     "bool_parsing": "bool_type",
     "model_type": "dict_type",
     "model_attributes_type": "dict_type",
+    "dataclass_type": "dict_type",
 }
 
 
@@ -82,6 +84,9 @@ def explain_shape(fault: Mapping[str, Any]) -> Message | str:
         return say(f"shape.{kind}", limit=context[_LIMITS[kind]])
     if kind in _PLAIN:
         return say(f"shape.{kind}")
+    if kind == "json_invalid":
+        line, column = _JSON_PLACE.findall(str(context["error"]))[-1]
+        return say("shape.json_invalid", line=line, column=column)
     if kind == "literal_error":
         return _explain_literal(re.findall(r"'[^']*'", str(context["expected"])))
     if kind == "string_pattern_mismatch":

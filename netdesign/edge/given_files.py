@@ -59,8 +59,9 @@ def parse_toml(content: bytes) -> dict[str, Any]:
         _MOST_POINTS
     ):
         raise ContentError(say("file.many_points", most=_MOST_POINTS))
+    text = decode_utf8(content)
     try:
-        return tomllib.loads(decode_utf8(content))
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ContentError(_tell_toml(error)) from None
     except ValueError:  # of Python's, which the parser lets through

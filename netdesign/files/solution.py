@@ -8,13 +8,14 @@ import numpy as np
 
 from netdesign import __version__
 from netdesign.core.library import name_core
-from netdesign.coupling.history.settings import TransientSettings
+from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
     RELEASED,
     Balance,
     Cost,
+    EndPull,
     FailedSolution,
     Solution,
     WallSolution,
@@ -73,7 +74,7 @@ def write_solution_document(
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
         **_write_history(solution, language),
-        "flags": [render(one, language) for one in _list_flags(solution)],
+        "flags": [render(one, language) for one in _list_flags(solution, settings)],
         "cost": _write_cost(solution.cost, wall_s),
         "provenance": {
             "version": __version__,
@@ -278,10 +279,13 @@ def _write_balance(balance: Balance) -> dict[str, float]:
     }
 
 
-def _list_flags(solution: Solution | WallSolution) -> list[Message]:
+def _list_flags(solution: Solution | WallSolution, settings: Settings) -> list[Message]:
     """Remarks that a reader must know before using the numbers."""
     law = solution.scene.creep_law
+    missed = _find_missed_accuracy(solution, settings)
     flags = _list_history_flags(getattr(solution, "history", None), solution.scene)
+    if missed is not None:
+        flags.append(missed)
     if getattr(solution, "is_released", False):
         flags.append(RELEASED)
     if not solution.scene.is_calibrated:
@@ -290,6 +294,22 @@ def _list_flags(solution: Solution | WallSolution) -> list[Message]:
     if law.exponent != FLUIDITY_EXPONENT:
         flags.append(say("solution.exponent", exponent=law.exponent))
     return flags
+
+
+def _find_missed_accuracy(
+    solution: Solution | WallSolution, settings: Settings
+) -> Message | None:
+    """Accuracy that was asked for and not reached, or that nobody asked for."""
+    if isinstance(settings, StaggeredSettings):
+        return say("solution.staggered_error")
+    if isinstance(solution, WallSolution):
+        pulls: tuple[EndPull, ...] = (solution.force,)
+    else:
+        pulls = solution.foot, solution.head
+    error = max((one.error / one.size for one in pulls if one.size), default=0.0)
+    if error <= (1.0 + 1e-9) * settings.accuracy:
+        return None
+    return say("solution.accuracy_missed", asked=settings.accuracy, error=error)
 
 
 def _list_history_flags(history: History | None, scene: Scene) -> list[Message]:

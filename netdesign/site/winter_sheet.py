@@ -112,8 +112,9 @@ def read_height_file(
     findings = list(workbook.remarks)
     table = find_table(replace(workbook, sheets=sheets), WINTER, findings)
     winter = read_winter(table, row_ids, findings)
-    if winter is None or any(one.severity == "error" for one in findings):
-        if not findings:
+    is_refused = any(one.severity == "error" for one in findings)
+    if winter is None or is_refused:
+        if not is_refused:
             rule = say("winter_sheet.no_height")
             accepted = say("winter_sheet.heights")
             findings.append(Finding(file=path.name, rule=rule, accepted=accepted))

@@ -35,6 +35,7 @@ BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _SOLVER_PARTS = ("numerics", "core", "snow", "cable", "coupling", "solving")
 _PACKAGE = Path(__file__).resolve().parent.parent
+_SQLITE, _SUFFIXES = b"SQLite format 3\0", (".sqlite", ".sqlite3", ".db")
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 # They say nothing about the case itself.
 FORGOTTEN = (Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT)
@@ -167,6 +168,9 @@ class CaseStore:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             fault = self._open()
+            if fault and not _may_be_ours(path):
+                cause = say("store.other_file")
+                raise StoreError(say("store.unusable", path=str(path), cause=cause))
             if fault:
                 aside = _set_aside(path)
                 told = say(
@@ -299,6 +303,13 @@ def _unseal(name: str, numbers: str, shape: bytes, seal: str) -> CaseEnd | None:
         if seal_entry(name, numbers, shape) == seal:
             return decode_end(numbers, shape)
     return None
+
+
+def _may_be_ours(path: Path) -> bool:
+    """A database by its name or its first bytes: anything else is a user's file."""
+    with path.open("rb") as file:
+        begins = file.read(len(_SQLITE)) == _SQLITE
+    return begins or path.suffix in _SUFFIXES
 
 
 def _set_aside(path: Path) -> Path:

@@ -127,4 +127,8 @@ def load_study(path: Path) -> Study:
         raise StudyError(
             say("study.unreadable", path=str(path), cause=explain(error))
         ) from None
-    return read_document(text)
+    try:
+        return read_document(text)
+    except StudyError as error:
+        named = say("text.at_place", place=str(path), text=error.message)
+        raise StudyError(named) from None

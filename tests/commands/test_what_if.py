@@ -83,3 +83,15 @@ def test_options_that_say_nothing_are_refused(site, call, options, said):
     ended = call("check", "site.xlsx", *options)
     assert ended.code == 2
     assert said in " ".join(ended.err.split())
+
+
+def test_cells_that_need_each_other_are_read_together(site, call):
+    """A pull-out resistance and its basis: neither is accepted alone."""
+    cells = ("Anchors.C6=313.7", "Anchors.D6=tested")
+    options = [part for cell in cells for part in ("--what-if", cell)]
+    alone = call("check", "site.xlsx", *QUICK, *options[:2], "--out", "a", *BARE)
+    assert alone.code == 3
+    both = call("check", "site.xlsx", *QUICK, *options, "--out", "b", *BARE)
+    assert both.code == 4, both.err
+    changed = read_study(site / "b/what-if-study.json")["what_if"]
+    assert [one["cell"] for one in changed] == ["Anchors!C6", "Anchors!D6"]

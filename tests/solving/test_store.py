@@ -259,3 +259,13 @@ def test_cases_of_two_versions_of_the_solver_are_told_apart(monkeypatch):
     own = name_case(SCENE, COARSE)
     monkeypatch.setattr(module, "identify_solver", lambda: "another+0123")
     assert name_case(SCENE, COARSE) != own
+
+
+@pytest.mark.parametrize("name", ["site.xlsx", "notes"])
+def test_a_file_of_another_kind_is_left_as_it_is(tmp_path, name):
+    path = tmp_path / name
+    path.write_bytes(b"PK\x03\x04 somebody's work")
+    with pytest.raises(StoreError, match="another kind of file"):
+        CaseStore(path, print)
+    assert [one.name for one in tmp_path.iterdir()] == [name]
+    assert path.read_bytes() == b"PK\x03\x04 somebody's work"

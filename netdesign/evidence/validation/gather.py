@@ -6,8 +6,10 @@ from collections.abc import Callable, Sequence
 from importlib.resources import files as find_files
 from pathlib import Path
 
+from netdesign.edge.causes import explain
 from netdesign.edge.given_files import MAX_TOML_BYTES, read_bounded
 from netdesign.edge.output import write_files
+from netdesign.errors import ModelError
 from netdesign.evidence.validation.band import validate_structure
 from netdesign.evidence.validation.page import (
     DOCUMENT_FILE,
@@ -25,6 +27,7 @@ from netdesign.evidence.verification.exported import (
 )
 from netdesign.evidence.verification.pack import GROUPS, run_pack
 from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 _OWN = "measured.toml"
 
@@ -40,14 +43,16 @@ def read_all(path: Path | None) -> tuple[Structure, ...]:
     Raises
     ------
     ModelError
-        If a field is missing, unknown or out of range.
-    ValueError, OSError
-        If it is no TOML, or cannot be read.
+        If the file cannot be read, or a field is missing, unknown or out of range.
     """
     own = read_structures(find_files(__package__).joinpath(_OWN).read_bytes())
     if path is None:
         return own
-    return (*read_structures(read_bounded(path, MAX_TOML_BYTES)), *own)
+    try:
+        return (*read_structures(read_bounded(path, MAX_TOML_BYTES)), *own)
+    except (ModelError, OSError, ValueError) as error:
+        told = say("text.at_place", place=str(path), text=explain(error))
+        raise ModelError(told) from None
 
 
 def list_pages(out: Path) -> list[Path]:
