@@ -637,6 +637,14 @@ def test_init_example_reads_back_as_the_example(tmp_path):
     assert "site.xlsx: 7 net rows, about 385 cases" in counted.stdout
 
 
+@pytest.mark.parametrize("name", ["site.csv", "site"])
+def test_init_writes_nothing_under_another_kind_of_name(tmp_path, name):
+    result = run("init", name, cwd=tmp_path)
+    assert result.returncode == 2
+    assert f"{name}: the workbook is written as xlsx" in result.stderr
+    assert listing(tmp_path) == set()
+
+
 def test_init_gives_a_form_that_is_refused_until_filled_in(tmp_path):
     assert run("init", "site.xlsx", cwd=tmp_path).returncode == 0
     result = run("check", "site.xlsx", cwd=tmp_path)

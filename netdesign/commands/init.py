@@ -9,10 +9,14 @@ import click
 
 from netdesign.commands.language import tell
 from netdesign.commands.options import language_option
+from netdesign.commands.usage import UsageRefusal
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.words.catalogue import Language
+
+
+_SUFFIX = ".xlsx"
 
 
 @click.command()
@@ -31,6 +35,8 @@ def init(site_file: Path, *, example: bool, language: Language, force: bool) -> 
     from netdesign.edge.output import require_free
     from netdesign.site.template.workbook import write_site_workbook
 
+    if site_file.suffix.lower() != _SUFFIX:
+        raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
     require_free([site_file], overwrite=force)
     write_site_workbook(site_file, example=example, overwrite=force, language=language)
     tell(say("cli.wrote", path=str(site_file)), language, err=True)

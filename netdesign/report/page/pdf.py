@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-from netdesign.errors import NetDesignError
+from netdesign.errors import OutputError
 from netdesign.words.message import say
 
 
@@ -13,11 +13,11 @@ def require_pdf() -> None:
 
     Raises
     ------
-    NetDesignError
+    OutputError
         If the library is not installed.
     """
     if find_spec("weasyprint") is None:
-        raise NetDesignError(say("program.no_weasyprint"))
+        raise OutputError(say("program.no_weasyprint"))
 
 
 def render_pdf(page: str) -> bytes:
@@ -25,7 +25,7 @@ def render_pdf(page: str) -> bytes:
 
     Raises
     ------
-    NetDesignError
+    OutputError
         If the library is not installed.
     """
     require_pdf()
