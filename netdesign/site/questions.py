@@ -36,6 +36,8 @@ _OF_NAMES = (
     *("heading.twice", "heading.wrong_answer", "heading.unit_not_wanted"),
     *("item.unknown", "item.unknown_quantity"),
 )
+# A heading that is not understood is asked for where the sheet lacks one.
+_UNREAD, _LACKING = "heading.unknown", ("heading.lacks", "heading.lacks_one_of")
 _LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one
 _EXPECTED = (NETS, RANGES_AS_TYPED, ANCHORS, ROPES, POSTS)
 
@@ -93,6 +95,7 @@ def write_questions(
     ]
     for table in found:
         lines += _list_headings(table, workbook, questions, language)
+        lines += [*_list_unread(table, questions, findings), ""]
     return "\n".join(lines) + "\n", len(questions) + asks_mark
 
 
@@ -136,10 +139,12 @@ def _has(workbook: Workbook, plan: SheetPlan) -> bool:
 
 def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Question]:
     by_sheet = {table.sheet.name: table for table in tables}
+    lacking = {one.sheet for one in findings if one.rule.key in _LACKING}
     asked: dict[tuple[str, str], Question] = {}
     for finding in findings:
         table = by_sheet.get(finding.sheet)
-        if table and finding.cell and finding.severity == "error":
+        is_sought = finding.rule.key == _UNREAD and finding.sheet in lacking
+        if table and finding.cell and (finding.severity == "error" or is_sought):
             question = _ask(table, finding)
             if question:
                 asked[question.sheet, question.asked] = question
@@ -149,7 +154,7 @@ def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Questio
 def _ask(table: Table, finding: Finding) -> Question | None:
     row = int(re.sub(r"\D", "", finding.cell))
     key = finding.rule.key
-    if key not in (*_OF_UNITS, *_OF_NAMES):
+    if key not in (*_OF_UNITS, *_OF_NAMES, _UNREAD):
         return None
     is_heading = row <= max(table.heading_row, min(table.rows, default=row + 1) - 1)
     asked = _name_heading(table, finding.cell) if is_heading else _name_item(table, row)
@@ -249,7 +254,18 @@ def _list_headings(
         is_given = column.unit not in ("", IN_CELLS)
         unit = f" [{column.unit}]" if is_given else ""
         yield f"# {_quote(heading)} = {_quote(label + unit)}"
-    yield ""
+
+
+def _list_unread(
+    table: Table, questions: Sequence[Question], findings: Sequence[Finding]
+) -> Iterator[str]:
+    """Headings that are not understood, and that nothing asks for."""
+    asked = {one.asked for one in questions if one.sheet == table.sheet.name}
+    for finding in findings:
+        if finding.rule.key == _UNREAD and finding.sheet == table.sheet.name:
+            name = _name_heading(table, finding.cell)
+            if name and name not in asked:
+                yield f'# {_quote(name)} = "ignore"'
 
 
 def _find_title(sheet: Sheet, row: int, column: int) -> str:

@@ -1,7 +1,9 @@
 """``netdesign map`` from the command line, in three languages."""
 
+import openpyxl
 import pytest
 
+from tests.short_example import write_short_example
 from tests.site.messy import swiss
 
 
@@ -42,3 +44,32 @@ def test_a_file_of_answers_is_kept_unless_told(call, site, tmp_path):
 def test_the_file_speaks_the_language_asked_for(call, site, tmp_path, language, told):
     assert call("map", site, "--language", language).code == 0
     assert told in (tmp_path / "site.map.toml").read_text(encoding="utf-8")
+
+
+def test_a_heading_that_is_not_understood_is_asked_for_where_one_lacks(call, tmp_path):
+    path = tmp_path / "site.xlsx"
+    write_short_example(path, ["R1"])
+    book = openpyxl.load_workbook(path)
+    (cell,) = (one for one in book["Nets"][1] if one.value == "post spacing [m]")
+    cell.value = "bay [m]"
+    book.save(path)
+    assert call("check", path, "--dry-run").code == 3
+    assert "1 to be answered" in call("map", path).err
+    place = tmp_path / "site.map.toml"
+    text = place.read_text(encoding="utf-8")
+    assert '\n"bay [m]" = "?"' in text
+    answered = text.replace('"bay [m]" = "?"', '"bay [m]" = "post spacing [m]"')
+    place.write_text(answered, encoding="utf-8")
+    assert call("check", path, "--dry-run").code == 0
+
+
+def test_a_heading_that_nothing_needs_is_listed_as_left_out(call, tmp_path):
+    path = tmp_path / "site.xlsx"
+    write_short_example(path, ["R1"])
+    book = openpyxl.load_workbook(path)
+    sheet = book["Nets"]
+    sheet.cell(1, sheet.max_column + 1).value = "colour of the post"
+    book.save(path)
+    assert "nothing is left" in call("map", path).err
+    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
+    assert '# "colour of the post" = "ignore"' in text
