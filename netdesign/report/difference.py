@@ -243,13 +243,23 @@ def _compare_rest(row: str, old: object, new: object) -> Iterator[Change]:
 
     differences = compare_values(old, new, is_exact=True)
     for _, found in groupby(sorted(differences, key=name_part), key=name_part):
-        first, *others = found
+        every = list(found)
+        first, more = min(every, key=_tells_little), len(every) - 1
         what = as_given(first.place)
-        if others:
-            what = say("diff.place_and_more", place=first.place, count=len(others))
+        if more:
+            what = say("diff.place_and_more", place=first.place, count=more)
         yield Change(
             area="other", row=row, what=what, old=first.stored, new=first.again
         )
+
+
+def _tells_little(one: Difference) -> int:
+    """Rank among the first to be told: an order, or a part that has no members, last.
+
+    Where a part is there in one study only, its members tell more than itself.
+    """
+    is_empty = not one.stored and not one.again
+    return 2 * is_empty + one.place.endswith("order")
 
 
 def _name_verdict(study: Study) -> Named:
