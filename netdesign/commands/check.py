@@ -14,6 +14,7 @@ from netdesign.commands.check_end import CheckEnd, CheckTask
 from netdesign.commands.check_outputs import plan_outputs
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.dry_run import announce
+from netdesign.commands.language import tell
 from netdesign.commands.next_steps import tell_next_steps
 from netdesign.commands.options import (
     accuracy_option,
@@ -141,6 +142,10 @@ def check(
     from netdesign.study.check_run import CheckRun
 
     profiles = _choose_profiles(standards, site, floor)
+    named = site.project.standard
+    if named and standards and named not in standards:
+        other = say("standard.not_of_site", named=named, used=tuple(standards))
+        tell(say("cli.note", text=other), language, err=True)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         method=method,

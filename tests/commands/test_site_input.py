@@ -5,6 +5,8 @@ import json
 import openpyxl
 import pytest
 
+from tests.short_example import write_short_example
+
 CSV = """\
 id;slope angle [deg];snow thickness [m];upslope length [m];ground law;net height [m];\
 net stiffness [kN/m];post spacing [m]
@@ -96,3 +98,17 @@ def test_init_writes_in_a_language(call, tmp_path, language):
     assert counted.code == 0
     assert "7 net rows" in counted.out
     assert "note" not in counted.out
+
+
+def test_a_profile_other_than_the_site_names_is_told(call, tmp_path):
+    path = tmp_path / "site.xlsx"
+    write_short_example(path, ["R1"])
+    book = openpyxl.load_workbook(path)
+    (cell,) = (row[1] for row in book["Project"] if row[0].value == "standard")
+    cell.value = "swiss-guideline-2007"
+    book.save(path)
+    told = "the site names the limit profile swiss-guideline-2007; eurocode is used"
+    other = call("check", path, "--dry-run", "--standard", "eurocode")
+    assert told in other.err
+    same = call("check", path, "--dry-run", "--standard", "swiss-guideline-2007")
+    assert told not in same.err + call("check", path, "--dry-run").err
