@@ -98,7 +98,8 @@ def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
             say("accepted.other_decimals"),
         )
     if possible and not readings:
-        return Refusal(say("number.not_with_mark", mark=declared), _ACCEPTED)
+        accepted = say("accepted.number_with_mark", mark=declared)
+        return Refusal(say("number.not_with_mark", mark=declared), accepted)
     if readings and readings[0].is_short:
         return float(readings[0].text)
     if readings:
