@@ -10,6 +10,7 @@ import click
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.language import tell
 from netdesign.commands.options import json_option, language_option
+from netdesign.commands.site_input import build_text_format, text_options
 from netdesign.commands.winter import MODELS
 from netdesign.edge.streams import print_json
 from netdesign.words.message import say
@@ -32,6 +33,7 @@ SCHEMA = "netdesign.snowpack/1"
 )
 @click.option("--median", is_flag=True, help="Heights as medians of three days.")
 @click.option("--layers", is_flag=True, help="Layers of each day, too; with --json.")
+@text_options
 @language_option("Of messages.")
 @json_option("days")
 def snowpack(
@@ -42,6 +44,7 @@ def snowpack(
     layers: bool,
     language: Language,
     as_json: bool,
+    **reading: Any,
 ) -> None:
     """Mass and density of snow from daily heights.
 
@@ -59,7 +62,7 @@ def snowpack(
     from netdesign.snowpack.series import smooth
     from netdesign.winter.row_winters import FIRST_DENSITY
 
-    found, remarks = read_height_file(height_file)
+    found, remarks = read_height_file(height_file, build_text_format(**reading))
     for remark in remarks:
         tell(remark.message, language, err=True)
     series = smooth(found.series) if median else found.series
