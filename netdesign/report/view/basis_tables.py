@@ -229,9 +229,22 @@ def _describe_laws(study: Study, words: Words) -> str:
     return words("show.other_laws_counted", count=len(above))
 
 
+def _name_law(study: Study) -> str:
+    """Creep law of a study; "" of one that does not say."""
+    return study.provenance.settings.get("creep_law", "").partition(" ")[0]
+
+
+def tell_accepted_law(study: Study, words: Words) -> str:
+    """Creep law whose extrapolation is accepted, and whether it is the study's."""
+    given, own = study.project.accepted_law, _name_law(study)
+    if given in ("", own):
+        return show_text(given) if given else ""
+    return words("show.accepted_of_another", given=show_text(given), own=show_text(own))
+
+
 def _describe_snow(study: Study, words: Words) -> str:
     """Governing snow against the densities of its law, and what is known there."""
-    law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
+    law = _name_law(study)
     inside = [
         case.is_calibrated
         for row in study.rows

@@ -414,8 +414,8 @@ def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
 
 
 def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
-    law = study.project.accepted_law
-    accepted = [(words("column.items.accepted_law"), show_text(law))] if law else []
+    law = basis_tables.tell_accepted_law(study, words)
+    accepted = [(words("column.items.accepted_law"), law)] if law else []
     cases = sum(len(row.cases) for row in study.rows)
     failed = sum(len(tables.list_failed(row)) for row in study.rows)
     return (

@@ -8,6 +8,7 @@ from netdesign.report.view.basis_tables import (
     build_assumptions,
     list_defaults,
     name_rows,
+    tell_accepted_law,
 )
 from netdesign.report.view.row_tables import build_floor
 from netdesign.report.words import Words
@@ -84,3 +85,23 @@ def test_each_row_is_named_where_a_phrase_would_not_be_shorter():
     assert few.split(", ") == named
     half, named = name_of(range(0, 23, 2), "en")
     assert half.split(", ") == named
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("", ""),
+        ("boutillier-2004", "boutillier-2004"),
+        ("zwinger-2007", "not the law of this study, boutillier-2004: without effect"),
+    ],
+)
+def test_an_accepted_law_that_is_not_the_study_s_is_told_as_such(given, told):
+    study = build_study()
+    settings = study.provenance.settings | {"creep_law": "boutillier-2004 n=3"}
+    made = replace(study.provenance, settings=settings)
+    project = replace(study.project, accepted_law=given)
+    found = tell_accepted_law(
+        replace(study, provenance=made, project=project), Words("en")
+    )
+    assert found.endswith(told)
+    assert bool(found) is bool(told)
