@@ -7,6 +7,7 @@ gets a misfit; one with any range gets a plausibility band.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -128,7 +129,23 @@ def read_structures(content: bytes) -> tuple[Structure, ...]:
     tables = document.get("structure")
     if not isinstance(tables, list) or not 0 < len(tables) <= _MOST:
         raise _refuse("structure", "[[structure]]")
-    return tuple(_read_structure(one) for one in tables)
+    found = [_read_named(number, one) for number, one in enumerate(tables, 1)]
+    for name, count in Counter(one.id for one in found).items():
+        if count > 1:
+            raise _refuse(f"id = {name!r:.60}", "structure.id: 1 x")
+    return tuple(found)
+
+
+def _read_named(number: int, table: Any) -> Structure:
+    """Structure; a refusal names it by its id, else by its number."""
+    try:
+        return _read_structure(table)
+    except ModelError as error:
+        name = table.get("id") if isinstance(table, dict) else None
+        place = f"structure {name if isinstance(name, str) else number!s:.60}"
+        raise ModelError(
+            say("text.at_place", place=place, text=error.message)
+        ) from None
 
 
 def _refuse(field: str, accepted: str) -> ModelError:
