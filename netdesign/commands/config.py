@@ -27,7 +27,7 @@ import click
 
 from netdesign.commands.usage import UsageRefusal, ValueRefusal, explain_usage
 from netdesign.edge.causes import explain
-from netdesign.edge.given_files import is_there, read_toml
+from netdesign.edge.given_files import is_there, list_faults, read_toml
 from netdesign.errors import ContentError
 from netdesign.words.message import Message, say
 
@@ -154,35 +154,45 @@ def _read_defaults(
         for name, one in getattr(group, "commands", {}).items()
         if isinstance(one, ConfiguredCommand)  # tables of others would never be read
     ]
-    for name in tables:
-        if commands and name not in commands:
-            raise UsageRefusal(_suggest(f"{path}: [{name}]", name, commands))
+    faults = [
+        _suggest(f"{path}: [{name}]", name, commands)
+        for name in tables
+        if commands and name not in commands
+    ]
     table = tables.get(command.name or "", {})
     if not isinstance(table, dict):
-        raise UsageRefusal(
-            say("config.not_a_table", path=str(path), command=command.name or "")
-        )
+        told = say("config.not_a_table", path=str(path), command=command.name or "")
+        faults, table = [*faults, told], {}
     options = _name_options(command)
-    defaults = {}
+    defaults: dict[str, Any] = {}
     for key, value in table.items():
         place = f"{path}: [{command.name}] {key}"
         if key not in options:
-            raise UsageRefusal(_suggest(place, key, list(options)))
-        if "\\x00" in repr(value):  # no command line can hold one
-            raise UsageRefusal(
-                say("config.zero_character", place=place, value=repr(value))
-            )
-        try:
-            word = _write_as_typed(options[key], value)
-            options[key].type_cast_value(ctx, word)
-        except (click.BadParameter, ValueError, OverflowError) as error:
-            shown = f"{value!r:.200}"
-            refused = say(
-                "config.bad_value", place=place, value=shown, reason=_explain(error)
-            )
-            raise UsageRefusal(refused) from None
-        defaults[options[key].name or ""] = word
+            faults.append(_suggest(place, key, list(options)))
+            continue
+        word = _read_value(ctx, options[key], value, place)
+        if isinstance(word, Message):
+            faults.append(word)
+        else:
+            defaults[options[key].name or ""] = word
+    if faults:
+        raise UsageRefusal(list_faults(faults))
     return defaults
+
+
+def _read_value(
+    ctx: click.Context, option: click.Option, value: object, place: str
+) -> object:
+    """Value as a command line would give it; a message where it cannot."""
+    if "\\x00" in repr(value):  # no command line can hold one
+        return say("config.zero_character", place=place, value=repr(value))
+    try:
+        word = _write_as_typed(option, value)
+        option.type_cast_value(ctx, word)
+    except (click.BadParameter, ValueError, OverflowError) as error:
+        shown = f"{value!r:.200}"
+        return say("config.bad_value", place=place, value=shown, reason=_explain(error))
+    return word
 
 
 def _write_as_typed(option: click.Option, value: object) -> object:

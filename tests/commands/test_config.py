@@ -121,3 +121,13 @@ def test_a_variable_that_names_no_option_is_refused(call, monkeypatch, variable,
     assert f"{variable}: is not known" in ended.err
     assert near in ended.err
     assert call("init", "site.xlsx").code == 0  # it is none of its own
+
+
+def test_all_faults_of_a_file_are_told_at_once(call, tmp_path):
+    (tmp_path / "netdesign.toml").write_text(
+        '[check]\njob = 1\nstandrd = "x"\naccuracy = 7.3\n[chekc]\n'
+    )
+    ended = call("check", "site.xlsx", "--dry-run")
+    assert ended.code == 2
+    told = ("[chekc]", "[check] job", "[check] standrd", "[check] accuracy")
+    assert [one for one in told if one in ended.err] == list(told)
