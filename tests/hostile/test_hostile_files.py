@@ -18,7 +18,7 @@ from netdesign.site.template.workbook import write_site_workbook
 from tests.hostile.hostile_files import write_all
 
 ROOT = Path(netdesign.__file__).parent.parent
-MOST_MEGABYTES = 400  # above the idle program, for any file
+MOST_MEGABYTES = 550  # above the idle program, for any file
 MOST_SECONDS = 20.0  # of one file; on an idle machine none needs more than three
 _CHILD = """
 import contextlib, io, json, resource, sys, time

@@ -5,7 +5,7 @@ import math
 import pytest
 import xlsxwriter
 
-from netdesign.site.cells.limits import MAX_NET_ROWS
+from netdesign.site import net_rows
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import (
@@ -468,14 +468,18 @@ def test_sheets_without_headings_or_lines_are_refused(sheets, save, refused):
     ]
 
 
-def test_more_net_rows_than_a_report_holds_are_refused(sheets, save, refused):
+def test_more_net_rows_than_a_report_holds_are_refused(
+    sheets, save, refused, monkeypatch
+):
+    most = 37
+    monkeypatch.setattr(net_rows, "MAX_NET_ROWS", most)
     first = sheets["Nets"][FIRST]
-    sheets["Nets"][FIRST:] = [[f"W{k}", *first[1:]] for k in range(MAX_NET_ROWS)]
-    assert len(read_site(save(sheets)).rows) == MAX_NET_ROWS
+    sheets["Nets"][FIRST:] = [[f"W{k}", *first[1:]] for k in range(most)]
+    assert len(read_site(save(sheets)).rows) == most
     sheets["Nets"].append(["one more", *first[1:]])
     (finding,) = refused(save(sheets))
-    assert (finding.sheet, str(finding.rule)) == ("Nets", "has 401 net rows")
-    assert str(finding.accepted) == "at most 400 in one site: divide it"
+    assert (finding.sheet, str(finding.rule)) == ("Nets", "has 38 net rows")
+    assert str(finding.accepted) == "at most 37 in one site: divide it"
 
 
 def test_a_grid_of_too_many_cases_is_refused(sheets, save, refused):

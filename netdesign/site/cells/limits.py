@@ -24,7 +24,7 @@ MAX_MARKS = 300_000
 MAX_RATIO = 200.0
 MAX_ROWS = 2000
 # Of more the study is larger than `report` and `verify` read (``edge/json_text.py``).
-MAX_NET_ROWS = 400
+MAX_NET_ROWS = 1000
 MAX_LINES = 40_000  # of a csv file: a century of daily snow heights
 MAX_COLUMNS = 200
 MAX_CELLS = MAX_ROWS * MAX_COLUMNS
