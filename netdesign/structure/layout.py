@@ -86,6 +86,11 @@ class SupportPoints:
     uphill_anchor: Point
     downhill_anchor: Point
 
+    @property
+    def post_length(self) -> float:
+        """From base to head [m]."""
+        return math.dist(self.post_base, self.head)
+
 
 def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
     """Points of a support, its net's foot at the origin.
@@ -105,20 +110,6 @@ def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
         uphill_anchor=(-layout.uphill_anchor_distance, 0.0),
         downhill_anchor=(x_base + layout.downhill_anchor_distance, 0.0),
     )
-
-
-def measure_post(layout: SupportLayout, head: Point) -> float:
-    """Length of the post from its base to the head [m].
-
-    Parameters
-    ----------
-    layout : SupportLayout
-        What the engineer chose.
-    head : tuple of float, shape (2,)
-        Where the net hangs, (x, y) from its foot [m].
-    """
-    x_head, y_head = head
-    return math.hypot(x_head - locate_base(layout, x_head, y_head), y_head)
 
 
 def locate_base(layout: SupportLayout, x_head: Number, y_head: Number) -> Number:

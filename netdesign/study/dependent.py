@@ -32,7 +32,7 @@ from netdesign.resistance.steel import (
     compute_bent_bar_resistance,
 )
 from netdesign.site.model import AnchorType, BaseFriction, NetRow, Resistance
-from netdesign.structure.layout import measure_post
+from netdesign.structure.layout import place_support
 from netdesign.study.corners import list_corners
 from netdesign.study.effects import find_row_glide_factor, load_guideline
 from netdesign.study.pulls import AnchorPull
@@ -87,10 +87,11 @@ def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message |
     if given.buckling_length is None:
         return None
     span = ranges["inclination"]
-    longest = max(
-        measure_post(row.layout, (row.net_height * math.tan(angle), row.net_height))
+    heads = [
+        (row.net_height * math.tan(angle), row.net_height)
         for angle in (span.low, span.high)
-    )
+    ]
+    longest = max(place_support(row.layout, head).post_length for head in heads)
     if given.buckling_length >= (1.0 - _ROUNDED) * longest:
         return None
     return say(

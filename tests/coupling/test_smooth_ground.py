@@ -21,7 +21,7 @@ DAY = 86400.0
 STARTS = ("steady", "sagged", "straight")
 
 
-def require_pulls(scene):
+def assert_pulls(scene):
     solution = solve_steady(scene, SolverSettings(accuracy=0.02))
     assert isinstance(solution, Solution), solution.reason
     assert solution.balance.relative_residual < 1e-8
@@ -40,10 +40,10 @@ def follow(scene, start):
     return solution
 
 
-def require_steady_demand(scene):
+def assert_steady_demand(scene):
     """FACTS.md, section 12: 5 % over the steady state on sliding ground."""
     history = follow(scene, "steady")
-    over = np.array([history.foot.size, history.head.size]) / require_pulls(scene)
+    over = np.array([history.foot.size, history.head.size]) / assert_pulls(scene)
     assert history.history.plateau.reached
     assert over.min() > 0.97
     assert over.max() < 1.05
@@ -57,12 +57,12 @@ def put_on(scene, glide_factor):
 
 @pytest.mark.parametrize("seed", range(24))
 def test_a_smooth_site_is_solved(seed):
-    require_pulls(draw_smooth_site(seed))
+    assert_pulls(draw_smooth_site(seed))
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 3])  # two-sided ground
 def test_a_history_on_smooth_ground_demands_its_steady_state(seed):
-    require_steady_demand(draw_smooth_site(seed))
+    assert_steady_demand(draw_smooth_site(seed))
 
 
 @pytest.mark.parametrize("seed", [8, 9, 10])
@@ -70,14 +70,14 @@ def test_pulls_grow_with_the_glide_factor_towards_those_of_free_ground(seed):
     scene = draw_smooth_site(seed)
     grounds = [put_on(scene, glide) for glide in (1.0, 1.5, 2.4, 2.8, 3.2)]
     grounds.append(replace(scene, ground=GroundLaw(kind="free")))
-    pulls = np.array([require_pulls(one) for one in grounds])
+    pulls = np.array([assert_pulls(one) for one in grounds])
     assert (np.diff(np.log(pulls), axis=0) > math.log(1.02)).all()
 
 
 @pytest.mark.robustness
 def test_hundreds_of_smooth_sites_are_solved():
     for seed in range(24, 824):
-        require_pulls(draw_smooth_site(seed))
+        assert_pulls(draw_smooth_site(seed))
 
 
 @pytest.mark.robustness
@@ -95,4 +95,4 @@ def test_dozens_of_histories_on_smooth_ground_are_followed(start):
 def test_dozens_of_histories_on_smooth_ground_demand_their_steady_state():
     for seed in range(32):
         scene = replace(draw_smooth_site(seed), ground_contact="two-sided")
-        require_steady_demand(scene)
+        assert_steady_demand(scene)

@@ -183,7 +183,7 @@ def spoil_within(batches):
     return [*rest, (job(350.0, FaultyScene, friction_deg=20.0), low, *others)]
 
 
-def require_fault(workers, alone):
+def assert_fault(workers, alone):
     """The fault comes whole from wherever it was; the other ends are as ever."""
     arrived = dict(workers.solve(spoil_within(BATCHES)))
     fault = arrived[2].pop(0).fault
@@ -196,7 +196,7 @@ def require_fault(workers, alone):
 @pytest.mark.parametrize("workers", [OwnProcess(), ProcessPool(2, worth=1)])
 def test_a_fault_comes_whole_from_any_process(workers, alone):
     try:
-        require_fault(workers, alone)
+        assert_fault(workers, alone)
     finally:
         workers.close()
 
@@ -315,7 +315,7 @@ def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
 def test_a_fault_comes_whole_from_a_cluster(cluster, alone):
     workers = DaskCluster(cluster)
     try:
-        require_fault(workers, alone)
+        assert_fault(workers, alone)
     finally:
         workers.close()
 

@@ -55,7 +55,7 @@ def exchange(seed):
     return solve_staggered(draw_scene(seed, ground=ground), settings)
 
 
-def require_an_end(solution):
+def assert_an_end(solution):
     """Finite forces, or a refusal in words; an exception would have passed through."""
     if isinstance(solution, FailedSolution):
         assert len(str(solution.reason).split()) > 2
@@ -70,19 +70,19 @@ def require_an_end(solution):
 
 @pytest.mark.parametrize("seed", FEW)
 def test_a_drawn_history_ends_in_words_or_numbers(seed):
-    require_an_end(follow(seed))
+    assert_an_end(follow(seed))
 
 
 @pytest.mark.parametrize("seed", FEW)
 def test_a_drawn_exchange_ends_in_words_or_numbers(seed):
-    require_an_end(exchange(seed))
+    assert_an_end(exchange(seed))
 
 
 @pytest.mark.robustness
 @pytest.mark.parametrize("run", [follow, exchange])
 def test_hundreds_of_drawn_histories_end_in_words_or_numbers(run):
     for seed in MANY:
-        require_an_end(run(seed))
+        assert_an_end(run(seed))
 
 
 # --- what a history demands does not depend on its horizon -------------------
