@@ -142,10 +142,7 @@ def check(
     from netdesign.study.check_run import CheckRun
 
     profiles = _choose_profiles(standards, site, floor)
-    named = site.project.standard
-    if named and standards and named not in standards:
-        other = say("standard.not_of_site", named=named, used=tuple(standards))
-        tell(say("cli.note", text=other), language, err=True)
+    _tell_other_profile(standards, site, language)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         method=method,
@@ -205,6 +202,14 @@ def _choose_profiles(
     """Profiles, with the floor that was chosen for them, if any was."""
     profiles = _find_profiles(names, site)
     return [one.overrule_floor(floor) for one in profiles] if floor else profiles
+
+
+def _tell_other_profile(names: Sequence[str], site: Site, language: Language) -> None:
+    """Note that the command line overrules the profile that the site names."""
+    named = site.project.standard
+    if named and names and named not in names:
+        other = say("standard.not_of_site", named=named, used=tuple(names))
+        tell(say("cli.note", text=other), language, err=True)
 
 
 def _find_profiles(names: Sequence[str], site: Site) -> list[Standard]:
