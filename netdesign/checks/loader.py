@@ -139,7 +139,8 @@ class Standard:
 
     ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
     ``floor`` is what no demand lies below: the guideline's load, unless the profile
-    says "none"; ``is_floor_overruled`` tells that somebody chose the other one.
+    says "none"; ``is_floor_overruled`` tells that somebody chose the other one,
+    ``is_default`` that nobody named the profile.
     """
 
     id: str
@@ -154,6 +155,7 @@ class Standard:
     choice: str = ""
     floor: Floor = "guideline"
     is_floor_overruled: bool = False
+    is_default: bool = False
     values: tuple[StandardValue, ...]
     tables: tuple[StandardTable, ...] = ()
     sha256: str

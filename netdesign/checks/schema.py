@@ -36,7 +36,6 @@ CORRELATION_MEAN = "correlation.tests.mean"
 CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
-BAR_ANGLE = "anchor.angle.bar"
 POST_EFFICIENCY = "post.efficiency"
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
@@ -61,7 +60,6 @@ LIMIT_UNITS = {
     MAX_GAP: "m",
     GROUND_FRICTION: "-",
     ROPE_ANGLE: "deg",
-    BAR_ANGLE: "deg",
 }
 _PAIRS = (
     (MIN_INCLINATION, MAX_INCLINATION),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -215,8 +216,11 @@ def _tell_other_profile(names: Sequence[str], site: Site, language: Language) ->
 def _find_profiles(names: Sequence[str], site: Site) -> list[Standard]:
     """Profiles of the command line, else that of the site, else the default."""
     named = site.project.standard
-    if names or not named:
-        return _load_profiles(names or (DEFAULT_STANDARD,))
+    if names:
+        return _load_profiles(names)
+    if not named:
+        (profile,) = _load_profiles((DEFAULT_STANDARD,))
+        return [replace(profile, is_default=True)]
     try:
         return _load_profiles((named,))
     except StandardError as error:

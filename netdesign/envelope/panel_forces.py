@@ -6,7 +6,8 @@ What they are named by, how they follow, and their bands: envelope/THEORY.md.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -57,6 +58,8 @@ class PanelForces:
         loaded one, beside a post or in mid-panel.
     foot, head : EndPull
         Mean pulls of a bay on the support, with their errors [N/m].
+    others : tuple of PanelForces
+        Of further panels, where the row's is assumed: the worst counts.
     """
 
     solution: PanelSolution
@@ -64,12 +67,51 @@ class PanelForces:
     bands: dict[str, Band]
     foot: EndPull
     head: EndPull
+    others: tuple[PanelForces, ...] = ()
+
+    @property
+    def variants(self) -> tuple[PanelForces, ...]:
+        """All panels that the row may have, this one first."""
+        return (self, *self.others)
+
+    @property
+    def worst(self) -> dict[str, Band]:
+        """Largest forces of all panels that the row may have [N]."""
+        return {
+            name: _cover(one.bands[name] for one in self.variants)
+            for name in self.bands
+        }
+
+    def find_worst(self, name: str) -> PanelForces:
+        """Panel that brings the largest one of ``PANEL_QUANTITIES``."""
+        return max(self.variants, key=lambda one: one.bands[name].value)
 
     def is_mid_largest(self, member: str) -> bool:
         """The anchor in mid-panel is the more loaded one of a member's."""
         mid_foot = math.hypot(*self.solution.mid_foot)
         beside = self.anchors.member_forces[Member.FOOT_ANCHOR]
         return member == Member.FOOT_ANCHOR and mid_foot > beside
+
+
+def resolve_panels(
+    panels: Sequence[Panel], net: Net, points: SupportPoints, state: SolvedState
+) -> PanelForces | FailedPanel:
+    """Forces of the panels that a row may have, or the first failure of them.
+
+    Parameters
+    ----------
+    panels : sequence of Panel
+        At least one.
+    net, points, state
+        As ``resolve_panel`` takes them.
+    """
+    found = []
+    for panel in panels:
+        one = resolve_panel(panel, net, points, state)
+        if isinstance(one, FailedPanel):
+            return one
+        found.append(one)
+    return replace(found[0], others=tuple(found[1:]))
 
 
 def resolve_panel(
@@ -121,6 +163,16 @@ def resolve_panel(
         bands=bands | _read_ropes(solved, foot, head),
         foot=foot,
         head=head,
+    )
+
+
+def _cover(bands: Iterable[Band]) -> Band:
+    """Band of the largest one of some forces."""
+    known = list(bands)
+    return Band(
+        low=max(one.low for one in known),
+        value=max(one.value for one in known),
+        high=max(one.high for one in known),
     )
 
 

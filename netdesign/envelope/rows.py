@@ -51,8 +51,9 @@ class RowTask:
     build : callable or None
         Scene of a case, where the values of the ranges cannot be put into ``scene`` one
         by one.
-    panel : Panel or None
-        Between the posts; its forces are searched beside those of the section.
+    panels : tuple of Panel
+        Between the posts; their largest forces are searched beside those of the
+        section.
     has_end : bool
         The pulls of its ropes along the row are checked, where the row ends.
     """
@@ -64,7 +65,7 @@ class RowTask:
     search: SearchSettings
     confirmed_by: Settings | None
     build: Callable[[Case], Scene] | None = None
-    panel: Panel | None = None
+    panels: tuple[Panel, ...] = ()
     has_end: bool = False
 
 
@@ -209,7 +210,7 @@ def build_point_task(
         task.build or (lambda _: place_scene(task.scene, values)),
         task.layout,
         settings or task.settings,
-        task.panel,
+        task.panels,
     )
 
 

@@ -10,7 +10,7 @@ from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
-from netdesign.envelope.panel_forces import PanelForces, resolve_panel
+from netdesign.envelope.panel_forces import PanelForces, resolve_panels
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.support_bands import resolve_pulls
 from netdesign.errors import ModelError
@@ -34,15 +34,15 @@ class CaseTask:
     """Everything that a worker needs for one case.
 
     ``job`` is None where the model refuses the case; ``refusal`` says why. Without
-    a ``layout`` the net's own tensions are followed, per metre of width; with a
-    ``panel`` its forces, too.
+    a ``layout`` the net's own tensions are followed, per metre of width; with
+    ``panels`` the largest forces of these, too.
     """
 
     case: Case
     job: Job | None
     refusal: Message | None
     layout: SupportLayout | None
-    panel: Panel | None = None
+    panels: tuple[Panel, ...] = ()
 
     def solved_by(self, settings: Settings) -> CaseTask:
         """The same case by other settings: their kind chooses steady or history."""
@@ -189,7 +189,7 @@ def _resolve_support(
     return CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
-        member_forces=bands | (panel.bands if isinstance(panel, PanelForces) else {}),
+        member_forces=bands | (panel.worst if isinstance(panel, PanelForces) else {}),
         anchors=anchors,
         solution=solution,
         panel=panel,
@@ -201,9 +201,9 @@ def _resolve_panel(
 ) -> PanelForces | FailedPanel | None:
     """Forces by the panel between posts, or why there are none."""
     net = task.job.scene.net if task.job else None
-    if task.panel is None or not isinstance(net, Net):
+    if not task.panels or not isinstance(net, Net):
         return None
-    return resolve_panel(task.panel, net, points, solution)
+    return resolve_panels(task.panels, net, points, solution)
 
 
 def build_task(
@@ -211,7 +211,7 @@ def build_task(
     build_scene: Callable[[Case], Scene],
     layout: SupportLayout | None,
     settings: Settings,
-    panel: Panel | None = None,
+    panels: tuple[Panel, ...] = (),
 ) -> CaseTask:
     """Task of a case; a scene that the model refuses becomes a named refusal."""
     job: Job | None = None
@@ -220,7 +220,7 @@ def build_task(
         job = Job(scene=build_scene(case), settings=settings)
     except ModelError as error:
         refusal = error.message
-    return CaseTask(case=case, job=job, refusal=refusal, layout=layout, panel=panel)
+    return CaseTask(case=case, job=job, refusal=refusal, layout=layout, panels=panels)
 
 
 def _failed(task: CaseTask, outcome: Outcome, reason: Message | None) -> CaseResult:

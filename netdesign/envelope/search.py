@@ -112,7 +112,7 @@ class RowSearch:
         self._search = search
         self._reader = ResultReader(
             layout=self.task.layout,
-            has_panel=self.task.panel is not None,
+            has_panel=bool(self.task.panels),
             has_end=self.task.has_end,
         )
         self._skip = FrictionSkip(self.task.ranges.axes)

@@ -10,7 +10,7 @@ what the members can carry at most follows. Theory: structure/THEORY.md, eq. (S2
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
@@ -46,10 +46,8 @@ def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] |
     found = _find_signed(pull, anchors.foot_anchor.size, points)
     if found is None or not isinstance(result.panel, PanelForces):
         return found
-    panel = result.panel
-    foot = max(panel.anchors.foot_anchor.size, math.hypot(*panel.solution.mid_foot))
-    beside = _find_signed(panel.solution.head, foot, points) or {}
-    return found | {name_in_panel(name): force for name, force in beside.items()}
+    beside = (_find_signed_in_panel(one, points) for one in result.panel.variants)
+    return found | _name_largest(beside)
 
 
 def read_signed_errors(
@@ -66,13 +64,29 @@ def read_signed_errors(
     )
     if found is None or not isinstance(result.panel, PanelForces):
         return found
-    panel = result.panel
-    foot, head = (
-        panel.solution.panel.post_spacing * pull.error
-        for pull in (panel.foot, panel.head)
+    beside = (
+        _find_errors(width * one.foot.error, width * one.head.error, points) or {}
+        for one in result.panel.variants
     )
-    beside = _find_errors(foot, head, points) or {}
-    return found | {name_in_panel(name): error for name, error in beside.items()}
+    return found | _name_largest(beside)
+
+
+def _find_signed_in_panel(
+    panel: PanelForces, points: SupportPoints
+) -> dict[str, float]:
+    """Signed forces by one panel between posts [N]."""
+    foot = max(panel.anchors.foot_anchor.size, math.hypot(*panel.solution.mid_foot))
+    return _find_signed(panel.solution.head, foot, points) or {}
+
+
+def _name_largest(found: Iterable[dict[str, float]]) -> dict[str, float]:
+    """Largest values of some panels, by their names beside those of the section."""
+    largest: dict[str, float] = {}
+    for values in found:
+        for name, value in values.items():
+            known = largest.get(name_in_panel(name), -math.inf)
+            largest[name_in_panel(name)] = max(known, value)
+    return largest
 
 
 def _find_errors(

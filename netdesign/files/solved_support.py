@@ -54,7 +54,7 @@ def resolve_support(
         job=Job(scene=solution.scene, settings=settings),
         refusal=None,
         layout=given.layout,
-        panel=given.panel,
+        panels=(given.panel,) if given.panel else (),
     )
     result = resolve_case(task, keep_state(solution))
     return SolvedSupport(given=given, result=result, end=_find_end(given, result))

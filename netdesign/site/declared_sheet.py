@@ -40,6 +40,8 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
     *_OF_GEOMETRY,
 )
 
+_ALL_ROWS = ("all", "alle", "toutes")  # in place of an id
+
 _Subject = tuple[str, str, str]  # member, mode, position of its support or ""
 _Check = tuple[str, _Subject]  # net row ("" for all)
 
@@ -88,9 +90,10 @@ def _read_line(
     line: Row, row_ids: Collection[str], findings: list[Finding]
 ) -> Declaration | None:
     row, check, day = line["row"], line["check"], line["date"]
-    if row.word and row_ids and row.word not in row_ids:
+    is_of_all = row.word not in row_ids and normalise(row.word) in _ALL_ROWS
+    if row.word and row_ids and row.word not in row_ids and not is_of_all:
         sheet = say("sheet.Nets")
-        accepted = say("accepted.id_of_sheet", sheet=sheet)
+        accepted = say("declared.id_or_all", sheet=sheet)
         accepted = add_nearest(accepted, row.word, row_ids)
         refuse(row, say("nets.no_id", sheet=sheet), accepted, findings)
     names = _list_names()
@@ -105,7 +108,7 @@ def _read_line(
     if subject is None or any(reading.state == "faulty" for reading in line.values()):
         return None
     return Declaration(
-        row_id=row.word,
+        row_id="" if is_of_all else row.word,
         member=subject[0],
         mode=subject[1],
         position=subject[2],

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from netdesign.site.cells.findings import Finding, add_nearest
-from netdesign.site.model import InputEcho
+from netdesign.site.model import MEMBER_MODES, NAMED_BY, InputEcho
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import Table, read_rows
 from netdesign.structure.members import EndMember
 from netdesign.words.message import say
 
 EndsByRow = Mapping[str, Row]  # one line by net row
+
+# Columns of both sheets that name a type of the support.
+_TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
 
 
 def read_ends(table: Table | None, findings: list[Finding]) -> EndsByRow:
@@ -46,10 +50,21 @@ def list_end_types(end: Row) -> list[Reading]:
     return [end[key] for key in EndMember if end[key].word]
 
 
-def replace_types(row: Row, end: Row) -> Row:
-    """Line of sheet Nets with the types that its end has instead."""
-    named = {key: reading for key, reading in end.items() if key in row}
-    return {**row, **{key: one for key, one in named.items() if one.word}}
+def replace_types(row: Row, end: Row | None) -> Row:
+    """Line of sheet Nets with the types of its end.
+
+    A type that sheet Ends does not give is not known there, unless it says that the
+    types not given are those inside.
+    """
+    if end is None:
+        return {**row, **{key: _say_nothing(row[key]) for key in _TYPES}}
+    is_as_inside = end["other_types"].word == "as inside"
+    kept = [key for key in _TYPES if end[key].word or not is_as_inside]
+    return {**row, **{key: end[key] for key in kept}}
+
+
+def _say_nothing(reading: Reading) -> Reading:
+    return replace(reading, state="blank", value=None, text="", cell=None)
 
 
 def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:

@@ -135,11 +135,22 @@ class BorderRope:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowPanel:
-    """The panel between two posts of a row, and what its two ropes bear."""
+    """The panel between two posts of a row, and what its two ropes bear.
 
-    panel: Panel
+    Attributes
+    ----------
+    panels : tuple of Panel
+        One; several where something of it is assumed: the worst of them counts.
+    lower, upper : BorderRope
+        At the net's foot, and from head to head.
+    assumed : tuple of Message
+        Names of the columns that are empty.
+    """
+
+    panels: tuple[Panel, ...]
     lower: BorderRope
     upper: BorderRope
+    assumed: tuple[Message, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -204,6 +215,7 @@ class NetRow:
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
     axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]
+    drills_along_pull: bool = False  # anchors without a given axis
     # those that have a type
     anchors: tuple[tuple[Member, AnchorType], ...] = field(default=(), hash=False)
     # of the first and last support; None: those of all others
@@ -214,6 +226,8 @@ class NetRow:
     panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
     row_end: RowEnd | None = None  # of a row with panel and end
     panel_lack: Message | None = None  # why there is none; None also without ropes
+    # columns left empty that every force depends on: nothing is proven
+    unsaid: tuple[Message, ...] = field(default=(), hash=False)
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -236,6 +250,11 @@ class NetRow:
         """What an anchor is; None where its type is not given."""
         at_end = position == "edge" and self.end_anchors is not None
         return dict(self.end_anchors or () if at_end else self.anchors).get(anchor)
+
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """Panels between two posts of which the worst counts; none without ropes."""
+        return self.panel.panels if self.panel else ()
 
     @property
     def has_end(self) -> bool:

@@ -38,6 +38,7 @@ from netdesign.site.snow_layers import (
     settle_thickness,
 )
 from netdesign.site.support_types import (
+    lacks_inner,
     list_dependent,
     read_anchor_types,
     read_axes,
@@ -51,6 +52,7 @@ from netdesign.site.type_references import (
     refuse_unknown_types,
 )
 from netdesign.site.type_resistances import find_tests
+from netdesign.site.unsaid import check_neighbours, check_statements, list_unsaid
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
     GROUND_KINDS,
@@ -116,6 +118,7 @@ def build_net_rows(
     by_id = index_by_id(rows, findings)
     refuse_unknown_rows(snow, by_id, findings)
     refuse_unknown_ends(ends, by_id, findings)
+    check_neighbours(rows, findings)
     built = [
         _build_net_row(
             row,
@@ -168,6 +171,7 @@ def _build_net_row(
     count_before = len(findings)
     line = _fill_in_distances(line)
     row = fill_in_ranges(line, ranged, findings)
+    check_statements(line, lines, end, findings)
     layers = build_layers(lines, row["slope_angle"], findings)
     is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
     thickness = _understand_thickness(row, lines, layers, findings, is_ranged=is_ranged)
@@ -175,7 +179,7 @@ def _build_net_row(
     named = [row, end] if end else [row]
     for one in named:
         refuse_unknown_types(one, type_sheets, findings)
-    check_panel(row, type_sheets["Ropes"] or {}, findings)
+    check_panel(row, findings)
     is_refused = any(one.severity == "error" for one in findings[count_before:])
     if is_refused or _is_faulty(named, type_sheets):
         return None
@@ -215,9 +219,10 @@ def _compose_net_row(
     """Net row of a line without a fault; ``snow`` is thickness, layers, ground."""
     thickness, layers, ground = snow
     panel, panel_lack = read_panel(row, type_sheets["Ropes"] or {})
-    at_end = replace_types(row, end) if end else None
-    gap = row["gap"].given_si
+    gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
     has_end = gap is None or gap > 0.0
+    at_end = replace_types(row, end) if has_end else row
+    is_other = any(at_end[key].word != row[key].word for key in at_end)
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -230,20 +235,24 @@ def _compose_net_row(
         slack=row["slack"].si,
         layout=_build_layout(row),
         resistances=_find_resistances(row, type_sheets),
-        end_resistances=_find_resistances(at_end, type_sheets) if at_end else None,
-        end_anchors=_find_anchors(at_end, type_sheets) if at_end else None,
+        end_resistances=_find_end_resistances(at_end, type_sheets)
+        if is_other
+        else None,
+        end_anchors=_find_anchors(at_end, type_sheets) if is_other else None,
         inputs=inputs,
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
         glide_factor=_find_glide_factor(row),
         guys=read_guys(row),
         axes=tuple(read_axes(row).items()),
+        drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=_find_anchors(row, type_sheets),
         panel=panel,
         row_end=_build_row_end(end, type_sheets)
         if has_end and (panel or _names_row_end(end))
         else None,
         panel_lack=panel_lack,
+        unsaid=list_unsaid(row),
     )
 
 
@@ -364,7 +373,7 @@ def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:
         resistances=tuple(
             _find_resistance(end[member], mode, member, type_sheets)
             if end
-            else _lack_resistance(member, mode, "Ends")
+            else _lack_resistance(member, mode, "Ends", say("row_end.no_members"))
             for member, mode in END_MODES
         ),
     )
@@ -386,6 +395,15 @@ def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ..
         row, type_sheets["Anchors"] or {}, type_sheets["Posts"] or {}
     )
     return (*needed, *dependent)
+
+
+def _find_end_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
+    """The same at the row's end; types that are not named there are told together."""
+    lack = say("row_end.no_types")
+    return tuple(
+        one if one.type_id else replace(one, source="Ends", lack=lack)
+        for one in _find_resistances(row, type_sheets)
+    )
 
 
 def _find_resistance(
@@ -427,6 +445,7 @@ def _describe_type(
         basis = "computed"
     is_strut = is_derived and mode == "compression"
     place = kind["test_least"].place if tests else resistance.place
+    is_open = mode == "tendon" and not is_given and lacks_inner(kind)
     return Resistance(
         member=member,
         mode=mode,
@@ -436,14 +455,23 @@ def _describe_type(
         source=place or sheet,
         derivation=resistance.derivation if is_given else None,
         tests=tests,
+        lack=say("type.no_inner", id=kind["id"].word) if is_open else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
     )
 
 
-def _lack_resistance(member: Member | EndMember, mode: str, source: str) -> Resistance:
+def _lack_resistance(
+    member: Member | EndMember, mode: str, source: str, lack: Message | None = None
+) -> Resistance:
     """Resistance of a member whose type is not named."""
     return Resistance(
-        member=member, mode=mode, value=None, basis="", type_id="", source=source
+        member=member,
+        mode=mode,
+        value=None,
+        basis="",
+        type_id="",
+        source=source,
+        lack=lack,
     )
 
 

@@ -27,7 +27,7 @@ from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, read_cell, refuse
 from netdesign.site.tables import Table, read_field
 from netdesign.site.titles import Meaning
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 _Ends = tuple[Cell | None, Cell | None]
@@ -54,10 +54,13 @@ class RangesSheet:
     ends : mapping of str to tuple of Reading, or None
         Low and high end of what ranges beside the usual three; None where its line
         has a fault.
+    unsaid : tuple of Message
+        Quantities that have no line, and range as they usually do.
     """
 
     ranges: Ranges | None = None
     inputs: tuple[InputEcho, ...] = ()
+    unsaid: tuple[Message, ...] = ()  # quantities that nobody gives
     ends: Mapping[str, tuple[Reading, Reading] | None] = of_dataclass(
         default_factory=dict
     )
@@ -108,6 +111,7 @@ def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
     return RangesSheet(
         ranges=Ranges.of(**{key: value.interval for key, value in complete.items()}),
         inputs=tuple(echo for echoes in inputs for echo in echoes),
+        unsaid=tuple(one.name for one in USUAL_QUANTITIES if one.key not in names),
         ends=ends,
     )
 

@@ -120,10 +120,11 @@ def read_site(
     findings.extend(_note_unread(workbook, findings))
     if built.ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings, fold_findings(findings))
+    rows = (tell_replaced(row, replaced) for row in net_rows)
     return Site(
         project=project,
         ranges=built.ranges,
-        rows=tuple(tell_replaced(row, replaced) for row in net_rows),
+        rows=tuple(replace(one, unsaid=one.unsaid + built.unsaid) for one in rows),
         file_name=workbook.file,
         sha256=workbook.sha256,
         notes=fold_findings([_shorten(one) for one in findings]),

@@ -30,14 +30,14 @@ _AXES = {
     Member.UPHILL_ANCHOR: "uphill_axis",
     Member.DOWNHILL_ANCHOR: "downhill_axis",
 }
-_BENT = ("bar", "micropile")
+_BENT, _SOLID = ("bar", "micropile"), "bar"
 _DEFAULT_CURVE = "d"
 _SECTION = ("area", "second_moment", "buckling_length", "yield_strength")
 _BENT_POST = ("post_width", "section_modulus", *_SECTION)
 
 
 def read_guys(row: Row) -> Guys:
-    """Number of guys on each side of a post, and their splay."""
+    """Number of guys on each side of a post, one if not given, and their splay."""
     count = row["guy_count"]
     return Guys(
         count=int(count.number) if count.state == "given" else 1,
@@ -60,7 +60,7 @@ def _read_anchor(line: Row) -> AnchorType:
     return AnchorType(
         kind=line["kind"].word,
         section=_build_section(line)
-        if outer.state == strength.state == "given"
+        if outer.state == strength.state == "given" and not lacks_inner(line)
         else None,
         lever=line["lever_arm"].given_si,
     )
@@ -76,6 +76,16 @@ def _build_section(line: Row) -> RoundSection | None:
         )
     except ModelError:
         return None
+
+
+def lacks_inner(line: Row) -> bool:
+    """Whether an anchor may be hollow, and nobody says how much."""
+    is_solid = line["kind"].word == _SOLID
+    return (
+        line["bar_diameter"].state == "given"
+        and line["inner_diameter"].state != "given"
+        and not is_solid
+    )
 
 
 def read_inner(line: Row) -> float:
@@ -97,15 +107,27 @@ def list_dependent(
     """
     types = read_anchor_types(row, anchors)
     bent = [
-        _open(row[member], member, "bending", types[member])
-        for member in _AXES
-        if member in types
-        and types[member].kind in _BENT
-        and types[member].lever is not None
+        _read_bent_anchor(row[member], member, types.get(member)) for member in _AXES
     ]
     post = row[Member.POST]
     line = posts.get(post.word)
-    return (*bent, _read_bent_post(post, line), _read_sliding(post, line))
+    found = (one for one in bent if one is not None)
+    return (*found, _read_bent_post(post, line), _read_sliding(post, line))
+
+
+def _read_bent_anchor(
+    named: Reading, member: Member, anchor: AnchorType | None
+) -> Resistance | None:
+    """Resistance of an anchor to bending; None of a rope anchor, which turns."""
+    if anchor is None:
+        return _open(named, member, "bending", None)
+    if anchor.kind == "rope anchor":
+        return None
+    if not anchor.kind:
+        return _open(named, member, "bending", None, say("bending.no_kind"))
+    if anchor.lever is None:
+        return _open(named, member, "bending", None, say("bending.no_lever"))
+    return _open(named, member, "bending", anchor)
 
 
 def _open(
@@ -213,7 +235,13 @@ def check_support_types(row: Row, findings: list[Finding]) -> None:
             rule = say("type.beside", name=beside.field.name, place=beside.place)
             refuse(row["base_friction"], rule, say("accepted.one_of_two"), findings)
     if "inner_diameter" in row and row["inner_diameter"].state == "given":
-        outer, inner = row["bar_diameter"], row["inner_diameter"]
+        outer, inner, kind = (
+            row[key] for key in ("bar_diameter", "inner_diameter", "kind")
+        )
+        if kind.word == _SOLID:
+            rule = say("type.beside", name=kind.field.name, place=kind.place)
+            hollow = kind.field.name_word("micropile")
+            refuse(inner, rule, say("accepted.words", words=(hollow,)), findings)
         if outer.state == "blank":  # a tube without a wall has no tendon resistance
             rule = say("type.needs_more", names=(outer.field.name,))
             refuse(inner, rule, say("type.all_or_none"), findings)

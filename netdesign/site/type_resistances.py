@@ -19,7 +19,12 @@ from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bo
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Row, refuse
-from netdesign.site.support_types import compute_buckling, name_curve, read_inner
+from netdesign.site.support_types import (
+    compute_buckling,
+    lacks_inner,
+    name_curve,
+    read_inner,
+)
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
@@ -88,6 +93,8 @@ def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
         return row
     first = row[rule.needed[0]]
     if any(row[key].state == "faulty" for key in rule.optional):
+        return row
+    if rule.key == "tendon" and lacks_inner(row):  # may be a tube: not known
         return row
     if row[rule.key].state == "given":
         given = row[rule.key]

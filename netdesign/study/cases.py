@@ -153,7 +153,7 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
-        panel=row.panel.panel if row.panel else None,
+        panels=row.panels,
         has_end=row.row_end is not None,
     )
 
@@ -185,6 +185,7 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         panel=None,
         row_end=None,
         panel_lack=None,
+        unsaid=(),
     )
     return _RowScenes(row=bare, law=law)
 
@@ -244,5 +245,6 @@ def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[Case
     def build(case: Case) -> Scene:
         return build_scene(row, case, run.creep_law)
 
-    panel = row.panel.panel if row.panel else None
-    return [build_task(case, build, row.layout, run.settings, panel) for case in cases]
+    return [
+        build_task(case, build, row.layout, run.settings, row.panels) for case in cases
+    ]

@@ -110,6 +110,8 @@ def _settle_bending(
         return replace(given, lack=say("bending.no_section"))
     if pull is None:
         return given
+    if not pull.is_axis_known:
+        return replace(given, lack=say("bending.no_axis"))
     if pull.angle > _LARGEST_ANGLE:
         angle = degree_from_radian(pull.angle)
         return replace(given, lack=say("bending.too_far", angle=angle))

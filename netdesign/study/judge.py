@@ -165,6 +165,7 @@ def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
         inputs=list(row.inputs),
         drawing=record_drawing(row, governing),
         reasons=list_reasons(checks, independent),
+        unsaid=list(row.unsaid),
         monitoring=record_monitoring(task.site, row),
         anchors=record_anchors(governing, loads.effects),
         pulls=record_pulls(loads.pulls),

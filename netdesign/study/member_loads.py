@@ -13,7 +13,7 @@ from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.demand import NOTHING, Demand, build_demand
 from netdesign.study.effects import RowEffects, find_effects
@@ -129,10 +129,12 @@ def add_parts(record: ActionRecord, governing: CaseResult, member: str) -> Actio
     """Record with both forces on one anchor that carries net and uphill guy, (S7)."""
     anchors = governing.anchors
     if record.is_by_panel:  # parts of that force, in its own case
-        panel = governing.panel
-        anchors = panel.anchors if isinstance(panel, PanelForces) else None
-        if isinstance(panel, PanelForces) and panel.is_mid_largest(member):
-            return record
+        anchors = None
+        if isinstance(governing.panel, PanelForces):
+            panel = governing.panel.find_worst(name_in_panel(member))
+            if panel.is_mid_largest(member):
+                return record
+            anchors = panel.anchors
     both = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
     if anchors is None or not anchors.is_foot_shared or member not in both:
         return record

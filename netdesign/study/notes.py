@@ -130,24 +130,24 @@ def list_row_notes(
     notes += list_assumed(row)
     if row.panel_lack is not None:
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
+    if row.panel is not None and row.panel.assumed:
+        notes.append(say("panel.assumed", names=row.panel.assumed))
     return [*notes, *_list_pull_notes(pulls)]
 
 
 def _list_pull_notes(pulls: Sequence[AnchorPull]) -> list[Message]:
-    """Axes and kinds of anchors that nobody has given."""
-    notes = [
+    """Axes of anchors that are drilled along the pull."""
+    return [
         say(
-            "row.axis_assumed",
+            "row.drilled_along_pull",
             member=name_member(one.anchor),
             axis=degree_from_radian(one.axis),
         )
         for one in pulls
-        if not one.is_axis_given and one.position == "intermediate"
+        if one.is_axis_known
+        and not one.is_axis_given
+        and one.position == "intermediate"
     ]
-    unknown = {one.anchor: name_member(one.anchor) for one in pulls if not one.kind}
-    if unknown:
-        notes.append(say("row.kind_assumed", members=tuple(unknown.values())))
-    return notes
 
 
 def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[Message]:

@@ -126,5 +126,5 @@ class Probe:
             lambda c: build_scene(row, c, law, contact),
             row.layout,
             self._settings,
-            row.panel.panel if row.panel else None,
+            row.panels,
         )

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import judge, list_assumed, not_proven
-from netdesign.checks.schema import BAR_ANGLE, ROPE_ANGLE
+from netdesign.checks.schema import ROPE_ANGLE
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
@@ -50,6 +49,8 @@ class AnchorPull:
         Inclination of the anchor; the middle of the pulls where none is given [rad].
     is_axis_given : bool
         The workbook has it.
+    is_axis_known : bool
+        It has, or says that the anchor is drilled along the pull.
     kind : str
         Of the anchor, or "".
     lever : float or None
@@ -63,15 +64,15 @@ class AnchorPull:
     pulls: PullRange
     axis: float
     is_axis_given: bool
+    is_axis_known: bool
     kind: str
     lever: float | None
     angle: float
 
     @property
     def is_checked(self) -> bool:
-        """A limit of the direction is checked: what bends has its own check."""
-        bends = self.kind in ("bar", "micropile") and self.lever is not None
-        return not bends and bool(self.kind or self.is_axis_given)
+        """A limit of the direction is checked: what bends has a check of that."""
+        return self.kind not in ("bar", "micropile")
 
 
 def list_pulls(
@@ -112,9 +113,10 @@ def list_pulls(
 def _list_feet(result: CaseResult) -> list[GroundForce]:
     """Forces of the net on foot anchors in a case, also by the panel between posts."""
     feet = [] if result.anchors is None else [result.anchors.foot_anchor]
-    if isinstance(result.panel, PanelForces):
-        x, y = result.panel.solution.mid_foot
-        feet.append(result.panel.anchors.foot_anchor)
+    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
+    for panel in panels:
+        x, y = panel.solution.mid_foot
+        feet.append(panel.anchors.foot_anchor)
         if x or y:
             feet.append(GroundForce(member=Member.NET, x=x, y=y))
     return feet
@@ -155,6 +157,7 @@ def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:
             largest_deg=degree_from_radian(one.pulls.largest),
             axis_deg=degree_from_radian(one.axis),
             is_axis_given=one.is_axis_given,
+            is_axis_known=one.is_axis_known,
             angle_deg=degree_from_radian(one.angle),
         )
         for one in pulls
@@ -177,6 +180,7 @@ def _read_pull(row: NetRow, one: PullRecord) -> AnchorPull:
         ),
         axis=radian_from_degree(one.axis_deg),
         is_axis_given=one.is_axis_given,
+        is_axis_known=one.is_axis_known,
         kind=one.kind,
         lever=_find_lever(row.find_anchor_type(anchor, position)),
         angle=radian_from_degree(one.angle_deg),
@@ -223,6 +227,7 @@ def build_pull(
         pulls=pulls,
         axis=axis,
         is_axis_given=given is not None,
+        is_axis_known=given is not None or row.drills_along_pull,
         kind=kind.kind if kind else "",
         lever=_find_lever(kind),
         angle=turned,
@@ -232,59 +237,35 @@ def build_pull(
 def check_directions(
     pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
 ) -> list[tuple[Position, CheckResult]]:
-    """Check the angles of rope anchors, and of bars whose lever arm is not given.
+    """Check the angles of rope anchors, and of anchors whose kind is not given.
 
     Each with the support that it belongs to.
     """
     return [
-        (
-            one.position,
-            _check_rope(one, standard, gap)
-            if one.kind == "rope anchor"
-            else _check_bar(one, standard, gap),
-        )
+        (one.position, _check_direction(one, standard, gap))
         for one in pulls
         if one.is_checked
     ]
 
 
-def _check_rope(
+def _check_direction(
     pull: AnchorPull, standard: Standard, gap: Message | None
 ) -> CheckResult:
     limit = standard.find(ROPE_ANGLE)
-    most = limit.value_si if limit else math.nan
-    verdict = judge(
-        pull.angle, pull.angle, least=0.0, most=most, is_complete=gap is None
-    )
     if limit is None:
-        return _result(
-            pull, verdict, not_proven(say("check.no_limit", limit=ROPE_ANGLE))
-        )
+        lack = say("check.no_limit", limit=ROPE_ANGLE)
+        return _result(pull, Verdict.NOT_PROVEN, not_proven(lack))
+    gap = gap or (None if pull.is_axis_known else say("bending.no_axis"))
+    most, angle = limit.value_si, pull.angle
+    is_complete = gap is None
+    verdict = judge(angle, angle, least=0.0, most=most, is_complete=is_complete)
     key = (
         "direction.rope_beyond" if verdict is Verdict.FAIL else "direction.rope_within"
     )
-    told = say(key, angle=degree_from_radian(pull.angle), most=limit.value)
+    told = say(key, angle=degree_from_radian(angle), most=limit.value)
     if verdict is Verdict.NOT_PROVEN and gap is not None:
         told = not_proven(gap)
-    found = _result(pull, verdict, told)
-    return replace(found, assumed=list_assumed(limit))
-
-
-def _check_bar(
-    pull: AnchorPull, standard: Standard, gap: Message | None
-) -> CheckResult:
-    """Small angles pass; beyond, nothing is known without a lever arm."""
-    limit = standard.find(BAR_ANGLE)
-    most = limit.value if limit else 0.0
-    angle = degree_from_radian(pull.angle)
-    if limit is None or not angle <= most:
-        lack = say("direction.no_lever", angle=angle, most=most)
-        return _result(pull, Verdict.NOT_PROVEN, not_proven(lack))
-    if gap is not None:
-        return _result(pull, Verdict.NOT_PROVEN, not_proven(gap))
-    told = say("direction.bar_within", angle=angle, most=most)
-    found = _result(pull, Verdict.PASS, told)
-    return replace(found, assumed=list_assumed(limit))
+    return replace(_result(pull, verdict, told), assumed=list_assumed(limit))
 
 
 def _result(pull: AnchorPull, verdict: Verdict, reason: Message) -> CheckResult:

@@ -40,16 +40,23 @@ def record_panel(
     """
     if row.panel is None:
         return None
-    panel = row.panel.panel
-    panels = (one.panel for one in results)
-    solved = [one.solution for one in panels if isinstance(one, PanelForces)]
+    panel = row.panel.panels[0]
+    solved = [
+        variant.solution
+        for one in results
+        if isinstance(one.panel, PanelForces)
+        for variant in one.panel.variants
+    ]
     found = {name: extremes[name] for name in PANEL_QUANTITIES if name in extremes}
     lower = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
     upper = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
     return PanelRecord(
         cut=panel.cut,
         has_mid_anchors=panel.has_mid_anchors,
-        ropes=[
+        assumed=list(row.panel.assumed),
+        ropes=[]
+        if row.panel.assumed
+        else [
             _record_rope("lower", panel.lower, row.panel.lower, found, lower),
             _record_rope("upper", panel.upper, row.panel.upper, found, upper),
         ],
@@ -61,7 +68,7 @@ def record_panel(
         ),
         lift_m=max((one.lower.mid_displacement[1] for one in solved), default=None),
         end_guy_deg=_find_guy_angle(row),
-        drawing=_draw(drawn) if drawn else None,
+        drawing=_draw(drawn) if drawn and not row.panel.assumed else None,
     )
 
 

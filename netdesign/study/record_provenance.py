@@ -30,6 +30,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
         choice=standard.choice,
         floor=standard.floor,
         is_floor_overruled=standard.is_floor_overruled,
+        is_default=standard.is_default,
         values=[
             *map(_record_value, standard.listed),
             *map(_record_value, _list_floor_values(standard)),
@@ -45,7 +46,7 @@ def load_own_profile(record: ProfileRecord, named: str | None = None) -> Standar
     StandardError
         If there is no such profile.
     """
-    profile = load_standard(named or record.id)
+    profile = replace(load_standard(named or record.id), is_default=record.is_default)
     if not record.is_floor_overruled:
         return profile
     return profile.overrule_floor("guideline" if profile.floor == "none" else "none")

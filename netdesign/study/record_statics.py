@@ -53,10 +53,10 @@ class _Pulls:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """A solved case, by its section or by the panel between posts."""
+    """A solved case, by its section or by a panel between posts."""
 
     result: CaseResult
-    is_by_panel: bool = False
+    panel: PanelForces | None = None
 
 
 def record_statics(
@@ -95,17 +95,22 @@ def _record_cases(
 
 def _list_states(solved: Sequence[CaseResult]) -> list[_State]:
     """States of solved cases, by section and by panel where there is one."""
-    by_panel = [one for one in solved if isinstance(one.panel, PanelForces)]
-    return [*map(_State, solved), *(_State(one, True) for one in by_panel)]
+    by_panel = [
+        _State(one, panel)
+        for one in solved
+        if isinstance(one.panel, PanelForces)
+        for panel in one.panel.variants
+    ]
+    return [*map(_State, solved), *by_panel]
 
 
 def _read_pulls(row: NetRow, state: _State) -> _Pulls | None:
-    result = state.result
-    solution, anchors, panel = result.solution, result.anchors, result.panel
+    result, panel = state.result, state.panel
+    solution, anchors = result.solution, result.anchors
     if solution is None or anchors is None:
         return None
     points = place_row(row, result)
-    if not (state.is_by_panel and isinstance(panel, PanelForces)):
+    if panel is None:
         return _Pulls(
             foot=solution.foot, head=solution.head, points=points, anchors=anchors
         )
@@ -122,8 +127,8 @@ def _read_pulls(row: NetRow, state: _State) -> _Pulls | None:
 def _find_state(member: str, result: CaseResult) -> _State:
     """The case at rest or followed in time, whichever brings the member's force."""
     both = result.compared
-    if member in PANEL_QUANTITIES:
-        return _State(result, True)
+    if member in PANEL_QUANTITIES and isinstance(result.panel, PanelForces):
+        return _State(result, result.panel.find_worst(member))
     if both is None:
         return _State(result)
     return _State(both.history if both.exceeds(member) else both.steady)
@@ -131,16 +136,15 @@ def _find_state(member: str, result: CaseResult) -> _State:
 
 def _measure(state: _State) -> dict[str, float]:
     """Sizes of a state of which the largest counts, by the keys `SPANS`."""
-    result, panel = state.result, state.result.panel
-    anchors = result.anchors
+    anchors, bands = state.result.anchors, state.result.member_forces
     guys: Sequence[str] = GUYS
-    if state.is_by_panel and isinstance(panel, PanelForces):
-        anchors, guys = panel.anchors, GUYS_BY_PANEL
+    if state.panel is not None:
+        anchors, bands, guys = state.panel.anchors, state.panel.bands, GUYS_BY_PANEL
     if anchors is None:
         return dict.fromkeys(SPANS, -math.inf)
     foot = anchors.foot_anchor
     turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
-    tension = sum(result.member_forces[guy].low for guy in guys)
+    tension = sum(bands[guy].low for guy in guys)
     sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
     return dict(zip(SPANS, sizes, strict=True))
 
@@ -158,7 +162,7 @@ def _group(found: Iterable[tuple[str, _State]]) -> list[tuple[_State, list[str]]
 
 
 def _is_same(one: _State, other: _State) -> bool:
-    return one.result is other.result and one.is_by_panel is other.is_by_panel
+    return one.result is other.result and one.panel is other.panel
 
 
 def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:

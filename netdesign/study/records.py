@@ -34,6 +34,7 @@ from netdesign.study.support_records import (
     PullRecord,
     StaticsRecord,
 )
+from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
 SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
@@ -268,6 +269,7 @@ class RowStudy:
     inputs: list[InputEcho]
     drawing: Drawing | None  # None when no case converged
     reasons: list[Text]  # why the row is not proven, or what failed; may be empty
+    unsaid: list[Message] = field(default_factory=list)  # empty columns that decide
     monitoring: list[MonitoringRecord] = field(default_factory=list)
     anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
@@ -317,6 +319,7 @@ class ProfileRecord:
     choice: str = ""  # set of factors in force; "" where the profile has none
     floor: str = "guideline"  # what no demand lies below: or "none"
     is_floor_overruled: bool = False  # the profile itself takes the other one
+    is_default: bool = False  # nobody named it
 
 
 @dataclass(frozen=True, kw_only=True)

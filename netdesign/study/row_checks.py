@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import CheckResult, check_member
+from netdesign.checks import CheckResult, check_member, withhold
 from netdesign.envelope.extremes import Extreme
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance
@@ -28,7 +28,7 @@ from netdesign.study.member_loads import RowLoads, add_parts
 from netdesign.study.pulls import check_directions, find_pull
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import CheckRecord, HoldRecord
-from netdesign.study.row_end import find_lack
+from netdesign.study.row_end import find_lack, find_unsaid, tell_unsaid
 from netdesign.study.settle import (
     find_gap,
     judge_forces,
@@ -90,10 +90,11 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 
     What is not known of the row's end alone leaves no other check open.
     """
-    points = (
-        (one.gap if one.gap != find_lack(row, one.given) else None) or one.doubt
-        for one in judged
-    )
+    if row.unsaid:
+        return tell_unsaid(row)
+    of_end = (find_lack(row, one.given) for one in judged)
+    known = [one for one in of_end if one is not None]
+    points = ((None if one.gap in known else one.gap) or one.doubt for one in judged)
     return next((one for one in points if one is not None), None)
 
 
@@ -116,12 +117,15 @@ def _judge_end(
     task: RowCheck, given: Resistance, loads: RowLoads, fault: Message | None = None
 ) -> EndCheck:
     """Check of such a member; a ``fault`` beside its cases leaves it open."""
-    end, row = loads.end, task.row
+    unsaid = find_unsaid(task.row, given, "edge")
+    end = None if unsaid else loads.end
     extreme = end.find_extreme(given.member) if end else None
-    gap = task.solved.gap or find_lack(row, given) or _find_unseen(extreme) or fault
+    gap = unsaid or task.solved.gap or _find_unseen(extreme) or fault
     doubt = _find_doubt(task, extreme) if extreme else None
     action = end.demand(given.member) if end else None
     result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
+    if unsaid:
+        result = withhold(result, unsaid)
     is_known = end is not None and not (gap or doubt)
     return EndCheck(
         id=place_check(record_result(result, given), "edge").id,
@@ -141,7 +145,7 @@ def _record_end(
         one = _judge_end(task, given, loads, _FAULT_BESIDE)
     settled = settle_check(task.site, task.row, one.result, "edge")
     check = place_check(record_result(settled, given), "edge")
-    if end is None:
+    if end is None or find_unsaid(task.row, given, "edge"):
         return check
     extreme = end.find_extreme(given.member)
     return replace(
@@ -178,6 +182,9 @@ def _judge_member(
     extremes: Mapping[str, Extreme],
     loads: RowLoads,
 ) -> MemberCheck:
+    unsaid = find_unsaid(task.row, given, width.position)
+    if unsaid:
+        return _leave_open(task, given, width, unsaid)
     extreme, demand, doubt = extremes.get(given.member), None, None
     if extreme is not None:
         panel = extremes.get(name_in_panel(given.member))
@@ -200,8 +207,6 @@ def _judge_member(
         doubt = next((one for one in doubts if one), None)
     seen = (extreme, extremes.get(name_in_panel(given.member)))
     gap = find_gap(task.solved.gap, loads.floor) or _find_unseen(*seen)
-    if given.member in (Member.POST, Member.POST_BASE) and width.position == "edge":
-        gap = gap or find_lack(task.row, given)  # its end guy presses it
     action = demand.action if demand else None
     result = judge_forces(action, given, task.standard, gap=gap, doubt=doubt)
     short = find_short_post(given, task.row, task.site.ranges)
@@ -215,6 +220,23 @@ def _judge_member(
         demand=demand,
         gap=gap,
         doubt=doubt,
+        result=result,
+    )
+
+
+def _leave_open(
+    task: RowCheck, given: Resistance, width: LoadedWidth, unsaid: Message
+) -> MemberCheck:
+    """Check of a member whose force depends on what nobody gives."""
+    result = judge_forces(None, given, task.standard, gap=unsaid, doubt=None)
+    result = withhold(result, unsaid)  # whatever else is missing
+    return MemberCheck(
+        given=given,
+        width=width,
+        extreme=None,
+        demand=None,
+        gap=unsaid,
+        doubt=None,
         result=result,
     )
 

@@ -12,13 +12,15 @@ from dataclasses import dataclass
 from netdesign.checks import Band
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.members import EndMember, RopeForce
-from netdesign.structure.row_position import LoadedWidth
+from netdesign.structure.members import EndMember, Member, RopeForce
+from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.demand import NOTHING
 from netdesign.study.effects import RowEffects
 from netdesign.study.records import ActionRecord
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
+
+_PUSHED = (Member.POST, Member.POST_BASE)  # by the end guy
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,9 +112,21 @@ def compute_end_factor(width: LoadedWidth, spacing: float) -> float:
     return 1.0 + width.end_factor * (share if share <= 0.5 else 1.0)
 
 
+def find_unsaid(row: NetRow, given: Resistance, position: Position) -> Message | None:
+    """Inputs that nobody gives and without which a force is not known at all."""
+    if row.unsaid:
+        return tell_unsaid(row)
+    return find_lack(row, given) if position == "edge" else None
+
+
+def tell_unsaid(row: NetRow) -> Message:
+    """The columns that a row leaves empty, and that every force depends on."""
+    return say("check.unsaid", names=row.unsaid)
+
+
 def find_lack(row: NetRow, given: Resistance) -> Message | None:
     """Lack of the workbook that leaves an end member, or the end post, open."""
-    if row.row_end is None:
+    if row.row_end is None or given.member not in (*EndMember, *_PUSHED):
         return None
     if row.panel is None:
         return say("row_end.no_pull")

@@ -15,6 +15,7 @@ from netdesign.checks import (
     declare,
     withhold,
 )
+from netdesign.checks.check import not_proven
 from netdesign.envelope.ranges import Ranges
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
@@ -31,6 +32,8 @@ from netdesign.units import (
     kilonewton_if_known,
 )
 from netdesign.words.message import Message, say
+
+INCLINATION = "column.quantities.inclination"  # name of the net's inclination
 
 
 def find_gap(solved: Message | None, floor: Floor | None) -> Message | None:
@@ -51,10 +54,39 @@ def list_checked(
 
 def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
     """Checks of a row that no force enters."""
-    geometry = [*check_geometry(read_geometry(row, site.ranges), standard)]
-    ends = check_ends(find_effects(row, standard, site.ranges))
-    results = [*geometry, *([ends] if ends else [])]
+    geometry = check_geometry(read_geometry(row, site.ranges), standard)
+    beside = (
+        check_ends(find_effects(row, standard, site.ranges)),
+        _check_profile(standard),
+    )
+    results = [
+        *(_leave_default_open(row, one) for one in geometry),
+        *(one for one in beside if one is not None),
+    ]
     return [record_result(settle_check(site, row, one)) for one in results]
+
+
+def _leave_default_open(row: NetRow, result: CheckResult) -> CheckResult:
+    """Check of the inclination, not proven where nobody gives its range."""
+    is_of_it = result.mode == "inclination" and result.verdict is Verdict.PASS
+    names = [one for one in row.unsaid if one.key == INCLINATION]
+    if not (is_of_it and names):
+        return result
+    return withhold(result, say("check.unsaid", names=tuple(names)))
+
+
+def _check_profile(standard: Standard) -> CheckResult | None:
+    """Not proven where nobody has named the limit profile."""
+    if not standard.is_default:
+        return None
+    return CheckResult(
+        id="profile.named",
+        clause="-",
+        member=Member.NET,
+        mode="profile",
+        verdict=Verdict.NOT_PROVEN,
+        reason=not_proven(say("check.no_profile", profile=standard.id)),
+    )
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:

@@ -262,23 +262,31 @@ def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
     points, bands = place_row(row, result), result.member_forces
     error = result.solution.head.error if result.solution else 0.0
     error *= row.layout.post_spacing
-    pulls: list[tuple[Point, float, Sequence[str]]] = [
-        (result.anchors.head_pull, error, GUYS)
+    pulls = [(result.anchors.head_pull, error, _add_guys(bands, GUYS))]
+    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
+    pulls += [
+        (
+            one.anchors.head_pull,
+            one.head.error * row.layout.post_spacing,
+            _add_guys(one.bands, GUYS_BY_PANEL),
+        )
+        for one in panels
     ]
-    if isinstance(result.panel, PanelForces):
-        panel = result.panel
-        error = panel.head.error * row.layout.post_spacing
-        pulls.append((panel.anchors.head_pull, error, GUYS_BY_PANEL))
     return [
         _Head(
             pull=pull,
             error=wrong,
-            tension=sum(bands[guy].low for guy in guys),
+            tension=tension,
             points=points,
             weights=weigh_splay(points),
         )
-        for pull, wrong, guys in pulls
+        for pull, wrong, tension in pulls
     ]
+
+
+def _add_guys(bands: Mapping[str, Band], guys: Sequence[str]) -> float:
+    """Least tension of the guys on both sides, of which one is at work [N]."""
+    return sum(bands[guy].low for guy in guys)
 
 
 def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from netdesign.study.case_records import CasePoint, ExtremeRecord
 from netdesign.study.guideline_records import GuidelineLoadRecord
+from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,6 +71,7 @@ class PullRecord:
     largest_deg: float
     axis_deg: float
     is_axis_given: bool  # else the middle of the pulls
+    is_axis_known: bool  # given, or drilled along the pull
     angle_deg: float  # largest between pull and axis, with the part along the row
 
 
@@ -208,3 +210,6 @@ class PanelRecord:
     lift_m: float | None = None  # largest of the lower rope in mid-panel
     end_guy_deg: float | None = None  # angle to the row; None where none is given
     drawing: PanelDrawing | None = None  # None where the drawn case has no panel
+    # columns that are empty: several panels were tried, forces are the largest of all,
+    # and cut and anchors in mid-panel those of the first
+    assumed: list[Message] = field(default_factory=list)

@@ -103,7 +103,7 @@ def _build_panel(row: NetRow) -> RowPanel:
     panel = Panel(
         post_spacing=row.layout.post_spacing, lower=_ROPE, upper=_ROPE, cut="uniform"
     )
-    return RowPanel(panel=panel, lower=_BEARS, upper=_BEARS)
+    return RowPanel(panels=(panel,), lower=_BEARS, upper=_BEARS)
 
 
 def _search(site: Site, run: CheckRun) -> tuple[float, RowEnvelope]:

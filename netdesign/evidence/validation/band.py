@@ -225,16 +225,16 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> _Forces:
         uphill_anchor_distance=point["uphill_anchor_ratio"] * height,
         downhill_anchor_distance=height,
     )
-    panel = None
+    panels: tuple[Panel, ...] = ()
     if has_ropes:
         rope = Rope(stiffness=point["rope_stiffness_kN"] * 1e3, sag=point["rope_sag"])
-        panel = Panel(post_spacing=spacing, lower=rope, upper=rope, cut="upper")
+        panels = (Panel(post_spacing=spacing, lower=rope, upper=rope, cut="upper"),)
     case = Case(
         density=point["density_kg_m3"],
         friction_angle=math.radians(point["friction_deg"]),
         inclination=math.radians(point["inclination_deg"]),
     )
-    task = build_task(case, lambda _: _build_net(point), layout, _SETTINGS, panel)
+    task = build_task(case, lambda _: _build_net(point), layout, _SETTINGS, panels)
     (result,) = run_cases([task])
     if not result.is_converged:
         return _Forces(values={}, reason=str(result.reason))

@@ -41,6 +41,7 @@ def view_panel(row: RowStudy, words: Words) -> PanelView | None:
         forces=_build_forces(row, panel, words),
         ropes=_build_ropes(panel, words),
         sentences=(
+            *_tell_assumed(panel, words),
             *_tell_guy(panel, words),
             *_tell_heights(panel, words),
             *_tell_end(row, panel, words),
@@ -48,6 +49,13 @@ def view_panel(row: RowStudy, words: Words) -> PanelView | None:
             words("panel_view.not_treated"),
         ),
     )
+
+
+def _tell_assumed(panel: PanelRecord, words: Words) -> list[str]:
+    """What is not given of the panel, and what is assumed instead."""
+    if not panel.assumed:
+        return []
+    return [words("panel.assumed", names=tuple(map(words.show, panel.assumed)))]
 
 
 def _build_forces(row: RowStudy, panel: PanelRecord, words: Words) -> Table:

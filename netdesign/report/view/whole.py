@@ -489,9 +489,8 @@ def _list_assumed(study: Study, words: Words) -> str:
     """Values of the profile and axes of anchors that nobody has confirmed."""
     assumed = [v for v in study.profile.values if v.status == tables.ASSUMED]
     names = _fold_keys([(v.id, words.show_quantity(v.value, v.unit)) for v in assumed])
-    axes = [row.id for row in study.rows if not all(p.is_axis_given for p in row.pulls)]
-    kinds = [row.id for row in study.rows if not all(p.kind for p in row.pulls)]
-    for key, rows in (("show.assumed_axes", axes), ("show.assumed_kinds", kinds)):
-        if rows:
-            names.append(words(key, rows=basis_tables.name_rows(rows, study, words)))
+    panels = [row.id for row in study.rows if row.panel and row.panel.assumed]
+    if panels:
+        rows = basis_tables.name_rows(panels, study, words)
+        names.append(words("show.assumed_panels", rows=rows))
     return ", ".join(show_text(name) for name in names)

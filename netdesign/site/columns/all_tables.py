@@ -234,7 +234,8 @@ DECLARED = word_plan(
                 key="row",
                 kind="id",
                 refers_to="Nets",
-                note="id of a row of sheet Nets; left empty, the line is of all rows",
+                required=True,
+                note="id of a row of sheet Nets, or all",
             ),
             Field(
                 key="check",

@@ -43,8 +43,7 @@ ROW_POSITION = (
         "post_base_distance",
         LENGTHS,
         (-20.0, 20.0),
-        "downslope of the net's foot, along the slope; given, it takes the place of "
-        "the post tilt",
+        "downslope of the net's foot, along the slope; instead of the post tilt",
     ),
     _number(
         "gap",
@@ -59,6 +58,17 @@ ROW_POSITION = (
         (0.0, 6000.0),
         "above sea level, for the density of the guideline's load cases; left empty, "
         "it is taken with the largest factor for altitude",
+    ),
+    _word(
+        "row_end",
+        ("free", "continuous"),
+        "continuous: the nets go on at both ends of the row, into the neighbour; left "
+        "empty, its ends are judged as free",
+    ),
+    Field(
+        key="neighbour",
+        kind="text",
+        note="id of the net row that this one goes on into; two with a comma",
     ),
 )
 ANCHOR_DIMENSIONS = (

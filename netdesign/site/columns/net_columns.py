@@ -88,6 +88,14 @@ NETS = word_plan(
                 note="vertical; fill this or the thickness, not both",
             ),
             Field(
+                key="snow_layers",
+                kind="word",
+                words={"uniform": (), "layered": (), "layered with temperatures": ()},
+                note="uniform: of one density; layered: its layers stand in sheet "
+                "Snow, and have temperatures there or not; left empty, the row is not "
+                "proven",
+            ),
+            Field(
                 key="upslope_length",
                 units=LENGTHS,
                 bounds=(1.0, 200.0),
@@ -143,7 +151,8 @@ NETS = word_plan(
                 units=SHARES,
                 bounds=(0.0, 0.3),
                 default=DEFAULT_SLACK,
-                note="unstressed length of the net over its chord, minus 1",
+                note="unstressed length of the net over its chord, minus 1; left "
+                "empty, the row is not proven",
             ),
             Field(
                 key="post_spacing",
@@ -157,21 +166,22 @@ NETS = word_plan(
                 units=ANGLES,
                 bounds=(-30.0, 45.0),
                 default=degree_from_radian(DEFAULT_POST_TILT),
-                note="from the slope normal, head downslope positive",
+                note="from the slope normal, head downslope positive; this or the "
+                "distance of the post base; both empty, the row is not proven",
             ),
             Field(
                 key="uphill_anchor_distance",
                 units=LENGTHS,
                 bounds=(0.0, 50.0),
-                note="upslope of the net's foot, along the slope; left empty, it "
-                "follows from the net height",
+                note="upslope of the net's foot, along the slope; left empty, the "
+                "row is not proven",
             ),
             Field(
                 key="downhill_anchor_distance",
                 units=LENGTHS,
                 bounds=(0.0, 50.0),
-                note="downslope of the post's base, along the slope; left empty, it "
-                "follows from the net height",
+                note="downslope of the post's base, along the slope; left empty, the "
+                "row is not proven",
             ),
             _reference("foot_anchor", "Anchors"),
             _reference("uphill_anchor", "Anchors"),
@@ -188,7 +198,10 @@ NETS = word_plan(
 
 
 # Types of the first and last support of a row, where they are not those of the others.
-_END_NOTE = "of the first and last support; left empty, that of sheet Nets"
+_END_NOTE = (
+    "of the first and last support; left empty, its checks there are not proven, "
+    "unless the types not given are those inside"
+)
 ENDS = word_plan(
     SheetPlan(
         name="Ends",
@@ -208,6 +221,12 @@ ENDS = word_plan(
                     *((guy, "Ropes") for guy in _ANY_GUY),
                     ("post", "Posts"),
                 )
+            ),
+            Field(
+                key="other_types",
+                kind="word",
+                words={"as inside": ()},
+                note="as inside: types left empty in this line are those of sheet Nets",
             ),
             *ROW_ENDS,
         ),

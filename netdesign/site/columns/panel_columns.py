@@ -7,8 +7,8 @@ from netdesign.site.columns.fields import Field
 from netdesign.site.columns.unit_names import ANGLES, FORCES, SHARES
 from netdesign.units import degree_from_radian
 
-_ROPE_NOTE = "id of sheet Ropes, with its axial stiffness"
-_SAG_NOTE = "as built, without snow, over the post spacing; has no default"
+_ROPE_NOTE = "id of sheet Ropes; left empty, the worst of that sheet counts"
+_SAG_NOTE = "as built, without snow, over the post spacing; left empty, 3 to 10 %"
 
 PANEL = (
     Field(
@@ -20,14 +20,15 @@ PANEL = (
             "triangular": (),
         },
         note="rectangular: the net hangs on a ridge rope and a lower rope; triangular "
-        "nets are not covered; none: no ropes between posts",
+        "nets are not covered; none: no ropes between posts; left empty, it is taken "
+        "as rectangular",
     ),
     Field(
         key="net_cut",
         kind="word",
         words={cut: () for cut in CUTS},
         note="uniform: as long everywhere; upper: cut to the hanging ridge rope; "
-        "fitted: to both ropes; has no default",
+        "fitted: to both ropes; left empty, the worst of them counts",
     ),
     Field(key="ridge_rope", kind="id", refers_to="Ropes", note=_ROPE_NOTE),
     Field(key="ridge_sag", units=SHARES, bounds=(0.0, LARGEST_SAG), note=_SAG_NOTE),
@@ -37,8 +38,8 @@ PANEL = (
         key="mid_anchors",
         kind="word",
         words={"no": (), "yes": ()},
-        note="whether the lower rope is also anchored half way between the posts; no "
-        "(if left empty)",
+        note="whether the lower rope is also anchored half way between the posts; left "
+        "empty, the worse counts",
     ),
 )
 _HELD = "left empty, its checks are not proven"
@@ -75,6 +76,6 @@ ROPE_STIFFNESS = (
         aliases=("EA",),
         units=FORCES,
         bounds=(500.0, 1_000_000.0),
-        note="EA: force at unit strain; needed of border ropes",
+        note="EA: force at unit strain; left empty, it follows from the breaking force",
     ),
 )

@@ -26,7 +26,8 @@ def _axis(key: str, way: str) -> Field:
         units=ANGLES,
         bounds=_in_degrees(LEAST_AXIS, MOST_AXIS),
         note=f"against the slope surface, 0 {way} along the slope, 90 straight out of "
-        "the ground; left empty, it is taken along the mean pull, an assumption",
+        "the ground; left empty, bending and direction are not proven, unless the "
+        "anchors are drilled along the pull",
     )
 
 
@@ -35,33 +36,45 @@ GUYS_AND_AXES = (
         key="guy_count",
         kind="count",
         bounds=(1.0, 2.0),
-        note="1 or 2, uphill and downhill alike; 1 (if left empty) holds no load "
-        "along the row",
+        note="1 or 2, uphill and downhill alike; 1 holds no load along the row; left "
+        "empty, the row is not proven",
     ),
     Field(
         key="guy_splay",
         units=ANGLES,
         bounds=_in_degrees(LEAST_SPLAY, MOST_SPLAY),
-        note="between each of two guys and the section across the row",
+        note="between each of two guys and the section across the row; left empty "
+        "beside two guys, the row is not proven",
     ),
     _axis("foot_axis", "downslope"),
     _axis("uphill_axis", "downslope"),
     _axis("downhill_axis", "upslope"),
+    Field(
+        key="anchor_axes",
+        kind="word",
+        words={"along the pull": ()},
+        note="along the pull: anchors without an axis here are drilled along the mean "
+        "pull, as the report gives it",
+    ),
 )
 ANCHOR_BENDING = (
     Field(
         key="kind",
         kind="word",
-        words={"bar": (), "micropile": ("tube",), "rope anchor": ()},
+        words={
+            "bar": ("solid bar",),
+            "micropile": ("tube", "hollow bar"),
+            "rope anchor": (),
+        },
         note="bar or micropile: bends where the pull leaves its axis; rope anchor: "
-        "turns up to an angle of the profile; left empty, it is taken to turn, an "
-        "assumption",
+        "turns up to an angle of the profile; left empty, it is judged as both, and "
+        "the worse counts",
     ),
     Field(
         key="inner_diameter",
         units=DIAMETERS,
         bounds=(5.0, 190.0),
-        note="of a micropile or hollow bar; left empty, the bar is solid",
+        note="of a micropile or hollow bar; an anchor of the kind bar is solid",
     ),
     Field(
         key="lever_arm",

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from netdesign.checks.check import judge
 from netdesign.checks.schema import (
     ACTION_FACTOR,
-    BAR_ANGLE,
     MODES_WITHOUT_FORCE,
     ROPE_ANGLE,
 )
@@ -73,14 +72,36 @@ def audit_checks(
             yield from _audit_direction(where, check, row, factors)
         elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
-            if check.member in ROPE_OF:
-                yield from audit_end(where, check, row)
-            else:
-                yield from audit_action(where, check, row, factors)
-            yield from _audit_verdict(where, check, row)
-            if not accepts_law:
-                yield from _audit_snow(where, check, row)
-            yield from _audit_spreads(where, check)
+            if not is_left_open(check, row):
+                yield from _audit_force(where, check, row, factors)
+                if not accepts_law:
+                    yield from _audit_snow(where, check, row)
+
+
+def _audit_force(
+    place: Message, check: CheckRecord, row: RowStudy, factors: dict[str, float]
+) -> Iterator[Message]:
+    """A check of a force from the largest force of the cases to its verdict."""
+    if row.unsaid:
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    if check.member in ROPE_OF:
+        yield from audit_end(place, check, row)
+    else:
+        yield from audit_action(place, check, row, factors)
+    yield from _audit_verdict(place, check, row)
+    yield from _audit_spreads(place, check)
+
+
+def is_left_open(check: CheckRecord, row: RowStudy) -> bool:
+    """A check without numbers, for want of inputs that its force depends on."""
+    of_end = check.position == "edge" and check.member in (
+        *ROPE_OF,
+        *(Member.POST, Member.POST_BASE),
+    )
+    numbers = (check.action_kN, check.demand_kN, check.utilisation)
+    is_open = check.verdict in (Verdict.NOT_PROVEN, Verdict.DECLARED)
+    is_empty = check.action is None and all(one is None for one in numbers)
+    return is_open and is_empty and bool(row.unsaid or of_end)
 
 
 def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
@@ -147,10 +168,11 @@ def _audit_direction(
     if pull is None:
         yield say("audit.action_or_force", place=place)
         return
-    is_rope = pull.kind == "rope anchor"
-    most = factors.get(ROPE_ANGLE if is_rope else BAR_ANGLE)
-    beyond = Verdict.FAIL if is_rope and most is not None else Verdict.NOT_PROVEN
+    most = factors.get(ROPE_ANGLE)
+    beyond = Verdict.FAIL if most is not None else Verdict.NOT_PROVEN
     is_kept = most is not None and pull.angle_deg <= most * (1.0 + SAME)
+    if not pull.is_axis_known and check.verdict is Verdict.PASS:
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
     if _is_information(check, row) or (
         is_declared and (is_kept or beyond is not Verdict.FAIL)

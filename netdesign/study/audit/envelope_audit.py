@@ -208,6 +208,8 @@ def _audit_bound(
 def is_complete(row: RowStudy) -> bool:
     """Completeness: every case solved, nothing left open, the floor known."""
     record = row.envelope
+    if row.unsaid:
+        return False
     if row.floor is not None and row.floor.reason is not None:
         return False
     if not row.cases or len(list_solved(row)) < len(row.cases):
