@@ -58,13 +58,34 @@ def replace_types(row: Row, end: Row | None) -> Row:
     """
     if end is None:
         return {**row, **{key: _say_nothing(row[key]) for key in _TYPES}}
-    is_as_inside = end["other_types"].word == "as inside"
-    kept = [key for key in _TYPES if end[key].word or not is_as_inside]
-    return {**row, **{key: end[key] for key in kept}}
+    if end["support_types"].word:
+        return row
+    return {**row, **{key: end[key] for key in _TYPES}}
+
+
+def check_ends(end: Row, system: Reading, findings: list[Finding]) -> None:
+    """Refuse types beside the statement that they are those inside.
+
+    Without ropes nothing pulls along the row: then nothing is named that holds it.
+    """
+    said = end["support_types"]
+    for reading in (end[key] for key in _TYPES if said.word):
+        if reading.state == "given":
+            rule = say("nets.beside", name=said.field.name, place=said.place)
+            refuse(reading, rule, say("accepted.one_of_two"), findings)
+    for reading in (end[key] for key in (*EndMember, "end_guy_angle")):
+        if system.word == "none" and reading.state == "given":
+            rule = say("panel.beside_none", place=system.place)
+            refuse(reading, rule, say("panel.empty_or_ropes"), findings)
 
 
 def _say_nothing(reading: Reading) -> Reading:
     return replace(reading, state="blank", value=None, text="", cell=None)
+
+
+def has_same_types(at_end: Row, row: Row) -> bool:
+    """Whether every type is named at the row's end, and is that inside."""
+    return all(at_end[key].word == row[key].word != "" for key in _TYPES)
 
 
 def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:

@@ -225,7 +225,8 @@ class NetRow:
     )
     panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
     row_end: RowEnd | None = None  # of a row with panel and end
-    panel_lack: Message | None = None  # why there is none; None also without ropes
+    # why the pull of its ropes is not known; None also without ropes
+    panel_lack: Message | None = None
     # columns left empty that every force depends on: nothing is proven
     unsaid: tuple[Message, ...] = field(default=(), hash=False)
 
@@ -273,7 +274,7 @@ class NetRow:
             {one.type_id for one in self.resistances_at(place) if one.member == member}
             for place in get_args(Position)
         )
-        return inside == end
+        return inside == end and "" not in inside
 
     @property
     def is_overtopped(self) -> bool:

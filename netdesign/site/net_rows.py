@@ -13,7 +13,9 @@ from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.end_supports import (
     EndsByRow,
+    check_ends,
     echo_ends,
+    has_same_types,
     refuse_unknown_ends,
     replace_types,
 )
@@ -180,6 +182,8 @@ def _build_net_row(
     for one in named:
         refuse_unknown_types(one, type_sheets, findings)
     check_panel(row, findings)
+    if end is not None:
+        check_ends(end, row["panel_system"], findings)
     is_refused = any(one.severity == "error" for one in findings[count_before:])
     if is_refused or _is_faulty(named, type_sheets):
         return None
@@ -221,8 +225,9 @@ def _compose_net_row(
     panel, panel_lack = read_panel(row, type_sheets["Ropes"] or {})
     gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
     has_end = gap is None or gap > 0.0
+    has_ropes = row["panel_system"].word != "none"
     at_end = replace_types(row, end) if has_end else row
-    is_other = any(at_end[key].word != row[key].word for key in at_end)
+    is_other = has_end and not has_same_types(at_end, row)
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -248,9 +253,7 @@ def _compose_net_row(
         drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=_find_anchors(row, type_sheets),
         panel=panel,
-        row_end=_build_row_end(end, type_sheets)
-        if has_end and (panel or _names_row_end(end))
-        else None,
+        row_end=_build_row_end(end, type_sheets) if has_end and has_ropes else None,
         panel_lack=panel_lack,
         unsaid=list_unsaid(row),
     )
@@ -359,11 +362,6 @@ def _build_layout(row: Row) -> SupportLayout:
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
         post_base_distance=row["post_base_distance"].given_si,
     )
-
-
-def _names_row_end(end: Row | None) -> bool:
-    """Some member that holds the row along itself is given."""
-    return end is not None and any(end[member].word for member, _ in END_MODES)
 
 
 def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:

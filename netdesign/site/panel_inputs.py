@@ -30,7 +30,7 @@ def check_panel(row: Row, findings: list[Finding]) -> None:
 def read_panel(
     row: Row, ropes: Mapping[str, Row]
 ) -> tuple[RowPanel | None, Message | None]:
-    """Panel of a net row without a fault, and why there is none.
+    """Panel of a net row without a fault, and why its forces may be other ones.
 
     What is not given of a panel is assumed.
 
@@ -51,7 +51,8 @@ def read_panel(
         return None, None
     if system == "triangular":
         return None, say("panel.triangular")
-    return _build_panel(row, ropes), None
+    lack = None if system else say("panel.no_system")
+    return _build_panel(row, ropes), lack
 
 
 def list_ropes(row: Row) -> list[Reading]:

@@ -12,6 +12,11 @@ from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.words.message import Message, say
 
+# What says the same as another column, or the contrary.
+_ONE_OF_TWO = {
+    "post_base_distance": ("post_tilt",),
+    "anchor_axes": ("foot_axis", "uphill_axis", "downhill_axis"),
+}
 _LAYERED = ("layered", "layered with temperatures")
 
 
@@ -50,10 +55,11 @@ def check_statements(
     """
     _check_layers(row["snow_layers"], lines, findings)
     _check_row_end(row, end, findings)
-    tilt, base = row["post_tilt"], row["post_base_distance"]
-    if tilt.state == base.state == "given":
-        rule = say("nets.beside", name=tilt.field.name, place=tilt.place)
-        refuse(base, rule, say("accepted.one_of_two"), findings)
+    for key, others in _ONE_OF_TWO.items():
+        for beside in (row[other] for other in others):
+            if row[key].state == beside.state == "given":
+                rule = say("nets.beside", name=beside.field.name, place=beside.place)
+                refuse(row[key], rule, say("accepted.one_of_two"), findings)
 
 
 def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:

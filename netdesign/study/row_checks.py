@@ -28,7 +28,12 @@ from netdesign.study.member_loads import RowLoads, add_parts
 from netdesign.study.pulls import check_directions, find_pull
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import CheckRecord, HoldRecord
-from netdesign.study.row_end import find_lack, find_unsaid, tell_unsaid
+from netdesign.study.row_end import (
+    find_lack,
+    find_other_panel,
+    find_unsaid,
+    tell_unsaid,
+)
 from netdesign.study.settle import (
     find_gap,
     judge_forces,
@@ -92,8 +97,8 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     """
     if row.unsaid:
         return tell_unsaid(row)
-    of_end = (find_lack(row, one.given) for one in judged)
-    known = [one for one in of_end if one is not None]
+    found = (find_lack(row, one.given) or row.panel_lack for one in judged)
+    known = [one for one in found if one is not None]
     points = ((None if one.gap in known else one.gap) or one.doubt for one in judged)
     return next((one for one in points if one is not None), None)
 
@@ -117,10 +122,11 @@ def _judge_end(
     task: RowCheck, given: Resistance, loads: RowLoads, fault: Message | None = None
 ) -> EndCheck:
     """Check of such a member; a ``fault`` beside its cases leaves it open."""
-    unsaid = find_unsaid(task.row, given, "edge")
+    unsaid = find_unsaid(task.row, given, "edge", task.solved.results)
     end = None if unsaid else loads.end
     extreme = end.find_extreme(given.member) if end else None
     gap = unsaid or task.solved.gap or _find_unseen(extreme) or fault
+    gap = gap or find_other_panel(task.row, given, "edge")
     doubt = _find_doubt(task, extreme) if extreme else None
     action = end.demand(given.member) if end else None
     result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
@@ -145,7 +151,7 @@ def _record_end(
         one = _judge_end(task, given, loads, _FAULT_BESIDE)
     settled = settle_check(task.site, task.row, one.result, "edge")
     check = place_check(record_result(settled, given), "edge")
-    if end is None or find_unsaid(task.row, given, "edge"):
+    if end is None or find_unsaid(task.row, given, "edge", task.solved.results):
         return check
     extreme = end.find_extreme(given.member)
     return replace(
@@ -182,7 +188,7 @@ def _judge_member(
     extremes: Mapping[str, Extreme],
     loads: RowLoads,
 ) -> MemberCheck:
-    unsaid = find_unsaid(task.row, given, width.position)
+    unsaid = find_unsaid(task.row, given, width.position, task.solved.results)
     if unsaid:
         return _leave_open(task, given, width, unsaid)
     extreme, demand, doubt = extremes.get(given.member), None, None
@@ -207,6 +213,7 @@ def _judge_member(
         doubt = next((one for one in doubts if one), None)
     seen = (extreme, extremes.get(name_in_panel(given.member)))
     gap = find_gap(task.solved.gap, loads.floor) or _find_unseen(*seen)
+    gap = gap or find_other_panel(task.row, given, width.position)
     action = demand.action if demand else None
     result = judge_forces(action, given, task.standard, gap=gap, doubt=doubt)
     short = find_short_post(given, task.row, task.site.ranges)

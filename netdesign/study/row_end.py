@@ -6,11 +6,13 @@ Theory: panel/THEORY.md, (P7) and (P8).
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.checks import Band
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.run import CaseResult
+from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import EndMember, Member, RopeForce
 from netdesign.structure.row_position import LoadedWidth, Position
@@ -112,10 +114,18 @@ def compute_end_factor(width: LoadedWidth, spacing: float) -> float:
     return 1.0 + width.end_factor * (share if share <= 0.5 else 1.0)
 
 
-def find_unsaid(row: NetRow, given: Resistance, position: Position) -> Message | None:
-    """Inputs that nobody gives and without which a force is not known at all."""
+def find_unsaid(
+    row: NetRow,
+    given: Resistance,
+    position: Position,
+    results: Sequence[CaseResult] = (),
+) -> Message | None:
+    """Lack of what a force depends on, so that nothing is known of it."""
     if row.unsaid:
         return tell_unsaid(row)
+    failed = [one for one in results if isinstance(one.panel, FailedPanel)]
+    if failed and row.panel is not None and row.panel.assumed:
+        return say("panel.assumed_fails", reason=failed[0].lack or "")
     return find_lack(row, given) if position == "edge" else None
 
 
@@ -129,7 +139,21 @@ def find_lack(row: NetRow, given: Resistance) -> Message | None:
     if row.row_end is None or given.member not in (*EndMember, *_PUSHED):
         return None
     if row.panel is None:
-        return say("row_end.no_pull")
+        return row.panel_lack
     if row.row_end.guy_angle is not None or given.member == EndMember.LATERAL_ANCHOR:
         return None
     return say("row_end.no_angle")
+
+
+def find_other_panel(
+    row: NetRow, given: Resistance, position: Position
+) -> Message | None:
+    """Doubt that the ropes between the posts are those that were computed.
+
+    It concerns what they load more than the section does.
+    """
+    pulled = [Member.UPHILL_GUY, Member.UPHILL_ANCHOR]
+    if row.layout.is_foot_shared:
+        pulled.append(Member.FOOT_ANCHOR)
+    at_end = (*EndMember, *_PUSHED) if position == "edge" and row.row_end else ()
+    return row.panel_lack if given.member in (*pulled, *at_end) else None

@@ -200,7 +200,7 @@ NETS = word_plan(
 # Types of the first and last support of a row, where they are not those of the others.
 _END_NOTE = (
     "of the first and last support; left empty, its checks there are not proven, "
-    "unless the types not given are those inside"
+    "unless all types are those inside"
 )
 ENDS = word_plan(
     SheetPlan(
@@ -223,10 +223,10 @@ ENDS = word_plan(
                 )
             ),
             Field(
-                key="other_types",
+                key="support_types",
                 kind="word",
                 words={"as inside": ()},
-                note="as inside: types left empty in this line are those of sheet Nets",
+                note="as inside, instead of six types: they are those of sheet Nets",
             ),
             *ROW_ENDS,
         ),

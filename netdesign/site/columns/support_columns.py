@@ -53,8 +53,8 @@ GUYS_AND_AXES = (
         key="anchor_axes",
         kind="word",
         words={"along the pull": ()},
-        note="along the pull: anchors without an axis here are drilled along the mean "
-        "pull, as the report gives it",
+        note="along the pull, instead of three axes: each anchor is drilled along its "
+        "mean pull, as the report gives it",
     ),
 )
 ANCHOR_BENDING = (

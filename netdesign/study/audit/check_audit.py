@@ -52,7 +52,7 @@ def audit_checks(
     wanted = [f"{member}.{mode}" for member, mode in modes]
     if _has_end(row, profile):
         wanted += [f"{name}.end" for name in wanted]
-    if row.panel is not None and not _goes_on(row):
+    if _has_ropes(row) and not _goes_on(row):
         wanted += [f"{member}.{mode}.end" for member, mode in END_MODES]
     wanted.append(f"{Member.POST}.lateral")
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
@@ -101,7 +101,9 @@ def is_left_open(check: CheckRecord, row: RowStudy) -> bool:
     numbers = (check.action_kN, check.demand_kN, check.utilisation)
     is_open = check.verdict in (Verdict.NOT_PROVEN, Verdict.DECLARED)
     is_empty = check.action is None and all(one is None for one in numbers)
-    return is_open and is_empty and bool(row.unsaid or of_end)
+    panel = row.panel
+    is_assumed = panel is not None and panel.assumed and panel.failed
+    return is_open and is_empty and bool(row.unsaid or of_end or is_assumed)
 
 
 def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
@@ -112,8 +114,16 @@ def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
 
 def _goes_on(row: RowStudy) -> bool:
     """Absence of an end: the next work goes on without a gap."""
-    gap = say("column.Nets.gap")
-    return any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
+    ends = {("gap", 0.0), ("row_end", "continuous")}
+    said = {(say(f"column.Nets.{key}"), value) for key, value in ends}
+    return any((echo.label, echo.value) in said for echo in row.inputs)
+
+
+def _has_ropes(row: RowStudy) -> bool:
+    """Ropes between the posts, unless the row says that there are none."""
+    system = say("column.Nets.panel_system")
+    found = [echo.value for echo in row.inputs if echo.label == system]
+    return found != ["none"] and (bool(found) or row.panel is not None)
 
 
 def _audit_floor(

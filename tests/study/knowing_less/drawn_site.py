@@ -1,0 +1,380 @@
+"""Drawn sites of one net row, every cell of which somebody might leave empty."""
+
+import random
+
+import pytest
+
+from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.template import workbook as template
+
+GROUNDS = ("free", "no-slip", "sliding")
+MEMBER_COLUMNS = (
+    *("foot_anchor", "uphill_anchor", "downhill_anchor"),
+    *("uphill_guy", "downhill_guy", "post"),
+)
+PANEL_COLUMNS = (
+    *("panel_system", "net_cut", "ridge_rope", "ridge_sag"),
+    *("lower_rope", "lower_sag", "mid_anchors"),
+)
+REQUIRED = {
+    plan.name: {field.key for field in plan.fields if field.required} for plan in SHEETS
+}
+
+
+def write_lines(path, lines):
+    """Write a site workbook of these lines by sheet, as the template has them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(template, "load_example", lambda: lines)
+        template.write_site_workbook(path, example=True, overwrite=True)
+
+
+def draw_lines(seed):
+    """Lines of all sheets; three densities, one friction angle and inclination."""
+    draw = random.Random(seed)
+    net = _draw_net(draw)
+    lines = {
+        "Project": [
+            {"item": "name", "value": f"drawn {seed}"},
+            {"item": "standard", "value": draw.choice(("eurocode", DEFAULT, DEFAULT))},
+            {"item": "extrapolated creep law accepted", "value": "boutillier-2004"},
+        ],
+        "Ranges": list(_draw_ranges(draw)),
+        "Anchors": list(_draw_anchors(draw)),
+        "Ropes": list(_draw_ropes(draw)),
+        "Posts": list(_draw_posts(draw)),
+        "Nets": [net],
+        "Ends": _draw_ends(draw, net),
+        "Snow": _draw_snow(draw, net),
+        "Declared": _draw_declared(draw),
+    }
+    if net.get("row_end") == "continuous":
+        lines["Nets"].append({**net, "id": "R2", "neighbour": "R1"})
+        lines["Snow"] += [{**one, "row": "R2"} for one in lines["Snow"]]
+    return lines
+
+
+DEFAULT = "nf-p-95-304-style"
+
+
+def list_cells(lines):
+    """Places of all optional cells that hold something: sheet, line, key."""
+    return [
+        (sheet, number, key)
+        for sheet, table in lines.items()
+        for number, line in enumerate(table)
+        for key in line
+        if key not in REQUIRED[sheet] and (sheet, key) != ("Ranges", "samples")
+    ]
+
+
+def list_groups(lines):
+    """Cells that belong together: a sheet, a panel, all kinds, all dimensions."""
+    cells = list_cells(lines)
+    sheets = ("Ends", "Snow", "Declared", "Anchors", "Ropes", "Posts")
+    groups = [[("sheet", sheet)] for sheet in sheets if lines[sheet]]
+    for keys in (
+        PANEL_COLUMNS,
+        ("kind",),
+        ("kind", "inner_diameter", "lever_arm"),
+        ("foot_axis", "uphill_axis", "downhill_axis", "anchor_axes"),
+        ("guy_count", "guy_splay"),
+        ("post_tilt", "post_base_distance"),
+        ("uphill_anchor_distance", "downhill_anchor_distance"),
+        ("gap", "row_end", "neighbour"),
+        ("support_types",),
+        MEMBER_COLUMNS,
+        ("test_count", "test_least", "test_mean"),
+        ("snow_layers",),
+        ("axial_stiffness",),
+        ("temperature", "snow_layers"),
+    ):
+        found = [one for one in cells if one[2] in keys]
+        if found:
+            groups.append(found)
+    groups.append([("item", "standard")])
+    groups.append([("item", "extrapolated creep law accepted")])
+    groups.append([("quantity", "net inclination")])
+    return groups
+
+
+def empty(lines, cells):
+    """Lines with some cells left empty; a group may name a sheet or an item."""
+    kept = {sheet: [dict(line) for line in table] for sheet, table in lines.items()}
+    for cell in cells:
+        if cell[0] == "sheet":
+            if cell[1] in ("Anchors", "Ropes", "Posts"):
+                kept[cell[1]] = [{"id": one["id"]} for one in kept[cell[1]]]
+            else:
+                kept[cell[1]] = []
+        elif cell[0] == "item":
+            kept["Project"] = [one for one in kept["Project"] if one["item"] != cell[1]]
+        elif cell[0] == "quantity":
+            kept["Ranges"] = [
+                one for one in kept["Ranges"] if one["quantity"] != cell[1]
+            ]
+        else:
+            sheet, number, key = cell
+            if number < len(kept[sheet]):
+                kept[sheet][number].pop(key, None)
+    return kept
+
+
+def _round(value, digits=3):
+    return float(f"{value:.{digits}g}")
+
+
+def _draw_ranges(draw):
+    density = draw.uniform(230.0, 290.0)
+    inclination = _round(draw.choice((draw.uniform(25, 35), draw.uniform(20, 42))))
+    friction = _round(draw.uniform(12.0, 44.0))
+    yield {
+        "quantity": "density",
+        "unit": "kg/m3",
+        "low": _round(density),
+        "high": _round(draw.uniform(310.0, 400.0)),
+        "samples": 3,
+    }
+    yield {
+        "quantity": "friction angle",
+        "unit": "deg",
+        "low": friction,
+        "high": friction,
+        "samples": 1,
+    }
+    yield {
+        "quantity": "net inclination",
+        "unit": "deg",
+        "low": inclination,
+        "high": inclination,
+        "samples": 1,
+    }
+
+
+def _draw_net(draw):
+    height = _round(draw.uniform(2.2, 4.4))
+    ground = draw.choice(GROUNDS)
+    net = {
+        "id": "R1",
+        "slope_angle": _round(draw.uniform(30.0, 48.0)),
+        "snow_thickness": _round(height * draw.uniform(0.72, 1.0) - 0.01),
+        "upslope_length": _round(draw.uniform(6.0, 25.0)),
+        "ground_law": ground,
+        "net_height": height,
+        "net_stiffness": _round(draw.uniform(4000.0, 22000.0)),
+        "slack": _round(draw.uniform(0.0, 0.11)),
+        "post_spacing": _round(draw.uniform(2.4, 4.4)),
+        "uphill_anchor_distance": _round(height * draw.uniform(0.7, 1.5)),
+        "downhill_anchor_distance": _round(height * draw.uniform(0.6, 1.4)),
+        "altitude": _round(draw.uniform(1300.0, 2600.0)),
+        "snow_layers": draw.choice(
+            ("uniform", "uniform", "layered", "layered with temperatures")
+        ),
+    }
+    if ground == "sliding":
+        if draw.random() < 0.5:
+            net["glide_factor"] = _round(draw.uniform(1.15, 2.9))
+        else:
+            net["slip_length"] = _round(draw.uniform(0.4, 6.0))
+    if draw.random() < 0.6:
+        net["post_tilt"] = _round(draw.uniform(3.0, 28.0))
+    else:
+        net["post_base_distance"] = _round(draw.uniform(0.2, 0.6) * height)
+    net["guy_count"] = draw.choice((1, 2, 2, 2))
+    if net["guy_count"] == 2:
+        net["guy_splay"] = _round(draw.uniform(12.0, 40.0))
+    if draw.random() < 0.6:
+        net["anchor_axes"] = "along the pull"
+    else:
+        axes = ("foot_axis", "uphill_axis", "downhill_axis")
+        net |= {key: _round(draw.uniform(12.0, 60.0)) for key in axes}
+    end = draw.random()
+    if end < 0.2:
+        net |= {"row_end": "continuous", "neighbour": "R2"}
+    elif end < 0.75:
+        net["gap"] = draw.choice((0.0, _round(draw.uniform(0.5, 4.0))))
+    net |= {
+        "foot_anchor": draw.choice(ANCHORS),
+        "uphill_anchor": draw.choice(ANCHORS),
+        "downhill_anchor": draw.choice(ANCHORS),
+        "uphill_guy": draw.choice(ROPES),
+        "downhill_guy": draw.choice(ROPES),
+        "post": draw.choice(POSTS),
+    }
+    return net | _draw_panel(draw)
+
+
+def _draw_panel(draw):
+    system = draw.choice(("none", "rectangular", "rectangular", "triangular", ""))
+    if system != "rectangular":
+        return {"panel_system": system} if system else {}
+    panel = {
+        "panel_system": system,
+        "net_cut": draw.choice(("uniform", "upper", "fitted")),
+        "ridge_rope": draw.choice(ROPES),
+        "ridge_sag": _round(draw.uniform(0.03, 0.1)),
+        "lower_rope": draw.choice(ROPES),
+        "lower_sag": _round(draw.uniform(0.03, 0.1)),
+        "mid_anchors": draw.choice(("no", "no", "yes")),
+    }
+    if draw.random() < 0.2:
+        del panel[draw.choice(list(panel)[1:])]
+    return panel
+
+
+ANCHORS = ("turning", "solid", "hollow", "tried", "drilled")
+ROPES = ("typed", "stranded", "stiff")
+POSTS = ("rolled", "plain")
+
+
+def _draw_anchors(draw):
+    scale = draw.uniform(0.8, 4.5)
+    ground = draw.choice(("limestone", "gravel"))
+    yield {
+        "id": "turning",
+        "kind": "rope anchor",
+        "tendon": _round(330.0 * scale),
+        "pull_out": _round(270.0 * scale),
+        "basis": draw.choice(("tested", "computed")),
+    }
+    yield {
+        "id": "solid",
+        "kind": "bar",
+        "bar_diameter": _round(draw.uniform(25.0, 57.0)),
+        "bar_strength": 500.0,
+        "lever_arm": draw.choice((0.0, _round(draw.uniform(2.0, 60.0)))),
+        "pull_out": _round(300.0 * scale),
+        "basis": "tested",
+    }
+    yield {
+        "id": "hollow",
+        "kind": "micropile",
+        "bar_diameter": _round(draw.uniform(52.0, 73.0)),
+        "inner_diameter": _round(draw.uniform(25.0, 45.0)),
+        "bar_strength": 540.0,
+        "lever_arm": _round(draw.uniform(5.0, 80.0)),
+        "test_count": draw.choice((2, 3, 5)),
+        "test_least": _round(400.0 * scale),
+        "test_mean": _round(450.0 * scale),
+    }
+    yield {
+        "id": "tried",
+        "kind": "rope anchor",
+        "tendon": _round(400.0 * scale),
+        "test_count": draw.choice((1, 3)),
+        "test_least": _round(350.0 * scale),
+        "test_mean": _round(390.0 * scale),
+    }
+    yield {
+        "id": "drilled",
+        "kind": "rope anchor",
+        "tendon": _round(410.0 * scale),
+        "drill_diameter": _round(draw.uniform(90.0, 115.0)),
+        "bond_length": _round(draw.uniform(2.5, 6.0)),
+        "ground": ground,
+        "grouting": "A" if ground == "limestone" else "B",
+    }
+
+
+def _draw_ropes(draw):
+    yield {
+        "id": "typed",
+        "rope": 250.0,
+        "axial_stiffness": _round(draw.uniform(11500.0, 31000.0)),
+    }
+    yield {
+        "id": "stranded",
+        "rope_diameter": _round(draw.uniform(18.0, 26.0)),
+        "construction": "6x19-IWRC",
+        "grade": 1770.0,
+        "termination": draw.choice(("clips", "socket")),
+    }
+    yield {
+        "id": "stiff",
+        "rope": 470.0,
+        "axial_stiffness": _round(draw.uniform(21500.0, 58000.0)),
+    }
+
+
+def _draw_posts(draw):
+    yield {
+        "id": "rolled",
+        "area": 65.3,
+        "second_moment": 3831.0,
+        "buckling_length": 5.4,
+        "yield_strength": 235.0,
+        "buckling_curve": draw.choice(("b", "c")),
+        "post_width": 180.0,
+        "section_modulus": 425.7,
+        "base_friction": _round(draw.uniform(0.35, 0.7)),
+        "plate_length": 0.4,
+        "plate_width": 0.4,
+        "bearing_stress": _round(draw.uniform(1500.0, 6000.0)),
+    }
+    yield {
+        "id": "plain",
+        "compression": _round(draw.uniform(250.0, 900.0)),
+        "bearing": _round(draw.uniform(200.0, 900.0)),
+        "sliding": _round(draw.uniform(60.0, 300.0)),
+    }
+
+
+def _draw_ends(draw, net):
+    if net.get("row_end") == "continuous" or draw.random() < 0.15:
+        return []
+    line = {
+        "row": "R1",
+        "lateral_anchor": draw.choice(ANCHORS),
+        "end_guy": draw.choice(ROPES),
+        "end_guy_anchor": draw.choice(ANCHORS),
+        "end_guy_angle": _round(draw.uniform(10.0, 50.0)),
+    }
+    if net.get("panel_system") == "none":
+        line = {"row": "R1"}
+    if draw.random() < 0.6:
+        return [line | {"support_types": "as inside"}]
+    for key in MEMBER_COLUMNS:
+        if draw.random() < 0.9:
+            names = ANCHORS if "anchor" in key else ROPES if "guy" in key else POSTS
+            line[key] = draw.choice(names)
+    return [line]
+
+
+def _draw_snow(draw, net):
+    if net["snow_layers"] == "uniform":
+        return []
+    has_temperatures = "temperatures" in net["snow_layers"]
+    count = draw.choice((2, 3))
+    shares = [draw.uniform(0.6, 1.4) for _ in range(count)]
+    total = net["snow_thickness"]
+    found = []
+    for number, share in enumerate(shares, start=1):
+        line = {
+            "row": "R1",
+            "layer": number,
+            "thickness": round(total * share / sum(shares), 3),
+            "density": _round(430.0 - 90.0 * number + draw.uniform(-20.0, 20.0)),
+        }
+        if has_temperatures:
+            line["temperature"] = _round(draw.uniform(-9.0, -0.5))
+        found.append(line)
+    mean = sum(one["thickness"] * one["density"] for one in found) / total
+    for one in found:  # the mean lies in the middle of the range of density
+        one["density"] = _round(one["density"] * 300.0 / mean, 4)
+    return found
+
+
+def _draw_declared(draw):
+    if draw.random() < 0.6:
+        return []
+    check = draw.choice(
+        ("post_base.bearing", "foot_anchor.pull_out", "post.compression_bending.end")
+    )
+    return [
+        {
+            "row": draw.choice(("R1", "all")),
+            "check": check,
+            "document": "Report 17",
+            "author": "B. Nobody",
+            "date": "2026-02-03",
+        }
+    ]

@@ -1,0 +1,115 @@
+"""Knowing less never makes a verdict better: cells of drawn sites are left empty."""
+
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.errors import SiteDataError
+from netdesign.outcome import Verdict
+from netdesign.site.reader import read_site
+from netdesign.solving.runner import Runner
+from netdesign.study.cases import solve_site
+from netdesign.study.check_run import CheckRun
+from netdesign.study.judge import judge_site
+from tests.study.knowing_less.drawn_site import (
+    DEFAULT,
+    draw_lines,
+    empty,
+    list_cells,
+    list_groups,
+    write_lines,
+)
+
+RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))
+# What somebody declares by document, author and date is said, not left out.
+# What is not met counts alike, whether it fails or lacks something.
+RANK = {
+    Verdict.FAIL: 0,
+    Verdict.NOT_PROVEN: 0,
+    Verdict.DECLARED: 1,
+    Verdict.PASS: 2,
+}
+SITES_IN_SUITE, SETS_A_SITE = 30, 10
+
+
+def judge(path, lines):
+    """Checks and verdicts by net row; None where the reader refuses the site."""
+    write_lines(path, lines)
+    try:
+        site = read_site(path)
+    except SiteDataError:
+        return None
+    named = site.project.standard
+    standard = replace(load_standard(named or DEFAULT), is_default=not named)
+    study = judge_site(site, solve_site(site, RUN, Runner()), standard, RUN)
+    return {row.id: row for row in study.rows}
+
+
+def list_improvements(before, after):
+    """What is better in a study than in that of more inputs."""
+    found = []
+    for name, row in before.items():
+        now = after[name]
+        if RANK[now.verdict] > RANK[row.verdict]:
+            found.append((name, "row", row.verdict, now.verdict))
+        checks = {one.id: one for one in now.checks}
+        for check in row.checks:
+            found += [(name, *one) for one in compare(check, checks.get(check.id))]
+    return found
+
+
+def compare(check, now):
+    """What is better of a check: its verdict, its utilisation, or that it is gone."""
+    if now is None:
+        yield check.id, "gone", check.verdict
+        return
+    is_declared = check.declared is not None
+    if RANK[now.verdict] > RANK[check.verdict] and not is_declared:
+        yield check.id, check.verdict, now.verdict, str(now.reason)
+    used, less = check.utilisation, now.utilisation
+    if used is None or less is None:
+        return
+    low, high = check.utilisation_band
+    if less < used - (high - low) - 1e-9:
+        yield check.id, used, less
+
+
+def draw_sets(draw, lines, count):
+    """Cells to empty: single ones, pairs, groups, several groups."""
+    cells, groups = list_cells(lines), list_groups(lines)
+    for number in range(count):
+        kind = number % 4
+        if kind == 0:
+            yield [draw.choice(cells)]
+        elif kind == 1:
+            yield draw.sample(cells, 2)
+        elif kind == 2:
+            yield draw.choice(groups)
+        else:
+            yield [*draw.choice(groups), *draw.choice(groups), draw.choice(cells)]
+
+
+def assert_never_better(path, seed, count):
+    lines = draw_lines(seed)
+    before = judge(path, lines)
+    assert before is not None, f"the drawn site {seed} is sound"
+    draw = random.Random(f"sets {seed}")
+    for cells in draw_sets(draw, lines, count):
+        after = judge(path, empty(lines, cells))
+        if after is not None:
+            better = list_improvements(before, after)
+            assert not better, (seed, cells, better[:4])
+
+
+@pytest.mark.parametrize("seed", range(SITES_IN_SUITE))
+def test_no_set_of_empty_cells_makes_anything_better(tmp_path, seed):
+    assert_never_better(tmp_path / "site.xlsx", seed, SETS_A_SITE)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(1000, 1150))
+def test_no_set_of_empty_cells_of_many_sites_makes_anything_better(tmp_path, seed):
+    assert_never_better(tmp_path / "site.xlsx", seed, 20)
