@@ -7,6 +7,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.model import (
     DEPENDENT_MODES,
     MEMBER_MODES,
+    AnchorType,
     InputEcho,
     NetRow,
     Project,
@@ -17,10 +18,12 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.splay import Guys
 from netdesign.study.check_run import CheckRun
+from netdesign.study.pulls import ANCHORS
 from netdesign.words.message import say
 from netdesign.words.names import as_given
 
 STRONG, WEAK = 1e7, 1e3  # [N]
+TURNS = AnchorType(kind="rope anchor", section=None, lever=None)
 RUN = CheckRun(
     settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
     command="netdesign check site.xlsx",
@@ -65,6 +68,8 @@ def build_row(name, **changes):
         ),
         "guys": Guys(count=2, splay=math.radians(30.0)),
         "resistances": resist(),
+        "anchors": tuple((anchor, TURNS) for anchor in ANCHORS),
+        "drills_along_pull": True,
         "inputs": (
             InputEcho(
                 label=say("column.Nets.slack"),

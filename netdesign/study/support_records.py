@@ -71,7 +71,7 @@ class PullRecord:
     largest_deg: float
     axis_deg: float
     is_axis_given: bool  # else the middle of the pulls
-    is_axis_known: bool  # given, or drilled along the pull
+    is_axis_known: bool = True  # given, or drilled along the pull
     angle_deg: float  # largest between pull and axis, with the part along the row
 
 
