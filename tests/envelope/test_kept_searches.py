@@ -52,8 +52,8 @@ OPEN = replace(TASK, search=SearchSettings(gap=1e-3, certainty=10.0, max_cases=1
         replace(TASK, search=replace(TASK.search, certainty=2.0)),
         replace(TASK, confirmed_by=COARSE),
         replace(TASK, build=replace(COARSE)),
-        replace(TASK, panel=PANEL),
-        replace(TASK, panel=replace(PANEL, cut="fitted")),
+        replace(TASK, panels=(PANEL,)),
+        replace(TASK, panels=(replace(PANEL, cut="fitted"),)),
         replace(TASK, has_end=True),
     ],
 )
@@ -64,7 +64,7 @@ def test_everything_that_is_given_is_in_the_name(other):
 def test_every_field_of_a_task_was_changed_above():
     assert {field.name for field in fields(RowTask)} == {
         *("scene", "ranges", "layout", "settings", "search", "confirmed_by", "build"),
-        *("panel", "has_end"),
+        *("panels", "has_end"),
     }
 
 

@@ -38,7 +38,7 @@ TASK = RowTask(
     settings=COARSE,
     search=SearchSettings(gap=0.01),
     confirmed_by=None,
-    panel=PANEL,
+    panels=(PANEL,),
 )
 
 
@@ -51,7 +51,7 @@ def draw_case(rng):
 
 
 def solve(case, panel=PANEL, settings=COARSE):
-    (result,) = run_cases([build_task(case, build_scene, LAYOUT, settings, panel)])
+    (result,) = run_cases([build_task(case, build_scene, LAYOUT, settings, (panel,))])
     return result
 
 

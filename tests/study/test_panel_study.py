@@ -42,7 +42,7 @@ def a_panel(spacing=3.5, **changes):
         "upper": Rope(stiffness=19.1e6, sag=0.057),
         "cut": "upper",
     }
-    return RowPanel(panel=Panel(**(values | changes)), lower=ROPE, upper=ROPE)
+    return RowPanel(panels=(Panel(**(values | changes)),), lower=ROPE, upper=ROPE)
 
 
 def an_end(angle=40.0, value=1e7):
