@@ -11,7 +11,7 @@ def write_short_example(path, rows, *, is_grid=True, leans=True):
     A net that does not lean over a range keeps to its least inclination.
     """
     lines = template.load_example()
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] in rows]
+    lines["Nets"] = [_cut(line) for line in lines["Nets"] if line["id"] in rows]
     lines["Ends"] = [line for line in lines["Ends"] if line["row"] in rows]
     lines["Declared"] = [line for line in lines["Declared"] if line["row"] in rows]
     if is_grid:
@@ -24,3 +24,11 @@ def write_short_example(path, rows, *, is_grid=True, leans=True):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(template, "load_example", lambda: lines)
         template.write_site_workbook(path, example=True)
+
+
+def _cut(line):
+    """A row that goes on into others, beside works that are not in the workbook."""
+    if "neighbour" not in line:
+        return line
+    said = ("row_end", "neighbour")
+    return {key: value for key, value in line.items() if key not in said} | {"gap": 0.0}

@@ -37,7 +37,12 @@ NETS = {
     "post": "P",
     "guys on each side of the post": 2,
     "splay of the guys [deg]": 30,
+    "slack [-]": 0.05,
+    "layers of the snow": "uniform",
+    "panel system": "none",
+    "axes of the anchors": "along the pull",
 }
+AXES = ("foot anchor axis", "uphill anchor axis", "downhill anchor axis")
 ROPE = {
     "id": "G",
     "rope diameter [mm]": 20,
@@ -92,11 +97,15 @@ def study_row(
 
 def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets):
     """Workbook of the row; pulls are none of its cells."""
+    line = NETS | {key.replace("_", " "): v for key, v in nets.items()}
+    if any(key.startswith(AXES) for key in line):
+        del line["axes of the anchors"]
     sheets = {
-        "Nets": NETS | {key.replace("_", " "): v for key, v in nets.items()},
+        "Nets": line,
         "Anchors": {"id": "A"} | anchor,
         "Ropes": ROPE,
         "Posts": post,
+        "Ends": {"row": "R", "types of the support": "as inside"},
     }
     workbook = openpyxl.Workbook()
     workbook.remove(workbook.active)

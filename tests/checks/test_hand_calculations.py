@@ -28,6 +28,7 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
         tmp_path,
         "nf-p-95-304-style",
         anchor={
+            "kind of anchor": "bar",
             "bar diameter [mm]": 28,
             "bar strength [MPa]": 500,
             "number of tests": 3,
@@ -146,6 +147,7 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
         tmp_path,
         "swiss-guideline-2007",
         anchor={
+            "kind of anchor": "bar",
             "bar diameter [mm]": 32,
             "bar strength [MPa]": 500,
             "drill diameter [mm]": 90,
@@ -222,6 +224,7 @@ def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
         tmp_path,
         "onr-24805-style",
         anchor={
+            "kind of anchor": "bar",
             "bar diameter [mm]": 25,
             "bar strength [MPa]": 500,
             "number of tests": 1,

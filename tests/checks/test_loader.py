@@ -62,7 +62,6 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "resistance.compression_bending": 1.05,
         "resistance.sliding": 1.1,
         "anchor.angle.rope": 30.0,
-        "anchor.angle.bar": 10.0,
     }
     borrowed = ("end.", "lateral.", "post.")
     assert {k: v for k, v in values.items() if not k.startswith(borrowed)} == of_notes

@@ -16,6 +16,7 @@ from tests.checks.given_pulls import judge_row, study_row
 NAMES = ("eurocode", "nf-p-95-304-style", "onr-24805-style", "swiss-guideline-2007")
 ROW = {
     "anchor": {
+        "kind of anchor": "rope anchor",
         "tendon resistance [kN]": 300,
         "pull-out resistance [kN]": 200,
         "basis": "tested",

@@ -51,7 +51,8 @@ def draw_case(rng):
 
 
 def solve(case, panel=PANEL, settings=COARSE):
-    (result,) = run_cases([build_task(case, build_scene, LAYOUT, settings, (panel,))])
+    panels = (panel,) if panel else ()
+    (result,) = run_cases([build_task(case, build_scene, LAYOUT, settings, panels)])
     return result
 
 
@@ -131,7 +132,7 @@ def test_governing_cases_of_the_panel_are_confirmed_too(found):
 
 
 def test_forces_of_the_section_are_bounded_as_without_a_panel(found, runner):
-    (plain,) = search_rows([replace(TASK, panel=None)], runner)
+    (plain,) = search_rows([replace(TASK, panels=())], runner)
     for member, extreme in plain.extremes.items():
         beside = found.extremes[member]
         slack = 0.01 * extreme.widened.high
@@ -149,19 +150,19 @@ def test_uphill_guy_is_larger_by_the_panel_and_foot_and_post_smaller(found):
 @pytest.fixture
 def failing(monkeypatch):
     """No panel in heavy snow."""
-    resolve = running.resolve_panel
+    resolve = running.resolve_panels
 
-    def spoil(panel, net, points, state):
+    def spoil(panels, net, points, state):
         if state.foot.size > limit:
             return FailedPanel(
                 outcome=Outcome.OUT_OF_VALIDITY,
                 reason=say("panel.lies_on_ground", depth=state.foot.size / limit),
             )
-        return resolve(panel, net, points, state)
+        return resolve(panels, net, points, state)
 
     limit = solve(Case(density=330.0, friction_angle=0.5, inclination=0.5), None)
     limit = limit.solution.foot.size
-    monkeypatch.setattr(running, "resolve_panel", spoil)
+    monkeypatch.setattr(running, "resolve_panels", spoil)
 
 
 def test_a_panel_that_fails_leaves_a_gap_and_the_forces_of_the_section(failing, found):

@@ -46,8 +46,9 @@ def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(sheets, save):
     assert site.find_declaration(first, "post", "compression") is None
 
 
-def test_a_line_without_a_row_is_of_all_rows(sheets, save):
-    line = [None, *SOUND_LINE[1:4], None]
+@pytest.mark.parametrize("word", ["all", "Alle", "toutes"])
+def test_a_line_may_be_of_all_rows(sheets, save, word):
+    line = [word, *SOUND_LINE[1:4], None]
     site = read_site(save(with_lines(sheets, line)))
     for row in site.rows:
         found = site.find_declaration(row, "post_base", "bearing")
@@ -161,6 +162,7 @@ def test_french_and_german_sheets(sheets, save, name, headings, check):
     ("column", "value", "rule"),
     [
         ("A", "R7", "is no id of sheet Nets"),
+        ("A", None, "is empty"),
         ("B", "Post base, bearings", "is no check that may be declared"),
         ("B", "Net, slope", "is no check that may be declared"),
         ("B", "Net, height", "is no check that may be declared"),
@@ -179,7 +181,7 @@ def test_a_fault_is_one_finding_with_its_cell(sheets, save, column, value, rule)
     assert str(finding.rule) == rule
 
 
-@pytest.mark.parametrize("second", ["R1", None])
+@pytest.mark.parametrize("second", ["R1", "all"])
 def test_a_check_declared_twice_is_a_finding_that_names_the_first(sheets, save, second):
     again = [second, *SOUND_LINE[1:]]
     finding = the_finding(save(with_lines(sheets, SOUND_LINE, again)))

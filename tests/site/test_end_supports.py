@@ -5,6 +5,11 @@ import pytest
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 
+BENDING = (
+    ("foot_anchor", "bending"),
+    ("uphill_anchor", "bending"),
+    ("downhill_anchor", "bending"),
+)
 HEADINGS = ["net row", "foot anchor", "uphill anchor", "uphill guy", "post"]
 
 
@@ -22,19 +27,20 @@ def values(resistances):
     return {(one.member, one.mode): one.value for one in resistances}
 
 
-def test_named_types_are_those_of_the_end_and_blank_ones_those_of_the_row(
+def test_named_types_are_those_of_the_end_and_of_blank_ones_nothing_is_known(
     with_ends, save
 ):
     first, second = read_site(save(with_ends)).rows
     inside, end = values(first.resistances), values(first.resistances_at("edge"))
-    assert tuple(end) == (*MEMBER_MODES, *DEPENDENT_MODES)
+    assert tuple(end) == (*MEMBER_MODES, *BENDING, *DEPENDENT_MODES)
     assert inside["foot_anchor", "tendon"] == 400e3
     assert end["foot_anchor", "tendon"] == 731e3
     assert end["foot_anchor", "pull_out"] == 617e3
-    changed = {key for key in end if end[key] != inside[key]}
-    assert changed == {("foot_anchor", "tendon"), ("foot_anchor", "pull_out")}
-    assert second.end_resistances is None
-    assert second.resistances_at("edge") is second.resistances
+    known = {key for key in end if end[key] is not None}
+    assert known == {("foot_anchor", "tendon"), ("foot_anchor", "pull_out")}
+    assert set(values(second.resistances_at("edge")).values()) == {None}
+    lacks = {one.lack.key for one in second.resistances_at("edge")}
+    assert lacks == {"row_end.no_types"}
     assert first.resistances_at("intermediate") is first.resistances
 
 
@@ -45,10 +51,18 @@ def test_type_of_the_end_is_echoed_with_its_cell(with_ends, save):
     assert not [one for one in row.inputs if one.cell == "Ends!C2"]
 
 
-def test_a_row_without_types_of_its_own_at_the_end_is_alike(with_ends, save):
-    with_ends["Ends"][1][1] = None
+def test_a_row_whose_end_is_as_inside_has_the_same_types(with_ends, save):
+    with_ends["Ends"] = [["net row", "types of the support"], ["R1", "as inside"]]
     row = read_site(save(with_ends)).rows[0]
-    assert values(row.end_resistances) == values(row.resistances)
+    assert values(row.resistances_at("edge")) == values(row.resistances)
+    assert values(row.resistances)["foot_anchor", "tendon"] == 400e3
+
+
+def test_types_beside_as_inside_are_refused(with_ends, save, refused):
+    with_ends["Ends"][0].append("types of the support")
+    with_ends["Ends"][1].append("as inside")
+    (finding,) = refused(save(with_ends))
+    assert (finding.sheet, finding.cell) == ("Ends", "B2")
 
 
 @pytest.mark.parametrize(

@@ -56,7 +56,7 @@ def lack(row):
 
 def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
     row, other = read_site(save(with_panel)).rows
-    panel = row.panel.panel
+    (panel,) = row.panel.panels
     assert panel.post_spacing == row.layout.post_spacing
     assert (panel.upper.stiffness, panel.lower.stiffness) == (17.3e6, 18.7e6)
     assert panel.upper.sag == pytest.approx(0.053, rel=1e-12)
@@ -65,55 +65,65 @@ def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
     assert (row.panel.upper.breaking, row.panel.lower.breaking) == (241e3, None)
     assert (row.panel.upper.type_id, row.panel.lower.type_id) == ("B1", "B2")
     assert row.panel_lack is None
-    assert other.panel is None
-    assert "no panel between the posts" in lack(other)
+    assert other.panel.assumed
+    assert "panel system" in lack(other)
 
 
-def test_a_workbook_without_the_columns_reads_as_before(sheets, save):
+def test_a_workbook_without_the_columns_takes_the_panels_that_are_built(sheets, save):
     for row in read_site(save(sheets)).rows:
-        assert row.panel is None
-        assert "no panel" in lack(row)
+        assert {one.cut for one in row.panel.panels} == {"uniform", "fitted"}
+        for side in ("lower", "upper"):
+            ropes = [getattr(one, side) for one in row.panel.panels]
+            sags = {one.sag for one in ropes}
+            assert (min(sags), max(sags)) == (0.03, 0.10)
+            stiffnesses = {one.stiffness for one in ropes}
+            assert (min(stiffnesses), max(stiffnesses)) == (5e6, 60e6)
+        assert "panel system" in lack(row)
 
 
 @pytest.mark.parametrize(
     "heading", [one for one in HEADINGS if one != "foot anchors in mid-panel"]
 )
-def test_what_is_missing_is_named_and_leaves_no_panel(with_panel, save, heading):
+def test_what_is_missing_is_named_and_assumed(with_panel, save, heading):
+    """What is given stays as it is, in every panel that is tried."""
+    (whole,) = read_site(save(with_panel)).rows[0].panel.panels
     put(with_panel, heading, None)
-    site = read_site(save(with_panel))
-    row = site.rows[0]
-    assert row.panel is None
-    assert heading.split(" [")[0] in lack(row)
-    (note,) = site.notes  # on the terminal and the first pages: typed, and not used
-    assert "is not used: of the panel" in str(note)
-    assert heading.split(" [")[0] in str(note)
-    assert "Nets › " in str(note)
+    panel = read_site(save(with_panel)).rows[0].panel
+    told = [render(one, "en") for one in panel.assumed]
+    assert told == [heading.split(" [")[0]]
+    given = {
+        "cut of the net": lambda one: one.cut,
+        "sag of the ridge rope [%]": lambda one: one.upper.sag,
+        "sag of the lower rope [-]": lambda one: one.lower.sag,
+        "ridge rope": lambda one: one.upper.stiffness,
+        "lower rope": lambda one: one.lower.stiffness,
+    }
+    for key, find in given.items():
+        found = {find(one) for one in panel.panels}
+        assert (found == {find(whole)}) is (key != heading), key
 
 
 def test_a_rope_without_stiffness_is_named(with_panel, save):
     with_panel["Ropes"][-1][2] = None
-    row = read_site(save(with_panel)).rows[0]
-    assert row.panel is None
-    assert "axial stiffness of rope B2" in lack(row)
+    panel = read_site(save(with_panel)).rows[0].panel
+    (told,) = panel.assumed
+    assert "axial stiffness of rope B2" in render(told, "en")
+    assert len({one.lower.stiffness for one in panel.panels}) > 1
+    assert {one.upper.stiffness for one in panel.panels} == {17.3e6}
 
 
-def test_mid_anchors_without_a_panel_are_not_used_and_told(sheets, save):
-    sheets["Nets"][0].append("foot anchors in mid-panel")
-    sheets["Nets"][1].append("yes")
-    (note,) = read_site(save(sheets)).notes
-    assert 'O2: "yes" is not used: of the panel' in str(note)
-
-
-def test_mid_anchors_may_stay_empty(with_panel, save):
+def test_mid_anchors_that_nobody_states_may_be_there_or_not(with_panel, save):
     put(with_panel, "foot anchors in mid-panel", None)
-    assert read_site(save(with_panel)).rows[0].panel.panel.has_mid_anchors is False
+    panel = read_site(save(with_panel)).rows[0].panel
+    assert {one.has_mid_anchors for one in panel.panels} == {False, True}
+    assert [render(one, "en") for one in panel.assumed] == ["foot anchors in mid-panel"]
 
 
 def test_triangular_nets_are_named_as_not_covered(with_panel, save):
     put(with_panel, "panel system", "triangular")
     row = read_site(save(with_panel)).rows[0]
     assert row.panel is None
-    words = {"en": "triangular", "fr": "triangulaires", "de": "dreieckigen"}
+    words = {"en": "triangular", "fr": "triangulaires", "de": "dreieckige "}
     for language in LANGUAGES:
         assert words[language] in render(row.panel_lack, language)
 
@@ -168,7 +178,7 @@ def test_columns_in_other_languages(with_panel, save, language):
         place = with_panel["Nets"][0].index(old)
         with_panel["Nets"][0][place] = new
         with_panel["Nets"][1][place] = value
-    panel = read_site(save(with_panel)).rows[0].panel.panel
+    (panel,) = read_site(save(with_panel)).rows[0].panel.panels
     assert (panel.cut, panel.upper.stiffness) == ("upper", 17.3e6)
 
 
@@ -197,10 +207,11 @@ def test_what_holds_the_row_along_itself(with_end, save):
     assert found["lateral_anchor", "pull_out"].basis == "tested"
     assert found["end_guy", "rope"].value == 250e3
     assert found["end_guy_anchor", "pull_out"].value is None
-    assert other.row_end is None
+    # judged all the same, with nothing that holds it
+    assert {one.value for one in other.row_end.resistances} == {None}
     assert {one.cell for one in row.inputs} >= {"Ends!B2", "Ends!E2"}
-    # the members of the section stay as they are
-    assert row.end_resistances == row.resistances
+    # which types the end has is a statement of its own
+    assert {one.value for one in row.end_resistances} == {None}
 
 
 def test_a_row_of_panels_without_a_line_of_ends_has_nothing_that_holds_it(

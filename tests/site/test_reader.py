@@ -175,7 +175,8 @@ def test_the_largest_glide_factor_is_that_of_the_table(sheets, save, refused):
 def test_there_is_a_resistance_for_every_member_and_mode(sheets, save):
     row = read_site(save(sheets)).rows[0]
     found = {(r.member, r.mode): r for r in row.resistances}
-    assert tuple(found) == (*MEMBER_MODES, *DEPENDENT_MODES)
+    bending = [(f"{one}_anchor", "bending") for one in ("foot", "uphill", "downhill")]
+    assert tuple(found) == (*MEMBER_MODES, *bending, *DEPENDENT_MODES)
     pull_out = found["foot_anchor", "pull_out"]
     assert (pull_out.value, pull_out.basis) == (300e3, "tested")
     assert (pull_out.type_id, pull_out.source) == ("A1", "Anchors!C2")

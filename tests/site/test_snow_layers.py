@@ -142,6 +142,8 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
     layered["Ranges"][2][1:4] = [30, 30, 1]
     layered["Ranges"].append(["net inclination [deg]", 30, 30, 1])
     layered["Nets"][2:] = []
+    layered["Nets"][0].append("panel system")
+    layered["Nets"][1].append("none")
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     site = read_site(save(layered))
     workers = Recording()
@@ -172,6 +174,8 @@ def test_layers_follow_the_density_of_a_search_too(layered, save):
     layered["Ranges"][2][1:4] = [30, 30, None]
     layered["Ranges"].append(["net inclination [deg]", 30, 30, None])
     layered["Nets"][2:] = []
+    layered["Nets"][0].append("panel system")
+    layered["Nets"][1].append("none")
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     site = read_site(save(layered))
     assert not site.ranges.is_grid

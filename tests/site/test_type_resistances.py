@@ -23,6 +23,7 @@ def resistance(site, member, mode):
 
 
 BOND = {
+    "kind of anchor": "bar",
     "drill diameter [mm]": 90,
     "bond length [m]": 3.0,
     "ground": "gravel",
@@ -44,7 +45,7 @@ def test_bar_and_bond(sheets, save):
     assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
     assert pull_out.basis == "computed"
     assert "95 kPa (gravel, grouting A; secondary: FHWA" in str(pull_out.derivation)
-    assert pull_out.source == "Anchors!G2"
+    assert pull_out.source == "Anchors!H2"
 
 
 def test_tests_stand_in_the_place_of_a_value(sheets, save):
@@ -176,7 +177,7 @@ def test_tests_beside_the_dimensions_of_a_bond_are_refused(sheets, save, refused
     add_columns(sheets, "Anchors", **TESTS, **BOND)
     (finding,) = refused(save(sheets))
     assert finding.text == "3"
-    assert "is given beside the pull-out resistance in Anchors!H2" in str(finding)
+    assert "is given beside the pull-out resistance in Anchors!I2" in str(finding)
 
 
 @pytest.mark.parametrize(

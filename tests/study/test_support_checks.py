@@ -16,6 +16,7 @@ SWISS = "swiss-guideline-2007"
 GUYS, SPLAY = "guys on each side of the post", "splay of the guys [deg]"
 FOOT_AXIS = "foot anchor axis [deg]"
 BAR = {
+    "kind of anchor": "bar",
     "bar diameter [mm]": 32,
     "bar strength [MPa]": 500,
     "pull-out resistance [kN]": 380,
@@ -42,9 +43,7 @@ def told(check):
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({GUYS: None, SPLAY: None}, "one guy in the plane of the section"),
         ({GUYS: 1}, "one guy in the plane of the section"),
-        ({SPLAY: None}, "the splay of the two guys is not given"),
         ({"uphill anchor distance [m]": 0.0}, "do not end at the net's foot"),
         ({"downhill anchor distance [m]": 0.0, "head": (0.4, -22.0)}, "cannot hold"),
     ],
@@ -116,28 +115,36 @@ def test_rope_anchor_turns_up_to_the_angle_of_the_profile(tmp_path, axis, verdic
     assert "foot_anchor.bending" not in checks
 
 
-@pytest.mark.parametrize("kind", ["bar", "micropile", None])
-def test_bar_off_its_axis_without_a_lever_arm_is_not_proven(tmp_path, kind):
-    anchor = BAR | ({"kind of anchor": kind} if kind else {})
-    near = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 7.0})
-    far = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 9.0})
-    assert near["foot_anchor.direction"].verdict is Verdict.PASS
-    verdict, text = told(far["foot_anchor.direction"])
+@pytest.mark.parametrize("turn", [0.0, 7.0, 31.0])
+@pytest.mark.parametrize(
+    ("kind", "lack"),
+    [("bar", "lever arm"), ("micropile", "lever arm"), (None, "kind of anchor")],
+)
+def test_bar_without_a_lever_arm_is_not_proven(tmp_path, kind, lack, turn):
+    anchor = BAR | {"kind of anchor": kind}
+    checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - turn})
+    verdict, text = told(checks["foot_anchor.bending"])
     assert verdict is Verdict.NOT_PROVEN
-    assert "no lever arm is given" in text
+    assert lack in text
+
+
+def test_an_anchor_of_no_kind_is_judged_as_a_bar_and_as_a_rope(tmp_path):
+    anchor = BAR | {"kind of anchor": None}
+    checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 31.0})
+    assert checks["foot_anchor.bending"].verdict is Verdict.NOT_PROVEN
+    assert checks["foot_anchor.direction"].verdict is Verdict.FAIL  # a rope
 
 
 @pytest.mark.parametrize("splay", [17.3, 30.0, 55.1])
-def test_anchor_without_axis_and_kind_is_an_assumption_that_is_told(tmp_path, splay):
-    study = study_row(tmp_path, SWISS, **(ROW | {SPLAY: splay}))
+def test_an_anchor_without_axis_and_kind_is_not_proven(tmp_path, splay):
+    anchor = BAR | {"kind of anchor": None}
+    unsaid = {SPLAY: splay, "axes of the anchors": None, "anchor": anchor}
+    study = study_row(tmp_path, SWISS, **(ROW | unsaid))
     (row,) = study.rows
-    assert not [one for one in row.checks if one.mode == "direction"]
-    notes = " ".join(map(str, row.notes))
-    assert (
-        f"Foot anchor: no axis is given; it is taken along the mean pull, {FOOT:.1f}"
-        in notes
-    )
-    assert "no kind of anchor is given" in notes
+    turned = [one for one in row.checks if one.mode in ("direction", "bending")]
+    assert {one.verdict for one in turned} == {Verdict.NOT_PROVEN}
+    assert len(turned) == 9  # three anchors; they bend inside and at the end
+    assert all("axis" in str(one.reason) for one in turned)
     foot, uphill, downhill = row.pulls
     assert (foot.axis_deg, foot.is_axis_given) == (pytest.approx(FOOT), False)
     guy = (3 + 3 * math.tan(math.radians(30)), 3.0)  # in the section
@@ -266,7 +273,7 @@ def test_impossible_axis_splay_and_count_are_one_finding_each(
     ("post", "anchor", "place"),
     [
         ({"sliding resistance of the base [kN]": 60}, {}, "Posts"),
-        ({}, {"inner diameter of a tube [mm]": 32}, "Anchors"),
+        ({}, {"kind of anchor": "micropile", "inner diameter of a tube [mm]": 32}, "Anchors"),
     ],
 )
 def test_what_is_given_twice_or_is_no_tube_is_one_finding(

@@ -411,6 +411,8 @@ class RowAgain:
             self.same(f"{support} b", one["b"], self.spacing)
             if support == "inside":
                 self.same("inside b_e", one["be"], self.spacing)
+            elif support != "end":
+                self.widen_rope(support, one)
             if support != "end":
                 continue
             widths = self.list_end_widths()
@@ -419,6 +421,13 @@ class RowAgain:
             self.same("end f_R", one["fR"], factor)
             self.same("end dl", one["Δl"], length)
             self.same("end b_e'", one["be'"], others[0][0] if others else None)
+
+    def widen_rope(self, member, one):
+        """Width of what holds the ropes: that of a whole panel, and the end effect."""
+        end = self.row.widths["end"]
+        for symbol in ("fR", "Δl"):
+            self.same(f"{member} {symbol}", one[symbol], end[symbol])
+        self.same(f"{member} b_e", one["be"], one["b"] + one["fR"] * one["Δl"])
 
     def list_end_widths(self):
         glide = self.input("glide factor") or self.row.floors[0]["N"]
@@ -444,6 +453,7 @@ class RowAgain:
         if one["Member"] in self.row.widths:  # at the row's end, pulled by a rope
             width = self.row.widths[one["Member"]]
             pulled = one["g"] * one["Es"] * width["be"] / width["b"]
+            self.same(f"{what} k_q", one["kq"], 1.0)
             self.same(f"{what} E_c", one["Ec"], pulled)
             self.same(f"{what} E_k", one["Ek"], one["Ec"])
             one["ends"] = {"⁻": None, "": pulled, "⁺": one["Ec⁺"]}
@@ -761,8 +771,8 @@ class RowAgain:
             angle, most = list_numbers(reason)[:2]
             found = [t["δ'"] for t in self.row.turns if title.startswith(t["Anchor"])]
             self.holds("direction", any(abs(t - angle) < 6e-3 for t in found), angle)
-            limits = (self.value("A rope anchor turns"), self.value("Up to this angle"))
-            self.holds("limit of the direction", most in limits, most)
+            limit = self.value("A rope anchor turns")
+            self.same("limit of the direction", most, limit)
 
     def compare_rounded(self, resistance, cell, one):
         """A cell reads ``symbol verdict ratio low to high E d demand; ...``."""

@@ -5,6 +5,15 @@ import random
 from netdesign.site.template import workbook as template
 
 PROFILE = "eurocode"
+_END_OF_U1 = {
+    "row": "U1",
+    "foot_anchor": "strong",
+    "uphill_anchor": "drilled",
+    "downhill_anchor": "drilled",
+    "uphill_guy": "guy",
+    "downhill_guy": "number",
+    "post": "slim",
+}
 
 
 def write_untidy_site(path, patch, seed):
@@ -34,7 +43,7 @@ def draw_site(draw):
         "Ropes": list(_list_ropes(vary)),
         "Posts": list(_list_posts(vary)),
         "Nets": list(_list_nets(vary)),
-        "Ends": [{"row": "U1", "foot_anchor": "strong"}],
+        "Ends": [_END_OF_U1, {"row": "U2", "support_types": "as inside"}],
         "Declared": [
             {
                 "row": "U1",
@@ -139,11 +148,15 @@ def _list_nets(vary):
         "downhill_anchor_distance": vary(3.57),
         "foot_anchor": "bent",
         "foot_axis": vary(27.0),
+        "uphill_axis": vary(31.0),
+        "downhill_axis": vary(47.0),
         "uphill_anchor": "drilled",
         "downhill_anchor": "drilled",
         "uphill_guy": "guy",
         "downhill_guy": "number",
         "post": "slim",
+        "panel_system": "none",
+        "snow_layers": "uniform",
         "altitude": vary(2130.0),
         "guy_count": 2,
         "guy_splay": vary(23.7),
@@ -166,6 +179,10 @@ def _list_nets(vary):
         "uphill_guy": "number",
         "downhill_guy": "guy",
         "post": "stout",
+        "panel_system": "none",
+        "snow_layers": "uniform",
+        "anchor_axes": "along the pull",
+        "guy_count": 1,
     }
     yield {
         "id": "U3",
@@ -183,11 +200,14 @@ def _list_nets(vary):
         "foot_anchor": "strong",
         "foot_axis": vary(3.1),
         "uphill_anchor": "drilled",
+        "uphill_axis": vary(29.0),
         "downhill_anchor": "drilled",
         "downhill_axis": vary(41.0),
         "uphill_guy": "guy",
         "downhill_guy": "guy",
         "post": "slim",
+        "panel_system": "none",
+        "snow_layers": "uniform",
         "guy_count": 2,
         "guy_splay": vary(31.0),
     }

@@ -88,14 +88,6 @@ NETS = word_plan(
                 note="vertical; fill this or the thickness, not both",
             ),
             Field(
-                key="snow_layers",
-                kind="word",
-                words={"uniform": (), "layered": (), "layered with temperatures": ()},
-                note="uniform: of one density; layered: its layers stand in sheet "
-                "Snow, and have temperatures there or not; left empty, the row is not "
-                "proven",
-            ),
-            Field(
                 key="upslope_length",
                 units=LENGTHS,
                 bounds=(1.0, 200.0),
@@ -189,6 +181,14 @@ NETS = word_plan(
             _reference("uphill_guy", "Ropes"),
             _reference("downhill_guy", "Ropes"),
             _reference("post", "Posts"),
+            Field(
+                key="snow_layers",
+                kind="word",
+                words={"uniform": (), "layered": (), "layered with temperatures": ()},
+                note="uniform: of one density; layered: its layers stand in sheet "
+                "Snow, and have temperatures there or not; left empty, the row is not "
+                "proven",
+            ),
             *ROW_POSITION,
             *GUYS_AND_AXES,
             *PANEL,

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Band, CheckResult, Standard
+from netdesign.checks import Band, CheckResult, Standard, withhold
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.ranges import build_cases
 from netdesign.guideline.floor import Floor
@@ -48,7 +48,7 @@ from netdesign.study.pulls import (
 )
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
-from netdesign.study.row_end import find_lack as find_end_lack
+from netdesign.study.row_end import find_other_panel, find_unsaid
 from netdesign.study.settle import (
     judge_forces,
     list_checked,
@@ -215,7 +215,8 @@ def _expect_members(
             pull=find_pull(pulls, one.member, width.position),
             pressing=_find_pressing(check),
         )
-        settled = settle_resistance(one, known)
+        is_open = _find_unsaid(row, one, width.position, basis) is not None
+        settled = one if is_open else settle_resistance(one, known)
         members.append(_judge_again(row, check, width, settled, basis))
     return members
 
@@ -393,20 +394,34 @@ def _judge_again(
         sizes = sorted((low, check.action_kN, high))
         low, middle, high = map(newton_from_kilonewton, sizes)
         action = Band(low=low, value=middle, high=high)
+    place = position or width.position
+    unsaid = _find_unsaid(row, given, place, basis)
     is_whole = is_complete(row) and not is_held_back(check)
-    gap = None if is_whole else _UNKNOWN_GAP
-    if isinstance(given.member, EndMember):
-        gap = gap or find_end_lack(basis.row, given)
+    gap = unsaid or (None if is_whole else _UNKNOWN_GAP)
+    gap = gap or find_other_panel(basis.row, given, place)
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
-    place = position or width.position
+    if unsaid:
+        result = withhold(result, unsaid)
     settled = settle_check(basis.site, basis.row, result, place)
     again = place_check(record_result(settled, given), place)
-    if not is_whole:  # a gap in its own words is one
+    # a gap in its own words is one
+    if not is_whole and (unsaid is None or unsaid is _UNKNOWN_GAP):
         return replace(again, reason=check.reason)
     if check.action is None:
         return again
     return replace(again, reason=tell_governing(again.reason, check.action))
+
+
+def _find_unsaid(
+    row: RowStudy, given: Resistance, place: Position, basis: _Basis
+) -> Message | None:
+    """Lack of what a force depends on; only a solve tells why a panel fails."""
+    panel = row.panel
+    is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)
+    if is_failed and not basis.row.unsaid:
+        return _UNKNOWN_GAP
+    return find_unsaid(basis.row, given, place)
 
 
 def _act_again(

@@ -195,8 +195,8 @@ def strip(row):
     """A row without its cells: their sheets are named in another language."""
     bare = bare_resistances(row.resistances)
     row = replace(row, inputs=(), resistances=bare, end_resistances=None)
-    if row.panel is None:
-        return row
+    if row.row_end is None:
+        return replace(row, panel=None)
     ropes = [replace(one, source="") for one in (row.panel.lower, row.panel.upper)]
     held = bare_resistances(row.row_end.resistances)
     return replace(
@@ -239,7 +239,7 @@ def test_sheets_are_set_up_for_printing(example):
     assert nets.print_title_cols == "$A:$A"
     assert nets.page_setup.orientation == "landscape"
     assert "&P" in nets.oddFooter.right.text
-    assert nets.print_area == "'Nets'!$A$1:$AJ$25"
+    assert nets.print_area == "'Nets'!$A$1:$AN$25"
 
 
 def test_profiles_and_quantities_are_offered(example):
