@@ -50,7 +50,11 @@ def replace_cells(
     """
     findings: list[Finding] = []
     told: list[ReplacedCell] = []
-    sheets = {sheet.name: sheet for sheet in workbook.sheets}
+    if not instead:
+        return workbook, ()
+    # two of one name are refused where they are read
+    first = {sheet.name: sheet for sheet in reversed(workbook.sheets)}
+    sheets = dict(first)
     names = {name.casefold(): name for name in sheets}
     for place, text in instead.items():
         typed, _, address = place.rpartition("!")
@@ -66,7 +70,11 @@ def replace_cells(
         told.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
     if findings:
         raise SiteDataError(findings)
-    return replace(workbook, sheets=tuple(sheets.values())), tuple(told)
+    changed = tuple(
+        sheets[sheet.name] if sheet is first[sheet.name] else sheet
+        for sheet in workbook.sheets
+    )
+    return replace(workbook, sheets=changed), tuple(told)
 
 
 def _find_cell(sheet: Sheet, address: str) -> Cell:

@@ -119,7 +119,7 @@ def test_no_code_page_ends_a_check(sites, tmp_path, encoding, language):
 
 def test_a_document_is_utf_8_whatever_the_code_page(tmp_path):
     def name(sheets):
-        sheets["Nets"][1][0] = "Rangée φ 1"
+        sheets["Nets"][1][0] = sheets["Ends"][1][0] = "Rangée φ 1"
 
     write_site(tmp_path / "site.xlsx", name)
     result = subprocess.run(

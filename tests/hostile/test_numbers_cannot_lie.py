@@ -187,15 +187,13 @@ def test_no_resistance_is_no_pass_even_of_a_slack_member(name):
     assert study.verdict is check.verdict is Verdict.NOT_PROVEN
 
 
-# Of the height a profile need not say anything; no anchor here is only computed or of a
-# given kind, that of the post beside the snow is. The values of the end effect come
+# Of the height a profile need not say anything; no anchor here is only computed or
+# bends, that of the post beside the snow is. The values of the end effect come
 # together.
 NOT_NEEDED = {
     "geometry.height.ratio",
     "resistance.pull_out.computed",
     "resistance.bending",
-    "anchor.angle.bar",
-    "anchor.angle.rope",
     "post.efficiency",
 }
 LIMITS = {

@@ -15,7 +15,12 @@ from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
 
-UNTOLD = (("provenance", "started"), ("provenance", "command"), ("digest",))
+UNTOLD = (
+    ("provenance", "started"),
+    ("provenance", "command"),
+    ("digest",),
+    ("profile", "is_default"),  # a check of its own says so
+)
 
 
 def changes_of(old, new):

@@ -6,6 +6,7 @@ from netdesign.errors import SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.site.replaced import split_replacement, write_replacement
 from tests.short_example import write_short_example
+from tests.test_cli import SHEETS
 
 
 @pytest.fixture(scope="module")
@@ -81,3 +82,17 @@ def test_the_catalogue_holds_types_that_no_row_uses(workbook):
     shared = values.keys() & known.keys()
     assert len(shared) >= 5
     assert all(values[key] == known[key] for key in shared)
+
+
+@pytest.mark.parametrize("instead", [{}, {"Nets!B3": "33"}])
+def test_a_second_table_of_one_name_is_refused_and_no_row_lost(tmp_path, instead):
+    """The rows of the first once vanished without a word."""
+    tables = {name: rows for name, rows in SHEETS.items() if name != "Ends"}
+    lines = []
+    for name, rows in (*tables.items(), ("Nets", tables["Nets"])):
+        lines += ["", f"[{name}]", *(";".join(map(str, row)) for row in rows)]
+    (tmp_path / "site.csv").write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(SiteDataError) as caught:
+        read_site(tmp_path / "site.csv", instead=instead)
+    told = [str(one.rule) for one in caught.value.findings]
+    assert any("is a second sheet" in one for one in told), told

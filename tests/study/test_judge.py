@@ -76,6 +76,7 @@ def test_study_is_complete(results, standard):
     assert study.schema == "netdesign.study/2"
     assert study.project.name == "Combe"
     assert [row.id for row in study.rows] == ["R1", "R2"]
+    anchors = ("foot_anchor", "uphill_anchor", "downhill_anchor")
     modes = (*MEMBER_MODES, *DEPENDENT_MODES)
     inside = [f"{member}.{mode}" for member, mode in modes]
     expected = [*inside, *(f"{one}.end" for one in inside)]
@@ -83,6 +84,7 @@ def test_study_is_complete(results, standard):
         assert [check.id for check in row.checks] == [
             *expected,
             "post.lateral",
+            *(f"{anchor}.direction" for anchor in anchors),
             "geometry.inclination",
             "geometry.slope",
             "geometry.height",

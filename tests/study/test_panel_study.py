@@ -202,7 +202,7 @@ def test_a_panel_that_fails_is_not_proven_with_its_reason(monkeypatch):
         reason = say("panel.lies_on_ground", depth=0.123)
         return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
 
-    monkeypatch.setattr(running, "resolve_panel", fail)
+    monkeypatch.setattr(running, "resolve_panels", fail)
     _, study = judge(with_panel(a_panel()))
     forces = [one for one in study.rows[0].checks if one.position]
     assert {one.verdict for one in forces} == {Verdict.NOT_PROVEN}
@@ -216,7 +216,7 @@ def test_a_panel_that_fails_is_not_proven_with_its_reason(monkeypatch):
 
 def test_a_weak_member_still_fails_where_the_panel_has_no_result(monkeypatch):
     lost = FailedPanel(outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.not_found"))
-    monkeypatch.setattr(running, "resolve_panel", lambda *_: lost)
+    monkeypatch.setattr(running, "resolve_panels", lambda *_: lost)
     weak = with_panel(a_panel(), resistances=resist(1e3))
     _, study = judge(weak)
     assert study.verdict is Verdict.FAIL

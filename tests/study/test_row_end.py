@@ -15,6 +15,7 @@ from netdesign.study.audit import audit_study
 from netdesign.study.effects import find_effects
 from netdesign.study.probe import Probe
 from netdesign.study.row_end import compute_end_factor
+from netdesign.words.message import say
 from tests.small_site import RANGES, RUN, build_row, resist
 from tests.study.test_panel_study import (
     PROFILE,
@@ -61,11 +62,12 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
 
 
 def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost():
-    """One emptied cell of the panel must not turn a row with an end guy into a pass."""
-    row = replace(with_panel(a_panel(), end=an_end(angle=37.0)), panel=None)
+    """A system that is not computed must not turn a row with an end guy into a pass."""
+    row = with_panel(a_panel(), end=an_end(angle=37.0))
+    row = replace(row, panel=None, panel_lack=say("panel.triangular"))
     site, study = judge(row)
     checks = checks_of(study)
-    _, plain = judge(replace(row, row_end=None))
+    _, plain = judge(replace(row, row_end=None, panel_lack=None))
     assert plain.rows[0].verdict is Verdict.PASS
     open_checks = {
         name for name, one in checks.items() if one.verdict is Verdict.NOT_PROVEN
@@ -73,9 +75,10 @@ def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost()
     assert open_checks == {
         *(f"{member}.{mode}.end" for member, mode in END_MODES),
         *(name for name in checks if name.startswith("post") and name[-4:] == ".end"),
+        *(name for name in checks if name.startswith("uphill_") and name[-4:] != "tion"),
     }
     for name in open_checks:
-        assert "what pulls it along the row is not known" in str(checks[name].reason)
+        assert "triangular nets are not covered" in str(checks[name].reason)
     for name, one in checks_of(plain).items():
         if name not in open_checks:
             assert checks[name].verdict is one.verdict

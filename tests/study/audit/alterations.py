@@ -810,8 +810,9 @@ def an_end_loaded_like_a_support_inside(study):
     row = study["rows"][0]
     inside = {c["id"]: c for c in row["checks"]}
     for check in row["checks"]:
-        if check["position"] == "edge":
-            like = inside[check["id"].removesuffix(".end")]
+        name = check["id"].removesuffix(".end")
+        if check["position"] == "edge" and name in inside:
+            like = inside[name]
             kept = {key: check[key] for key in ("id", "position", "reason")}
             check.update({**like, **kept})
 
