@@ -1,4 +1,4 @@
-"""What is built between two posts, for a row whose panel is not given in full.
+"""Panels as they are built, for a row whose own is not given in full.
 
 The worst of a few panels counts, at the ends of what is built. Which of them is the
 worst for which member: panel/THEORY.md, section 6.
@@ -15,13 +15,18 @@ OF_BREAKING = (45.0, 125.0)
 
 Ends = tuple[float, float]  # least and largest value; equal where it is given
 
-# Cut; which end of the ridge rope's sag, of the lower rope's, of both stiffnesses.
-_WORST: tuple[tuple[Cut, int, int, int], ...] = (
-    ("uniform", 0, 1, 0),  # uphill guy, where the net is taut
-    ("uniform", 0, 1, 1),  # uphill guy
-    ("fitted", 1, 0, 1),  # lower rope along the row
-    ("fitted", 0, 1, 1),  # ridge rope along the row
-    ("fitted", 1, 1, 1),  # foot anchor, post, downhill guy
+# Cut; which end of the sag of ridge rope and lower rope, of their EA; mid-anchors.
+_WORST: tuple[tuple[Cut, int, int, int, int, bool], ...] = (
+    ("uniform", 0, 1, 0, 0, False),  # uphill guy of a taut net
+    ("uniform", 1, 1, 0, 0, False),
+    ("uniform", 0, 1, 1, 0, False),
+    ("uniform", 0, 1, 1, 1, False),  # uphill guy of a slack net
+    ("upper", 0, 1, 1, 0, False),
+    ("fitted", 1, 0, 1, 1, False),  # lower rope along the row
+    ("fitted", 0, 1, 1, 1, False),  # ridge rope along the row
+    ("fitted", 0, 1, 1, 1, True),
+    ("fitted", 1, 1, 1, 1, False),  # foot anchor
+    ("fitted", 1, 1, 1, 1, True),  # post, downhill guy
 )
 
 
@@ -63,23 +68,27 @@ def list_panels(
     stiffnesses : tuple of tuple of float, shape (2, 2)
         Least and largest EA of ridge rope and lower rope [N].
     has_mid_anchors : bool or None
-        Of the lower rope. Not given beside anything that is given, both count; where
-        nothing is, panels without them are the worse ones.
+        Of the lower rope. Not given beside anything that is given, both count.
     """
     is_all_assumed = cut is None and sags == (None, None)
-    mids = (False,) if is_all_assumed else (False, True)
-    if has_mid_anchors is not None:
-        mids = (has_mid_anchors,)
     of_sags = [(one, one) if one is not None else SAGS for one in sags]
     found = {
         Panel(
             post_spacing=post_spacing,
             upper=Rope(stiffness=stiffnesses[0][stiff], sag=of_sags[0][ridge]),
-            lower=Rope(stiffness=stiffnesses[1][stiff], sag=of_sags[1][lower]),
+            lower=Rope(stiffness=stiffnesses[1][soft], sag=of_sags[1][lower]),
             cut=cut or worst,
             has_mid_anchors=mid,
         ): None
-        for worst, ridge, lower, stiff in _WORST
-        for mid in mids
+        for worst, ridge, lower, stiff, soft, own in _WORST
+        for mid in _list_mids(own, has_mid_anchors, is_all_assumed=is_all_assumed)
     }
     return tuple(found)
+
+
+def _list_mids(
+    own: bool, given: bool | None, *, is_all_assumed: bool
+) -> tuple[bool, ...]:
+    if given is not None:
+        return (given,)
+    return (own,) if is_all_assumed else (False, True)

@@ -84,7 +84,7 @@ def _say_nothing(reading: Reading) -> Reading:
 
 
 def has_same_types(at_end: Row, row: Row) -> bool:
-    """Whether every type is named at the row's end, and is that inside."""
+    """Sameness of every type at the row's end and inside; none is left empty."""
     return all(at_end[key].word == row[key].word != "" for key in _TYPES)
 
 

@@ -79,7 +79,7 @@ def _build_section(line: Row) -> RoundSection | None:
 
 
 def lacks_inner(line: Row) -> bool:
-    """Whether an anchor may be hollow, and nobody says how much."""
+    """Lack of an inner diameter of an anchor that may be hollow."""
     is_solid = line["kind"].word == _SOLID
     return (
         line["bar_diameter"].state == "given"

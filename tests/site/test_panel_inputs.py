@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from netdesign.panel.inputs import CUTS
 from netdesign.site.model import END_MODES
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
@@ -71,7 +72,7 @@ def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
 
 def test_a_workbook_without_the_columns_takes_the_panels_that_are_built(sheets, save):
     for row in read_site(save(sheets)).rows:
-        assert {one.cut for one in row.panel.panels} == {"uniform", "fitted"}
+        assert {one.cut for one in row.panel.panels} == set(CUTS)
         for side in ("lower", "upper"):
             ropes = [getattr(one, side) for one in row.panel.panels]
             sags = {one.sag for one in ropes}

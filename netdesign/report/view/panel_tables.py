@@ -52,7 +52,7 @@ def view_panel(row: RowStudy, words: Words) -> PanelView | None:
 
 
 def _tell_assumed(panel: PanelRecord, words: Words) -> list[str]:
-    """What is not given of the panel, and what is assumed instead."""
+    """Sentence on what is assumed of the panel; none where all is given."""
     if not panel.assumed:
         return []
     return [words("panel.assumed", names=tuple(map(words.show, panel.assumed)))]

@@ -1,0 +1,131 @@
+"""Panels that nobody gives: none as it may be built loads a member more."""
+
+import math
+import random
+from itertools import product
+
+import pytest
+
+from netdesign.cable.net import Net
+from netdesign.coupling.scene import Scene
+from netdesign.envelope.panel_forces import PanelForces
+from netdesign.envelope.ranges import Case
+from netdesign.envelope.run import build_task, run_cases
+from netdesign.panel import assumed
+from netdesign.panel.assumed import SAGS, STIFFNESSES, find_stiffness, list_panels
+from netdesign.panel.inputs import CUTS, Panel, Rope
+from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import Snowpack
+from netdesign.structure.layout import SupportLayout
+from tests.solving.small_scene import COARSE
+
+SEEDS = (203, 204, 207, 211, 216, 218)
+
+
+def draw_solver(seed):
+    """Function that solves one drawn row with some panels, and its post spacing."""
+    draw = random.Random(seed)
+    height, spacing = draw.uniform(2.0, 4.5), draw.uniform(2.5, 4.5)
+    layout = SupportLayout(
+        post_spacing=spacing,
+        uphill_anchor_distance=height * draw.uniform(0.7, 1.4),
+        downhill_anchor_distance=height * draw.uniform(0.7, 1.3),
+    )
+    snow = Snowpack(
+        slope_angle=math.radians(draw.uniform(30.0, 50.0)),
+        thickness=height * draw.uniform(0.8, 1.0),
+        upslope_length=draw.uniform(6.0, 25.0),
+        density=draw.uniform(250.0, 420.0),
+    )
+    net = Net(
+        height_normal=height,
+        inclination=math.radians(draw.uniform(24.0, 36.0)),
+        stiffness_per_m=draw.uniform(4e6, 22e6),
+        slack=draw.choice((0.0, draw.uniform(0.0, 0.12))),
+        friction_angle=math.radians(draw.uniform(13.0, 45.0)),
+    )
+    ground = GroundLaw(kind=draw.choice(("free", "no-slip")))
+    case = Case(density=0.0, friction_angle=0.0, inclination=0.0)
+
+    def solve(panels):
+        scene = Scene(snowpack=snow, ground=ground, net=net)
+        task = build_task(case, lambda _: scene, layout, COARSE, tuple(panels))
+        return run_cases([task])[0].panel
+
+    return solve, spacing
+
+
+def list_ends(spacing):
+    """Every combination of the ends of what is built."""
+    for cut, *sags, ridge, lower, mid in product(
+        CUTS, SAGS, SAGS, STIFFNESSES, STIFFNESSES, (False, True)
+    ):
+        yield Panel(
+            post_spacing=spacing,
+            upper=Rope(stiffness=ridge, sag=sags[0]),
+            lower=Rope(stiffness=lower, sag=sags[1]),
+            cut=cut,
+            has_mid_anchors=mid,
+        )
+
+
+def assume_all(spacing):
+    return list_panels(
+        spacing,
+        cut=None,
+        sags=(None, None),
+        stiffnesses=(STIFFNESSES, STIFFNESSES),
+        has_mid_anchors=None,
+    )
+
+
+def find_excess(seed):
+    """Largest force of any panel over that of those that are assumed, by member."""
+    solve, spacing = draw_solver(seed)
+    worst = solve(assume_all(spacing)).worst
+    found = dict.fromkeys(worst, 0.0)
+    for panel in list_ends(spacing):
+        one = solve([panel])
+        if isinstance(one, PanelForces):
+            for name, band in one.bands.items():
+                found[name] = max(found[name], band.value / max(worst[name].value, 10.0))
+    return found
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_no_panel_as_it_may_be_built_loads_a_member_more(seed):
+    assert max(find_excess(seed).values()) < 1.002
+
+
+def test_both_ropes_alike_would_not_be_enough(monkeypatch):
+    alike = tuple(one for one in assumed._WORST if one[3] == one[4])
+    monkeypatch.setattr(assumed, "_WORST", alike)
+    assert max(max(find_excess(seed).values()) for seed in SEEDS) > 1.01
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "breaking", "ends"),
+    [
+        (18e6, 250e3, (18e6, 18e6)),
+        (None, None, (5e6, 60e6)),
+        (None, 251e3, (11.295e6, 31.375e6)),
+        (None, 31e3, (5e6, 5e6)),
+        (None, 913e3, (41.085e6, 60e6)),
+    ],
+)
+def test_ends_of_a_ropes_stiffness(stiffness, breaking, ends):
+    assert find_stiffness(stiffness, breaking) == pytest.approx(ends)
+
+
+def test_what_is_given_is_kept_and_the_rest_assumed():
+    panels = list_panels(
+        3.7,
+        cut="upper",
+        sags=(0.043, None),
+        stiffnesses=((17e6, 17e6), STIFFNESSES),
+        has_mid_anchors=None,
+    )
+    assert {one.cut for one in panels} == {"upper"}
+    assert {one.upper for one in panels} == {Rope(stiffness=17e6, sag=0.043)}
+    assert {one.lower.sag for one in panels} == set(SAGS)
+    assert {one.has_mid_anchors for one in panels} == {False, True}
