@@ -10,8 +10,9 @@ from itertools import product
 from netdesign.checks import Declaration
 from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.columns.fields import normalise
+from netdesign.site.confirmed_values import is_confirmation
 from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
-from netdesign.site.readings import Row, refuse
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import Table, read_rows
 from netdesign.structure.members import Member
 from netdesign.words.catalogue import LANGUAGES, render
@@ -64,6 +65,9 @@ def read_declared(
     declared: dict[_Check, Declaration] = {}
     for line in read_rows(table, findings) if table else ():
         count = len(findings)
+        if is_confirmation(line):
+            _check_row(line["row"], row_ids, findings)
+            continue
         found = _read_line(line, row_ids, findings)
         if found is None or len(findings) > count:
             continue
@@ -90,12 +94,7 @@ def _read_line(
     line: Row, row_ids: Collection[str], findings: list[Finding]
 ) -> Declaration | None:
     row, check, day = line["row"], line["check"], line["date"]
-    is_of_all = row.word not in row_ids and normalise(row.word) in _ALL_ROWS
-    if row.word and row_ids and row.word not in row_ids and not is_of_all:
-        sheet = say("sheet.Nets")
-        accepted = say("declared.id_or_all", sheet=sheet)
-        accepted = add_nearest(accepted, row.word, row_ids)
-        refuse(row, say("nets.no_id", sheet=sheet), accepted, findings)
+    is_of_all = _check_row(row, row_ids, findings)
     names = _list_names()
     subject = names.get(normalise(check.word))
     if check.word and subject is None:
@@ -117,6 +116,19 @@ def _read_line(
         date=day.word,
         source=check.place,
     )
+
+
+def _check_row(
+    row: Reading, row_ids: Collection[str], findings: list[Finding]
+) -> bool:
+    """Refuse an unknown net row; True of a line that holds for all of them."""
+    is_of_all = row.word not in row_ids and normalise(row.word) in _ALL_ROWS
+    if row.word and row_ids and row.word not in row_ids and not is_of_all:
+        sheet = say("sheet.Nets")
+        accepted = say("declared.id_or_all", sheet=sheet)
+        accepted = add_nearest(accepted, row.word, row_ids)
+        refuse(row, say("nets.no_id", sheet=sheet), accepted, findings)
+    return is_of_all
 
 
 def _is_date(text: str) -> bool:

@@ -229,6 +229,8 @@ class NetRow:
     panel_lack: Message | None = None
     # columns left empty that every force depends on: nothing is proven
     unsaid: tuple[Message, ...] = field(default=(), hash=False)
+    # numbers that can hardly be meant, on which it rests: it is not proven
+    questions: tuple[Message, ...] = field(default=(), hash=False)
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""

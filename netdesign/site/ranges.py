@@ -24,7 +24,7 @@ from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
 from netdesign.site.headings import name_units, quote_title
 from netdesign.site.items import match_item, refuse_unused_answers
 from netdesign.site.model import InputEcho
-from netdesign.site.readings import Reading, read_cell, refuse
+from netdesign.site.readings import Reading, Row, read_cell, refuse
 from netdesign.site.tables import Table, read_field
 from netdesign.site.titles import Meaning
 from netdesign.words.message import Message, say
@@ -56,11 +56,14 @@ class RangesSheet:
         has a fault.
     unsaid : tuple of Message
         Quantities that have no line, and range as they usually do.
+    lines : tuple of Row
+        Both ends of each range, one a line.
     """
 
     ranges: Ranges | None = None
     inputs: tuple[InputEcho, ...] = ()
     unsaid: tuple[Message, ...] = ()  # quantities that nobody gives
+    lines: tuple[Row, ...] = ()
     ends: Mapping[str, tuple[Reading, Reading] | None] = of_dataclass(
         default_factory=dict
     )
@@ -113,6 +116,11 @@ def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
         inputs=tuple(echo for echoes in inputs for echo in echoes),
         unsaid=tuple(one.name for one in USUAL_QUANTITIES if one.key not in names),
         ends=ends,
+        lines=tuple(
+            {one.field.key: one}
+            for value in complete.values()
+            for one in (value.low, value.high)
+        ),
     )
 
 

@@ -27,6 +27,7 @@ from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.net_columns import ENDS, NETS
 from netdesign.site.columns.range_quantities import RANGES, RANGES_AS_TYPED
 from netdesign.site.columns.winter_columns import WINTER
+from netdesign.site.confirmed_values import read_confirmed
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item, refuse_unused_answers
@@ -39,6 +40,7 @@ from netdesign.site.mapping import (
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id, list_catalogue
+from netdesign.site.plausible.questions import Lines, ask
 from netdesign.site.ranged_columns import free_columns
 from netdesign.site.ranges import RangesSheet, build_ranges, refuse_large_grid
 from netdesign.site.readings import Row, refuse
@@ -117,17 +119,34 @@ def read_site(
     monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
     winter = read_winter(tables[WINTER.name], ids, findings)
     declared = read_declared(tables[DECLARED.name], ids, findings)
+    confirmed = read_confirmed(tables[DECLARED.name], workbook, findings)
     findings.extend(_note_unread(workbook, findings))
     if built.ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings, fold_findings(findings))
+    lines = Lines(
+        nets=list(read_rows(nets, [])) if nets else [],
+        ends=ends,
+        snow=snow,
+        types=type_sheets,
+        ranges=built.lines,
+    )
+    notes = fold_findings([_shorten(one) for one in findings])
+    questions = ask(lines, confirmed, findings)
     rows = (tell_replaced(row, replaced) for row in net_rows)
     return Site(
         project=project,
         ranges=built.ranges,
-        rows=tuple(replace(one, unsaid=one.unsaid + built.unsaid) for one in rows),
+        rows=tuple(
+            replace(
+                one,
+                unsaid=one.unsaid + built.unsaid,
+                questions=questions.get(one.id, ()),
+            )
+            for one in rows
+        ),
         file_name=workbook.file,
         sha256=workbook.sha256,
-        notes=fold_findings([_shorten(one) for one in findings]),
+        notes=(*notes, *(one.message for one in confirmed)),
         findings=tuple(findings),
         range_inputs=built.inputs,
         project_cells=project_cells,

@@ -62,7 +62,7 @@ def replace_cells(
         if name is None:
             findings.append(_refuse_sheet(workbook, typed, tuple(sheets)))
             continue
-        cell = _find_cell(sheets[name], address)
+        cell = find_cell(sheets[name], address)
         if cell.text == text:
             findings.append(_refuse_same(cell))
             continue
@@ -77,7 +77,8 @@ def replace_cells(
     return replace(workbook, sheets=changed), tuple(told)
 
 
-def _find_cell(sheet: Sheet, address: str) -> Cell:
+def find_cell(sheet: Sheet, address: str) -> Cell:
+    """Cell of a sheet at an address such as ``C14``."""
     letters = address.rstrip("0123456789")
     column = 0
     for letter in letters:

@@ -58,6 +58,7 @@ def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRe
     beside = (
         check_ends(find_effects(row, standard, site.ranges)),
         _check_profile(standard),
+        _check_inputs(row),
     )
     results = [
         *(_leave_default_open(row, one) for one in geometry),
@@ -86,6 +87,20 @@ def _check_profile(standard: Standard) -> CheckResult | None:
         mode="profile",
         verdict=Verdict.NOT_PROVEN,
         reason=not_proven(say("check.no_profile", profile=standard.id)),
+    )
+
+
+def _check_inputs(row: NetRow) -> CheckResult | None:
+    """Not proven while a number that the row rests on is in question."""
+    if not row.questions:
+        return None
+    return CheckResult(
+        id="inputs.plausible",
+        clause="-",
+        member=Member.NET,
+        mode="plausible",
+        verdict=Verdict.NOT_PROVEN,
+        reason=not_proven(*row.questions),
     )
 
 

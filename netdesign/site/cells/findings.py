@@ -11,7 +11,7 @@ from netdesign.edge.given_files import make_printable
 from netdesign.errors import SiteDataError
 from netdesign.words.message import Message, say
 
-Severity = Literal["error", "note"]
+Severity = Literal["error", "question", "note"]
 
 _LONGEST_QUOTE = 60
 _OF_SHEETS = ("table.lacks_sheet", "table.close_to_missing", "table.second_sheet")
@@ -50,7 +50,8 @@ class Finding:
     rule, accepted : Message
         As in `Refusal`.
     severity : str
-        ``error`` refuses the workbook, ``note`` only ends up in the report.
+        ``error`` refuses the workbook, ``question`` leaves net rows not proven,
+        ``note`` only ends up in the report.
     """
 
     file: str

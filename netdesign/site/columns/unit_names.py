@@ -181,3 +181,8 @@ def to_si(value: float, unit: str) -> float:
     """SI value of a number in one of the first units."""
     convert = _TO_SI.get(unit)
     return convert(value) if convert else value
+
+
+def from_si(value: float, unit: str) -> float:
+    """Number in one of the first units, of an SI value; not of a temperature."""
+    return value / to_si(1.0, unit)

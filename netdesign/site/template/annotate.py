@@ -26,7 +26,7 @@ if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from openpyxl import Workbook as OpenWorkbook
 
 _AUTHOR = "netdesign"
-_COLOURS = {"error": "FFF4B8A8", "note": "FFFFF2CC"}
+_COLOURS = {"error": "FFF4B8A8", "question": "FFFCD5A0", "note": "FFFFF2CC"}
 _HEADINGS = (
     *(say("annotated.severity"), say("annotated.sheet"), say("annotated.cell")),
     *(say("annotated.quantity"), say("annotated.text"), say("annotated.rule")),

@@ -1,0 +1,1 @@
+"""Numbers that can hardly be meant: a slip of the pen becomes a question."""
