@@ -81,6 +81,7 @@ def _simplify(name: str) -> str:
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     text = re.sub(r" ?[ø⌀∅] ?=? ?", " @", text)
     text = re.sub(_LENGTH_OR_FORCE, " ", re.sub(_DIAMETER_WORD, "@", text))
+    text = re.sub(r"(?<=[a-z]{3})(?=\d)", " ", text)
     text = re.sub(_HOLE_SIZE, " ", text)
     return " ".join(text.split())
 

@@ -1,4 +1,7 @@
-"""Products by name: their numbers against one another, and what names mean."""
+"""Products by name: their numbers against one another, and what names mean.
+
+Figures from elsewhere: FACTS.md, section 14.
+"""
 
 import math
 import random
@@ -8,7 +11,7 @@ from itertools import pairwise
 import pytest
 
 from netdesign.resistance.catalogue import load_catalogue
-from netdesign.resistance.product_data import list_constructions, load_products
+from netdesign.resistance.product_data import join, list_constructions, load_products
 from netdesign.resistance.products import find_product
 from netdesign.resistance.sections import compute_box, compute_tube
 from netdesign.words.catalogue import LANGUAGES, render
@@ -108,6 +111,8 @@ def test_values_known_from_elsewhere(name, area, strong, weak, modulus):
         ("SHS 80x4", ("second_moment_strong", 1e-8), 111, 114),
         ("SHS 100x5", ("area", 1e-4), 18.4, 18.7),
         ("SHS 100x5", ("second_moment_strong", 1e-8), 271, 279),
+        ("SHS 100x8", ("area", 1e-4), 27.2, 28.8),
+        ("SHS 200x12.5", ("area", 1e-4), 87.0, 92.1),
         ("RHS 80x40x4", ("second_moment_weak", 1e-8), 21.5, 22.2),
     ],
 )
@@ -184,6 +189,8 @@ def test_grades_that_share_a_name_are_a_range():
     assert (low / 1e3, high / 1e3) == pytest.approx((308, 339), rel=5e-3)
     assert find_product("SWISS GEWI").values["outer_diameter"] == (0.012, 0.05)
     assert find_product("SWISS GEWI").values["yield_strength"] == (5e8, 5e8)
+    low, high = find_product("SWISS GEWI").values["yield_force"]
+    assert (low / 1e3, high / 1e3) == pytest.approx((57, 981), rel=0.01)
 
 
 @pytest.mark.parametrize("name", HOLLOW)
@@ -235,6 +242,17 @@ def test_a_quantity_that_one_of_several_lacks_is_left_out():
     assert "outer_diameter" not in find_product("R25N").values
     assert "ultimate_force" in find_product("TITAN 40/16").values
     assert "ultimate_force" not in find_product("TITAN 73/53").values
+
+
+def test_products_of_one_name_are_joined_in_what_both_have():
+    known, bare = find_product("R32N"), find_product("R25N")
+    for fitting in ([known, bare], [bare, known]):
+        joined = join("both", "hollow bar", fitting)
+        assert set(joined.values) == set(bare.values) <= set(known.values)
+        assert joined.values["nominal_diameter"] == (0.025, 0.032)
+        assert joined.values["ultimate_force"] == pytest.approx((2e5, 2.8e5))
+        assert joined.assumed == bare.assumed
+        assert set(joined.sources) == {*known.sources, *bare.sources}
 
 
 def test_ropes_break_as_their_norm_says():
@@ -296,6 +314,7 @@ def test_every_product_has_sources_in_every_language():
         ("montant IPE140", "IPE140"),
         ("IPE 80", "IPE80"),
         ("CHS 76.1x3.6", "CHS 76.1x3.6"),
+        ("CHS76.1x3.6", "CHS 76.1x3.6"),
         ("ROR 76,1 x 3,6", "CHS 76.1x3.6"),
         ("Ø76.1/3.6", "CHS 76.1x3.6"),
         ("tube 76.1x3.6", "CHS 76.1x3.6"),
@@ -304,6 +323,7 @@ def test_every_product_has_sources_in_every_language():
         ("76.1x3.6", "CHS 76.1x3.6"),
         ("Rohr 114.3x5x3000", "CHS 114.3x5"),
         ("RHS 100x60x5", "RHS 100x60x5"),
+        ("RHS100x60x5", "RHS 100x60x5"),
         ("RRO 60x100x5", "RHS 100x60x5"),
         ("SHS 80x4", "RHS 80x80x4"),
         ("QRO 80x5", "RHS 80x80x5"),
@@ -322,6 +342,7 @@ def test_every_product_has_sources_in_every_language():
         ("GEWI 63,5", "GEWI 63.5"),
         ("GEWI 63", "GEWI 63.5"),
         ("GEWI 28/32", "GEWI"),
+        ("type 20 GEWI", "GEWI"),
         ("GEWI plus 30", "GEWI Plus 30"),
         ("GEWI+ 30", "GEWI Plus 30"),
         ("SAS 670/800 Ø35", "GEWI Plus 35"),
@@ -345,6 +366,7 @@ def test_every_product_has_sources_in_every_language():
         ("R25N", "R25 N"),
         ("T76-1600", "T76 1600"),
         ("R32/15", "R32 15"),
+        ("TITAN40/16", "TITAN 40/16"),
         ("Titan 40/16", "TITAN 40/16"),
         ("Ischebeck TITAN 30-11", "TITAN 30/11"),
         ("6x19 18 mm", "6x19 18 mm"),
@@ -352,6 +374,7 @@ def test_every_product_has_sources_in_every_language():
         ("Seil 18 mm 6x36", "6x36 18 mm"),
         ("6 x 36 WS-IWRC 1960 N/mm2 Ø20", "6x36WS 20 mm"),
         ("câble 18 mm", "rope 18 mm"),
+        ("Seil18mm", "rope 18 mm"),
         ("Abspannseil Ø 20", "rope 20 mm"),
         ("GEWI Bohrloch Ø 50", "GEWI"),
         ("Ø50 mm Bohrung, GEWI", "GEWI"),
@@ -384,6 +407,7 @@ def test_a_name_is_read_as_offices_write_it(name, meant):
         *("double HEB 120", "HEB 120 + GEWI 28", "IBO", "Titan", "Titan 41/16"),
         *("950/1050", "B500B", "B500B 27", "Macalloy 500 25", "DYWIDAG 28", "WR 36"),
         *("tube", "tube 77x3.6", "tube 76.1x37", "Ø76.1", "plate 100x60x5", "M20x80"),
+        *("tube 80x4", "SHS 80x4.3", "CHS 33.7x8", "CHS 76.1x3.7"),
         *("100x60x5", "RHS 100x60", "SHS 85x4", "SHS 30x8", "tube 75x5", "Ø 108.5/4"),
         *("6x19", "6x19 3 mm", "6x91 18 mm", "câble 1", "Seil 12", "Seil 2x18 mm"),
         *(
