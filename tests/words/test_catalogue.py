@@ -25,7 +25,7 @@ FAMILIES: tuple[str, ...] = (
     *("winter_column.", "winter_outcome.", "day_outcome."),
     *("fit_page.", "fit_case.", "fit_parameter."),
     *("label.", "load_case.", "load_case_short.", "load.", "load_name.", "show.load_"),
-    *("slab_ground.", "variant."),
+    *("slab_ground.", "variant.", "product_source."),
     "floor.profile_",
     *("reference.", "case_kind.", "piece.", "verify_table."),
     *("against_figure.", "against_clock.", "bench.refused_"),

@@ -1,0 +1,213 @@
+"""Products of the catalogue, made of its data; whoever has a name asks products.py."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+from netdesign.resistance.catalogue import load_catalogue
+from netdesign.resistance.sections import compute_box, compute_tube
+from netdesign.words.message import Message, say
+
+Span: TypeAlias = tuple[float, float]
+
+# What a name itself says is never recalled.
+_NAMED = frozenset({"depth", "width", "nominal_diameter", "rope_diameter", "grade"})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Product:
+    """Product of the catalogue, or all that fit a name.
+
+    Attributes
+    ----------
+    id : str
+        As ``HEB120``, ``GEWI 28``, ``6x19 18 mm``.
+    family : str
+        "section", "solid bar", "hollow bar" or "rope".
+    values : mapping of str to (float, float)
+        Least and largest value of each quantity, SI units; they differ where several
+        products fit the name, or where makers differ.
+    assumed : frozenset of str
+        Quantities that are recalled, not read; the others were read in a source that
+        quotes the original, or follow from what was read there.
+    sources : tuple of Message
+        Publications.
+    """
+
+    id: str
+    family: str
+    values: Mapping[str, Span]
+    assumed: frozenset[str]
+    sources: tuple[Message, ...]
+
+    def tell_status(self, quantity: str) -> str:
+        """Status of a quantity, "secondary" or "assumed", as in the limit profiles."""
+        return "assumed" if quantity in self.assumed else "secondary"
+
+
+@lru_cache(maxsize=1)
+def load_products() -> dict[str, Any]:
+    """Load the products as their file gives them, once a name is looked up."""
+    file = files(__package__).joinpath("products.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def join(name: str, family: str, fitting: list[Product]) -> Product:
+    """All that a name may mean: what each of them has, with its least and largest."""
+    shared = set.intersection(*(set(one.values) for one in fitting))
+    recalled = set().union(*(one.assumed for one in fitting))
+    spans = {
+        quantity: [one.values[quantity] for one in fitting]
+        for quantity in fitting[0].values
+        if quantity in shared
+    }
+    values = {
+        quantity: (min(low for low, _ in listed), max(high for _, high in listed))
+        for quantity, listed in spans.items()
+    }
+    sources = dict.fromkeys(source for one in fitting for source in one.sources)
+    return Product(
+        id=name,
+        family=family,
+        values=MappingProxyType(values),
+        assumed=frozenset(shared & recalled),
+        sources=tuple(sources),
+    )
+
+
+def make_beam(row: list[float]) -> Product:
+    """I-section of its table.
+
+    Parameters
+    ----------
+    row : list of float
+        Its line [mm, cm2, cm3, cm4 by column].
+    """
+    table = load_products()["section"]
+    columns = zip(row, table["columns"].items(), strict=True)
+    values = {quantity: _span(one, unit) for one, (quantity, unit) in columns}
+    return _make(values, table)
+
+
+def make_hollow_section(sizes: tuple[float, ...]) -> list[Product]:
+    """Round tube, or box: this is hot finished or cold formed, so two products.
+
+    Parameters
+    ----------
+    sizes : tuple of float
+        Diameter and wall, or depth, width and wall [mm].
+    """
+    table = load_products()["hollow_section"]
+    *sides, wall = (size * 1e-3 for size in sizes)
+    if len(sides) == 1:
+        tube = compute_tube(sides[0], wall)
+        return [_make({key: _span(one) for key, one in tube.items()}, table["round"])]
+    made = []
+    for way in table["box"]:
+        outer, inner = next(
+            (outer * wall, inner * wall)
+            for limit, outer, inner in way["radii"]
+            if sizes[-1] <= limit
+        )
+        box = compute_box(sides[0], sides[1], wall, outer=outer, inner=inner)
+        made.append(_make({key: _span(one) for key, one in box.items()}, way))
+    return made
+
+
+def make_bar(entry: dict[str, Any], diameters: list[float]) -> Product:
+    """Solid bar of one of some diameters.
+
+    Parameters
+    ----------
+    entry : dict
+        Of the data.
+    diameters : list of float
+        Nominal [mm].
+    """
+    outer = min(diameters) * 1e-3, max(diameters) * 1e-3
+    area = math.pi / 4.0 * outer[0] ** 2, math.pi / 4.0 * outer[1] ** 2
+    values = {"outer_diameter": outer, "area": area}
+    for word in ("yield", "ultimate"):
+        low, high = values[f"{word}_strength"] = _span(entry[word], 1e6)
+        values[f"{word}_force"] = area[0] * low, area[1] * high
+    return _make(values, entry)
+
+
+def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Product:
+    """Hollow bar; its strengths are its forces over its area."""
+    units = load_products()["hollow"]["units"].items()
+    values = {key: _span(bar[key], unit) for key, unit in units if key in bar}
+    least, most = values["area"]
+    for word in ("yield", "ultimate"):
+        if f"{word}_force" in values:
+            low, high = values[f"{word}_force"]
+            values[f"{word}_strength"] = low / least, high / most
+    return _make(values, family)
+
+
+def list_constructions(strands: Iterable[str]) -> list[str]:
+    """Constructions of the catalogue with these strands, whatever their core."""
+    stranded = load_catalogue()["rope"]["construction"]
+    known = (*stranded, *load_products()["rope"]["spiral"]["layers"])
+    return [one for one in known if one.partition("-")[0] in strands]
+
+
+def make_rope(construction: str, diameter: float, grades: list[float]) -> Product:
+    """Wire rope of one of some grades; THEORY.md, (R4) without its ends.
+
+    Parameters
+    ----------
+    construction : str
+        With its core, of the catalogue.
+    diameter : float
+        Nominal [mm].
+    grades : list of float
+        Strengths of wires [N/mm2].
+    """
+    area, breaking, assumed, source = _find_factors(construction)
+    force = breaking * diameter**2
+    values = {
+        "rope_diameter": _span(diameter, 1e-3),
+        "metallic_area": _span(area * diameter**2, 1e-6),
+        "grade": (min(grades) * 1e6, max(grades) * 1e6),
+        "breaking_force": (force * min(grades), force * max(grades)),
+    }
+    recalled = frozenset(values) - _NAMED if assumed else frozenset[str]()
+    return Product(id="", family="", values=values, assumed=recalled, sources=(source,))
+
+
+def _find_factors(construction: str) -> tuple[float, float, bool, Message]:
+    """C and K of a rope, whether they are recalled, and their source."""
+    spiral, rope = load_products()["rope"]["spiral"], load_catalogue()["rope"]
+    if construction not in spiral["layers"]:
+        factors = rope["construction"][construction]
+        source = say("resistance_source.rope")
+        return factors["C"], factors["K"], rope["status"] == "assumed", source
+    n = spiral["layers"][construction]
+    area = math.pi / 4.0 * (1 + 3 * n * (n + 1)) / (2 * n + 1) ** 2
+    breaking = area * spiral["spinning"][construction]
+    return area, breaking, True, say(f"product_source.{spiral['source']}")
+
+
+def _span(value: Any, unit: float = 1.0) -> Span:
+    low, high = value if isinstance(value, list) else (value, value)
+    return low * unit, high * unit
+
+
+def _make(values: dict[str, Span], entry: dict[str, Any]) -> Product:
+    """One product, before a name; the entry of the data says where it comes from."""
+    recalled = values if entry["status"] == "assumed" else entry.get("recalled", ())
+    return Product(
+        id="",
+        family="",
+        values=values,
+        assumed=(frozenset(recalled) - _NAMED) & values.keys(),
+        sources=(say(f"product_source.{entry['source']}"),),
+    )

@@ -1,0 +1,263 @@
+"""Sections, bars and ropes as norms and makers have them, found by a type's name.
+
+A name that holds no product gives None, and so does one that holds two, or one several
+times: a false hit is worse than a miss. Data and patterns: products.toml.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from collections.abc import Iterator
+from itertools import chain
+from typing import Any
+
+from netdesign.resistance.catalogue import load_catalogue
+from netdesign.resistance.product_data import (
+    Product,
+    join,
+    list_constructions,
+    load_products,
+    make_bar,
+    make_beam,
+    make_hollow_bar,
+    make_hollow_section,
+    make_rope,
+)
+
+_LONGEST_NAME = 200
+_DECIMAL = r"(\d+(?:\.\d+)?)"
+_END = r"(?:(?= ?mm(?!\w))|(?![\w/]|\.\d))"
+_NUMBER = rf"(?<![\w./]){_DECIMAL}{_END}"
+_SIZES = rf"(?<![\w./]){_DECIMAL} ?[x/*] ?{_DECIMAL}(?: ?[x/*] ?{_DECIMAL})?{_END}"
+# What may stand between a bar's name and its diameter.
+_BETWEEN = r"(?:[ \-:.,@]|stab|anker|bar|barre|tige|nagel|pfahl|b ?500(?: ?[abc])?)*"
+_MANY = r"^[2-9] ?(?=[a-wyz@])|(?<![\w.])[2-9] ?(?:x|stk|stuck|pcs|nos)\.? ?(?=[a-z@])"
+_MANY += r"|(?<!\w)(?:double|doppel|twin|jumele)"
+_LENGTH_OR_FORCE = r"(?<!\w)l ?= ?\d+(?:\.\d+)?(?: ?m)?(?!\w)"
+_LENGTH_OR_FORCE += r"|(?<![\w.])\d+(?:\.\d+)? ?(?:m|ml|kn|kpa|mpa|kg)(?!\w)"
+_HOLE = r"(?<![a-z])(?:bohr|bore|drill|hole|forage|trou|perfor|krone|bit)[a-z]*"
+_HOLE_SIZE = rf"{_HOLE}[ :=@\-]*\d+(?:\.\d+)?(?: ?mm)?(?!\w)"
+_HOLE_SIZE += rf"|(?<![\w./])\d+(?:\.\d+)? ?(?:mm)? ?{_HOLE}(?![a-z]|[ :=@\-]*\d)"
+_DIAMETER_WORD = r"(?<![a-z])(?:diametre|diam|dia|durchmesser|dm|d)[ .=:]*(?=\d)"
+_HOLLOW_BAR = (
+    r"(?<![a-z0-9])(?:([rt]) ?(\d\d)(?:([lns])|(?:-(?=\d{3})|/)(\d{2,4}))?"
+    r"|(?:titan|ischebeck)[ -]*(?:titan[ -]*)?(\d{2,3} ?[/x-] ?\d{2,3}))(?![a-z0-9])"
+)
+_STRANDS = r"(?<![\w.])(\d ?x ?\d{1,2} ?(?:ws|s|w|m)?)(?!\w)"
+
+
+def find_product(name: str) -> Product | None:
+    """Product that the name of a type holds, as an office writes it.
+
+    Examples
+    --------
+    >>> find_product("post HEB 120, S355").id
+    'HEB120'
+    >>> find_product("R7") is None
+    True
+    """
+    text = _simplify(name)
+    if re.search(_MANY, text):
+        return None
+    finders = (
+        _find_beam,
+        _find_hollow_section,
+        _find_bar,
+        _find_hollow_bar,
+        _find_rope,
+    )
+    found = [one for find in finders if (one := find(text)) is not None]
+    return found[0] if len(found) == 1 else None
+
+
+def _simplify(name: str) -> str:
+    """Lower case, no accents, lengths, forces or drilled holes; "@" for a diameter."""
+    text = re.sub("[®™]", "", name[:_LONGEST_NAME])
+    text = unicodedata.normalize("NFKD", text).casefold()
+    text = "".join(sign for sign in text if not unicodedata.combining(sign))
+    text = re.sub("[×✕]", "x", re.sub("[–—‐‑]", "-", text)).replace("_", " ")
+    text = re.sub(r"(?<=\d),(?=\d)", ".", text)
+    text = re.sub(r" ?[ø⌀∅] ?=? ?", " @", text)
+    text = re.sub(_LENGTH_OR_FORCE, " ", re.sub(_DIAMETER_WORD, "@", text))
+    text = re.sub(r"(?<=[a-z]{3})(?=\d)", " ", text)
+    text = re.sub(_HOLE_SIZE, " ", text)
+    return " ".join(text.split())
+
+
+def _has_word(pattern: str, text: str) -> bool:
+    return re.search(rf"(?<![a-z])(?:{pattern})(?![a-z])", text) is not None
+
+
+def _find_beam(text: str) -> Product | None:
+    table = load_products()["section"]["series"]
+    found = {
+        (series, next(filter(None, match.groups())))
+        for series, one in table.items()
+        for match in re.finditer(
+            rf"(?<![a-z0-9])(?:{one['pattern']})(?![a-z0-9]|/\d\d)", text
+        )
+    }
+    series, size = found.pop() if len(found) == 1 else ("", "")
+    row = table.get(series, {}).get("sizes", {}).get(size)
+    return join(f"{series}{size}", "section", [make_beam(row)]) if row else None
+
+
+def _find_hollow_section(text: str) -> Product | None:
+    table = load_products()["hollow_section"]
+    is_round = _has_word(table["round_word"], text)
+    is_box = _has_word(table["box_word"], text)
+    found: set[tuple[float, ...]] = set()
+    for match in re.finditer(_SIZES, text):
+        sizes = [float(one) for one in match.groups() if one]
+        is_marked = text[: match.start()].endswith("@") or sizes[0] % 1.0 != 0.0
+        if is_box or (is_round and len(sizes) == 3):
+            found |= _read_box(sizes, table)
+        if not is_box and (is_round or is_marked):
+            found |= _read_tube(sizes, table, slack=0.5 if is_round else 0.0)
+    if len(found) != 1:
+        return None
+    sizes = list(found.pop())
+    name = "x".join(f"{size:g}" for size in sizes)
+    kind = "CHS" if len(sizes) == 2 else "RHS"
+    return join(f"{kind} {name}", "section", make_hollow_section(tuple(sizes)))
+
+
+def _read_tube(
+    sizes: list[float], table: dict[str, Any], slack: float
+) -> set[tuple[float, ...]]:
+    """Diameter and wall, if there is such a tube; a length may follow."""
+    nearest: float = min(table["diameters"], key=lambda one: abs(one - sizes[0]))
+    fits = abs(nearest - sizes[0]) <= slack and sizes[1] in table["walls"]
+    return {(nearest, sizes[1])} if fits and sizes[1] <= nearest / 5.0 else set()
+
+
+def _read_box(sizes: list[float], table: dict[str, Any]) -> set[tuple[float, ...]]:
+    """Depth, width and wall, of three sizes or, where it is square, of two."""
+    *sides, wall = sizes
+    depth, width = max(sides), min(sides)
+    fits = {depth, width} <= set(table["sides"]) and wall in table["walls"]
+    return {(depth, width, wall)} if fits and wall <= width / 5.0 else set()
+
+
+def _find_bar(text: str) -> Product | None:
+    table: list[dict[str, Any]] = load_products()["bar"]
+    hits = (
+        (one, match)
+        for one in table
+        if (match := re.search(rf"(?<![a-z0-9])(?:{one['pattern']})(?![a-z])", text))
+    )
+    first, match = next(hits, (None, None))
+    if first is None or match is None:
+        return None
+    same = [one for one in table if one["id"] == first["id"]]
+    sizes = [size for one in same for size in one["diameters"]]
+    size = _find_diameter(text, match, sizes, may_precede=first.get("behind", False))
+    if size is None and first.get("plain", False):
+        return None
+    fitting = [
+        make_bar(one, one["diameters"] if size is None else [size])
+        for one in same
+        if size is None or size in one["diameters"]
+    ]
+    name = first["id"] if size is None else f"{first['id']} {size:g}"
+    return join(name, "solid bar", fitting)
+
+
+def _find_diameter(
+    text: str, match: re.Match[str], sizes: list[float], *, may_precede: bool
+) -> float | None:
+    """Diameter that follows a bar's name, else the one that is marked as such."""
+    before, after = text[: match.start()], text[match.end() :]
+    direct = re.match(_BETWEEN + _DECIMAL + _END, after)
+    if may_precede and direct is None:
+        direct = re.search(rf"(?<![\w./]){_DECIMAL} ?$", before)
+    if direct is not None:
+        return _pick_size(float(direct[1]), sizes)
+    found = {_pick_size(one, sizes) for one in _list_marked(f"{before} ; {after}")}
+    found.discard(None)
+    return found.pop() if len(found) == 1 else None
+
+
+def _pick_size(number: float, sizes: list[float]) -> float | None:
+    """Size of the list that a number means, which may leave its decimals away."""
+    near = (s for s in sizes if number in (s, math.floor(s), math.ceil(s)))
+    return next(near, None)
+
+
+def _list_marked(text: str) -> Iterator[float]:
+    """Numbers with the sign of a diameter, or in mm."""
+    for match in re.finditer(rf"(@ ?)?{_NUMBER}( ?mm(?!\w))?", text):
+        if match[1] or match[3]:
+            yield float(match[2])
+
+
+def _find_hollow_bar(text: str) -> Product | None:
+    table = load_products()["hollow"]
+    is_said = _has_word(table["word"], text)
+    found: set[tuple[str, str]] = set()
+    for match in re.finditer(_HOLLOW_BAR, text):
+        letter, size, mark, number, titan = match.groups()
+        if titan:
+            found.add(("TITAN", re.sub(" ?[/x-] ?", "/", titan)))
+        elif is_said or mark or number:
+            found.add((f"{letter}{size}".upper(), mark or number or ""))
+    series, mark = found.pop() if len(found) == 1 else ("", "")
+    fitting = [
+        make_hollow_bar(bar, family)
+        for family in table["family"]
+        for bar in family["bars"]
+        if bar["series"] == series and mark in ("", *bar["marks"])
+    ]
+    name = f"{series} {mark}".strip().upper()
+    return join(name, "hollow bar", fitting) if fitting else None
+
+
+def _find_rope(text: str) -> Product | None:
+    table = load_products()["rope"]
+    strands = {
+        match[1]: table["strands"][match[1].replace(" ", "")]
+        for match in re.finditer(_STRANDS, text)
+        if match[1].replace(" ", "") in table["strands"]
+    }
+    is_said = _has_word(table["word"], text)
+    if (
+        len(strands) > 1
+        or not (strands or is_said)
+        or re.search(table["not_word"], text)
+    ):
+        return None
+    written, meant = next(iter(strands.items()), ("rope", None))
+    rest = text.replace(written, " ") if strands else text
+    diameter = _find_rope_diameter(rest, table, is_enough=bool(strands))
+    if diameter is None:
+        return None
+    known = meant or set(chain.from_iterable(table["strands"].values()))
+    numbers = {float(match[1]) for match in re.finditer(r"(?<!\d)(\d{4})(?!\d)", rest)}
+    grades = [float(one) for one in load_catalogue()["rope"]["grade"]["values"]]
+    fitting = [
+        make_rope(one, diameter, [g for g in grades if g in numbers] or grades)
+        for one in _keep_cores(list_constructions(known), rest, table["cores"])
+    ]
+    return join(f"{written.replace(' ', '')} {diameter:g} mm", "rope", fitting)
+
+
+def _find_rope_diameter(
+    text: str, table: dict[str, Any], *, is_enough: bool
+) -> float | None:
+    """The only diameter [mm]; with a construction a number without sign is enough."""
+    if re.search(r"(?<![\w.])\d ?x ?@?\d", text):  # several ropes
+        return None
+    low, high = table["diameters"]
+    found = {one for one in _list_marked(text) if low <= one <= high}
+    if is_enough and not found:
+        numbers = {float(match[1]) for match in re.finditer(_NUMBER, text)}
+        found = {one for one in numbers if low <= one <= high}
+    return found.pop() if len(found) == 1 else None
+
+
+def _keep_cores(known: list[str], text: str, cores: dict[str, str]) -> list[str]:
+    """Constructions whose core is said; all, if none is, or none has it."""
+    said = [core for core, pattern in cores.items() if _has_word(pattern, text)]
+    return [one for one in known if one.partition("-")[2] in said] or known

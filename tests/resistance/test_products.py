@@ -1,0 +1,458 @@
+"""Products by name: their numbers against one another, and what names mean.
+
+Figures from elsewhere: FACTS.md, section 14.
+"""
+
+import math
+import random
+import string
+from itertools import pairwise
+
+import pytest
+
+from netdesign.resistance.catalogue import load_catalogue
+from netdesign.resistance.product_data import join, list_constructions, load_products
+from netdesign.resistance.products import find_product
+from netdesign.resistance.sections import compute_box, compute_tube
+from netdesign.words.catalogue import LANGUAGES, render
+
+SERIES = load_products()["section"]["series"]
+BEAMS = [f"{name}{size}" for name, one in SERIES.items() for size in one["sizes"]]
+BARS = [(one, size) for one in load_products()["bar"] for size in one["diameters"]]
+HOLLOW = [
+    f"{bar['series']} {mark}"
+    if bar["series"] == "TITAN"
+    else f"{bar['series']}{'-' if len(mark) > 2 else '/'}{mark}"
+    for family in load_products()["hollow"]["family"]
+    for bar in family["bars"]
+    for mark in bar["marks"]
+    if not mark.isalpha()
+]
+
+
+def one(name, quantity, unit=1.0):
+    """Value of a quantity that a name leaves no choice of."""
+    low, high = find_product(name).values[quantity]
+    assert low == high
+    return low / unit
+
+
+def integrate(widths, depth, strips=20_000):
+    """Area and second moment of a symmetrical section, of strips by their height."""
+    step = depth / strips
+    heights = [(k + 0.5) * step - depth / 2.0 for k in range(strips)]
+    area = sum(widths(z) for z in heights) * step
+    return area, sum(widths(z) * z * z for z in heights) * step
+
+
+def beam_width(z, h, b, web, flange, root):
+    """Width of an I-section at the height z, with its root fillets."""
+    below = h / 2.0 - flange - abs(z)  # under the flange
+    if below < 0.0:
+        return b
+    if below > root:
+        return web
+    return web + 2.0 * (root - math.sqrt(root**2 - (root - below) ** 2))
+
+
+def compute_beam_side(h, b, web, flange, root):
+    """Second moment about the weak axis; of the fillets by their centroid."""
+    fillet = (1.0 - math.pi / 4.0) * root**2
+    lever = web / 2.0 + root * (10.0 - 3.0 * math.pi) / (12.0 - 3.0 * math.pi)
+    own = 1.0 / 3.0 - math.pi / 16.0 - 1.0 / (36.0 - 9.0 * math.pi)
+    plates = 2.0 * flange * b**3 / 12.0 + (h - 2.0 * flange) * web**3 / 12.0
+    return plates + 4.0 * (own * root**4 + fillet * lever**2)
+
+
+@pytest.mark.parametrize("name", BEAMS)
+def test_tables_of_beams_are_what_their_dimensions_give(name):
+    words = ("depth", "width", "web_thickness", "flange_thickness", "root_radius")
+    h, b, web, flange, root = (one(name, word) for word in words)
+    area, strong = integrate(lambda z: beam_width(z, h, b, web, flange, root), h)
+    weak = compute_beam_side(h, b, web, flange, root)
+    given = {
+        "area": area,
+        "second_moment_strong": strong,
+        "second_moment_weak": weak,
+        "section_modulus_strong": 2.0 * strong / h,
+        "section_modulus_weak": 2.0 * weak / b,
+    }
+    for quantity, value in given.items():
+        assert one(name, quantity) == pytest.approx(value, rel=1e-3), quantity
+
+
+@pytest.mark.parametrize("series", SERIES)
+def test_larger_beams_are_larger(series):
+    for small, large in pairwise(SERIES[series]["sizes"].values()):
+        assert all(a < b for a, b in zip(small[5:], large[5:], strict=True))
+
+
+@pytest.mark.parametrize(
+    ("name", "area", "strong", "weak", "modulus"),
+    [  # as printed in tables of mills, cm2, cm4, cm3
+        ("HEB120", 34.0, 864, 318, 144),
+        ("IPE 140", 16.4, 541, 44.9, 77.3),
+        ("HEA 160", 38.8, 1673, 616, 220),
+        ("HEB200", 78.1, 5696, 2003, 570),
+        ("CHS 76.1x3.6", 8.20, 54.0, 54.0, 14.2),
+    ],
+)
+def test_values_known_from_elsewhere(name, area, strong, weak, modulus):
+    assert one(name, "area", 1e-4) == pytest.approx(area, rel=2e-3)
+    assert one(name, "second_moment_strong", 1e-8) == pytest.approx(strong, rel=2e-3)
+    assert one(name, "second_moment_weak", 1e-8) == pytest.approx(weak, rel=2e-3)
+    assert one(name, "section_modulus_strong", 1e-6) == pytest.approx(modulus, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "cold", "hot"),
+    [  # EN 10219-2 and EN 10210-2 as mills print them, cm2, cm4
+        ("SHS 80x4", ("area", 1e-4), 11.7, 12.0),
+        ("SHS 80x4", ("second_moment_strong", 1e-8), 111, 114),
+        ("SHS 100x5", ("area", 1e-4), 18.4, 18.7),
+        ("SHS 100x5", ("second_moment_strong", 1e-8), 271, 279),
+        ("SHS 100x8", ("area", 1e-4), 27.2, 28.8),
+        ("SHS 200x12.5", ("area", 1e-4), 87.0, 92.1),
+        ("RHS 80x40x4", ("second_moment_weak", 1e-8), 21.5, 22.2),
+    ],
+)
+def test_boxes_are_hot_finished_or_cold_formed(name, quantity, cold, hot):
+    word, unit = quantity
+    low, high = find_product(name).values[word]
+    assert low / unit == pytest.approx(cold, rel=5e-3)
+    assert high / unit == pytest.approx(hot, rel=5e-3)
+    assert find_product(name).tell_status(word) == "assumed"
+    assert find_product(name).tell_status("depth") == "secondary"
+
+
+def test_a_box_is_what_its_strips_add_up_to():
+    def width(z, h, b, r):
+        into = max(abs(z) - (h / 2.0 - r), 0.0)
+        return b - 2.0 * (r - math.sqrt(r**2 - into**2))
+
+    found = compute_box(0.1, 0.06, 0.008, outer=0.02, inner=0.012)
+    area, second = integrate(
+        lambda z: (
+            width(z, 0.1, 0.06, 0.02)
+            - (width(z, 0.084, 0.044, 0.012) if abs(z) < 0.042 else 0.0)
+        ),
+        0.1,
+    )
+    assert found["area"] == pytest.approx(area, rel=1e-5)
+    assert found["second_moment_strong"] == pytest.approx(second, rel=1e-5)
+    turned = compute_box(0.06, 0.1, 0.008, outer=0.02, inner=0.012)
+    assert turned["second_moment_weak"] == found["second_moment_strong"]
+    assert turned["section_modulus_weak"] == found["section_modulus_strong"]
+    assert found["section_modulus_strong"] == found["second_moment_strong"] / 0.05
+
+
+def test_a_tube_has_the_radius_of_gyration_of_a_ring():
+    tube = compute_tube(0.1, 0.01)
+    ratio = tube["second_moment_strong"] / tube["area"]
+    assert ratio == pytest.approx((0.1**2 + 0.08**2) / 16.0)
+    assert (tube["outer_diameter"], tube["inner_diameter"]) == (0.1, 0.08)
+    assert tube["depth"] == tube["width"] == 0.1
+
+
+@pytest.mark.parametrize(("bar", "size"), BARS)
+def test_a_bar_is_its_area_times_its_strength(bar, size):
+    name = {"B500": "B500B Ø", "950/1050": "950/1050 Ø"}.get(bar["id"], bar["id"])
+    found = find_product(f"{name} {size:g} mm")
+    assert found.id == f"{bar['id']} {size:g}"
+    assert found.family == "solid bar"
+    values = found.values
+    area = math.pi / 4.0 * (size * 1e-3) ** 2
+    assert values["area"] == pytest.approx((area, area))
+    for word in ("yield", "ultimate"):
+        low, high = values[f"{word}_strength"]
+        assert values[f"{word}_force"] == pytest.approx((area * low, area * high))
+    assert values["yield_strength"][1] < values["ultimate_strength"][0] * 1.01
+
+
+@pytest.mark.parametrize(
+    ("name", "force", "ultimate"),
+    [  # makers' sheets, kN
+        ("GEWI 63.5", 1758, 2217),
+        ("Swiss GEWI 28", 308, 357),
+        ("GEWI Plus 43", 973, 1162),
+        ("950/1050 47", 1650, 1820),
+        ("Macalloy 36", 850, 1049),
+    ],
+)
+def test_forces_are_those_of_makers_sheets(name, force, ultimate):
+    assert one(name, "yield_force", 1e3) == pytest.approx(force, rel=5e-3)
+    assert one(name, "ultimate_force", 1e3) == pytest.approx(ultimate, rel=5e-3)
+
+
+def test_grades_that_share_a_name_are_a_range():
+    low, high = find_product("GEWI 28").values["yield_force"]
+    assert (low / 1e3, high / 1e3) == pytest.approx((308, 339), rel=5e-3)
+    assert find_product("SWISS GEWI").values["outer_diameter"] == (0.012, 0.05)
+    assert find_product("SWISS GEWI").values["yield_strength"] == (5e8, 5e8)
+    low, high = find_product("SWISS GEWI").values["yield_force"]
+    assert (low / 1e3, high / 1e3) == pytest.approx((57, 981), rel=0.01)
+
+
+@pytest.mark.parametrize("name", HOLLOW)
+def test_a_hollow_bar_is_a_ring_of_its_area(name):
+    found = find_product(name)
+    assert found.family == "hollow bar"
+    values = found.values
+    if "outer_diameter" in values:
+        for outer, inner, area in zip(
+            values["outer_diameter"],
+            values["inner_diameter"]
+            if values["outer_diameter"][0] < values["outer_diameter"][1]
+            and values["inner_diameter"][0] < values["inner_diameter"][1]
+            else 2 * values["inner_diameter"][:1],
+            values["area"],
+            strict=True,
+        ):
+            assert math.pi / 4.0 * (outer**2 - inner**2) == pytest.approx(
+                area, rel=0.01
+            )
+            assert inner < outer <= values["nominal_diameter"][0]
+    low, high = values["yield_force"]
+    least, most = values["area"]
+    assert values["yield_strength"] == pytest.approx((low / least, high / most))
+    assert 4e8 < low / least < 7e8
+    if "ultimate_force" in values:
+        assert values["ultimate_force"][0] > 1.04 * high
+
+
+@pytest.mark.parametrize("series", ["R32", "R38", "R51", "T76"])
+def test_stronger_hollow_bars_have_more_steel(series):
+    (family,) = (
+        one
+        for one in load_products()["hollow"]["family"]
+        if one["source"] == "dywi_drill"
+    )
+    bars = [bar for bar in family["bars"] if bar["series"] == series]
+    for less, more in pairwise(bars):
+        assert less["area"] < more["area"]
+        assert less["inner_diameter"] > more["inner_diameter"]
+        assert less["ultimate_force"] < more["ultimate_force"]
+        assert str(less["ultimate_force"]) == less["marks"][0]
+    whole = find_product(f"IBO {series}").values
+    assert whole["area"][0] == bars[0]["area"] * 1e-6
+    assert whole["area"][1] >= bars[-1]["area"] * 1e-6
+
+
+def test_a_quantity_that_one_of_several_lacks_is_left_out():
+    assert "outer_diameter" not in find_product("R25N").values
+    assert "ultimate_force" in find_product("TITAN 40/16").values
+    assert "ultimate_force" not in find_product("TITAN 73/53").values
+
+
+def test_products_of_one_name_are_joined_in_what_both_have():
+    known, bare = find_product("R32N"), find_product("R25N")
+    for fitting in ([known, bare], [bare, known]):
+        joined = join("both", "hollow bar", fitting)
+        assert set(joined.values) == set(bare.values) <= set(known.values)
+        assert joined.values["nominal_diameter"] == (0.025, 0.032)
+        assert joined.values["ultimate_force"] == pytest.approx((2e5, 2.8e5))
+        assert joined.assumed == bare.assumed
+        assert set(joined.sources) == {*known.sources, *bare.sources}
+
+
+def test_ropes_break_as_their_norm_says():
+    values = find_product("6x19-IWRC Ø18 1770").values
+    assert values["breaking_force"][1] == pytest.approx(0.356 * 18**2 * 1770)
+    assert values["metallic_area"][1] == pytest.approx(0.449 * 18**2 * 1e-6)
+    assert values["rope_diameter"] == pytest.approx((0.018, 0.018))
+    assert values["grade"] == (1.77e9, 1.77e9)
+    both = find_product("6x36 18 mm")
+    assert both.values["breaking_force"] == pytest.approx(
+        (0.330 * 18**2 * 1570, 0.356 * 18**2 * 2160)
+    )
+    assert both.tell_status("breaking_force") == "secondary"
+
+
+@pytest.mark.parametrize(("name", "wires"), [("1x7", 7), ("1x19", 19), ("1x37", 37)])
+def test_spiral_ropes_have_the_area_of_their_wires(name, wires):
+    across = {7: 3, 19: 5, 37: 7}[wires]
+    found = find_product(f"{name} Ø 14,5 mm")
+    wire = math.pi / 4.0 * (0.0145 / across) ** 2
+    assert found.values["metallic_area"][0] == pytest.approx(wires * wire)
+    low, _ = found.values["breaking_force"]
+    assert 0.85 < low / (wires * wire * 1.57e9) <= 0.9
+    assert found.assumed == {"metallic_area", "breaking_force"}
+
+
+def test_every_construction_is_meant_by_a_name():
+    meant = load_products()["rope"]["strands"].values()
+    known = set().union(*(list_constructions(strands) for strands in meant))
+    assert known >= set(load_catalogue()["rope"]["construction"])
+
+
+def test_every_product_has_sources_in_every_language():
+    names = [*BEAMS, *HOLLOW, "IBO R32", "SHS 80x4", "CHS 76.1x3.6", "Seil Ø18"]
+    names += [f"{bar['id']} Ø{size:g}" for bar, size in BARS]
+    for name in names:
+        found = find_product(name)
+        assert found.sources
+        assert found.assumed <= set(found.values)
+        for source in found.sources:
+            assert all(render(source, language) for language in LANGUAGES)
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("HEB120", "HEB120"),
+        ("heb-120", "HEB120"),
+        ("HE 120 B", "HEB120"),
+        ("HE-B 120", "HEB120"),
+        ("HE120B", "HEB120"),
+        ("post HEB 120 S355", "HEB120"),
+        ("Stütze HEB 120/S355 J2", "HEB120"),
+        ("Poteau HEB_120 L=3,5 m", "HEB120"),
+        ("HEA 160", "HEA160"),
+        ("HE 160 A", "HEA160"),
+        ("IPBl 160", "HEA160"),
+        ("IPE 140", "IPE140"),
+        ("montant IPE140", "IPE140"),
+        ("IPE 80", "IPE80"),
+        ("CHS 76.1x3.6", "CHS 76.1x3.6"),
+        ("CHS76.1x3.6", "CHS 76.1x3.6"),
+        ("ROR 76,1 x 3,6", "CHS 76.1x3.6"),
+        ("Ø76.1/3.6", "CHS 76.1x3.6"),
+        ("tube 76.1x3.6", "CHS 76.1x3.6"),
+        ("tube rond Ø 76,1 × 3,6 mm", "CHS 76.1x3.6"),
+        ("Rohr 76 x 3.6", "CHS 76.1x3.6"),
+        ("76.1x3.6", "CHS 76.1x3.6"),
+        ("Rohr 114.3x5x3000", "CHS 114.3x5"),
+        ("RHS 100x60x5", "RHS 100x60x5"),
+        ("RHS100x60x5", "RHS 100x60x5"),
+        ("RRO 60x100x5", "RHS 100x60x5"),
+        ("SHS 80x4", "RHS 80x80x4"),
+        ("QRO 80x5", "RHS 80x80x5"),
+        ("tube carré 80x80x4", "RHS 80x80x4"),
+        ("GEWI 28", "GEWI 28"),
+        ("gewi28", "GEWI 28"),
+        ("GEWI Ø 28 mm", "GEWI 28"),
+        ("GEWI® 28", "GEWI 28"),
+        ("GEWI-Stab 28", "GEWI 28"),
+        ("GEWI 500/550 Ø28", "GEWI 28"),
+        ("Ø28 mm GEWI", "GEWI 28"),
+        ("barre GEWI diam. 28", "GEWI 28"),
+        ("GEWI B500B d=28, Bohrloch 90 mm", "GEWI 28"),
+        ("A1 GEWI 32 L=4m", "GEWI 32"),
+        ("GEWI 32 4.5 m 250 kN", "GEWI 32"),
+        ("GEWI 63,5", "GEWI 63.5"),
+        ("GEWI 63", "GEWI 63.5"),
+        ("GEWI 28/32", "GEWI"),
+        ("type 20 GEWI", "GEWI"),
+        ("GEWI plus 30", "GEWI Plus 30"),
+        ("GEWI+ 30", "GEWI Plus 30"),
+        ("SAS 670/800 Ø35", "GEWI Plus 35"),
+        ("SAS 500 28", "SAS 500 28"),
+        ("SAS 550/620 Ø40", "SAS 550 40"),
+        ("Swiss GEWI 25", "SWISS GEWI 25"),
+        ("SWISS-GEWI", "SWISS GEWI"),
+        ("Dywidag 950/1050 Ø32", "950/1050 32"),
+        ("Y1050H 36", "950/1050 36"),
+        ("26 WR", "950/1050 26.5"),
+        ("Macalloy 1030 26.5", "Macalloy 1030 26.5"),
+        ("SAS 835/1035 36", "835/1035 36"),
+        ("Ø25 B500B", "B500 25"),
+        ("BSt 500 S Ø 20", "B500 20"),
+        ("IBO R32", "R32"),
+        ("Selbstbohranker R 38", "R38"),
+        ("self-drilling R51", "R51"),
+        ("barre autoforeuse R32", "R32"),
+        ("R32N", "R32 N"),
+        ("R 38-500", "R38 500"),
+        ("R25N", "R25 N"),
+        ("T76-1600", "T76 1600"),
+        ("R32/15", "R32 15"),
+        ("TITAN40/16", "TITAN 40/16"),
+        ("Titan 40/16", "TITAN 40/16"),
+        ("Ischebeck TITAN 30-11", "TITAN 30/11"),
+        ("6x19 18 mm", "6x19 18 mm"),
+        ("rope 6x19 18", "6x19 18 mm"),
+        ("Seil 18 mm 6x36", "6x36 18 mm"),
+        ("6 x 36 WS-IWRC 1960 N/mm2 Ø20", "6x36WS 20 mm"),
+        ("câble 18 mm", "rope 18 mm"),
+        ("Seil18mm", "rope 18 mm"),
+        ("Abspannseil Ø 20", "rope 20 mm"),
+        ("GEWI Bohrloch Ø 50", "GEWI"),
+        ("Ø50 mm Bohrung, GEWI", "GEWI"),
+        ("GEWI Ø28 Bohrloch-Ø 90 mm", "GEWI 28"),
+        ("DYWI Drill R32-280, bit 76 mm", "R32 280"),
+        ("Seil 18 mm, Bohrloch 50 mm", "rope 18 mm"),
+        ("1x19 14,5", "1x19 14.5 mm"),
+    ],
+)
+def test_a_name_is_read_as_offices_write_it(name, meant):
+    assert find_product(name).id.casefold() == meant.casefold()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("", "A1", "P1", "G18", "R1", "R7", "T1", "P32", "R32", "T76", "R38", "HE120"),
+        *(
+            "R32-S",
+            "R32-999",
+            "R3",
+            "H120",
+            "B120",
+            "IPE A 140",
+            "IPEA140",
+            "IPE 140 O",
+        ),
+        *("HEM 120", "HE 120 M", "HEAA 120", "HEB 125", "HEB 1200", "HEB", "SHEB 120"),
+        *("HEB 100/120", "HEB 100 HEB 120", "2 HEB 120", "2x GEWI 28", "2 Stk. IPE 80"),
+        *("double HEB 120", "HEB 120 + GEWI 28", "IBO", "Titan", "Titan 41/16"),
+        *("950/1050", "B500B", "B500B 27", "Macalloy 500 25", "DYWIDAG 28", "WR 36"),
+        *("tube", "tube 77x3.6", "tube 76.1x37", "Ø76.1", "plate 100x60x5", "M20x80"),
+        *("tube 80x4", "SHS 80x4.3", "CHS 33.7x8", "CHS 76.1x3.7"),
+        *("100x60x5", "RHS 100x60", "SHS 85x4", "SHS 30x8", "tube 75x5", "Ø 108.5/4"),
+        *("6x19", "6x19 3 mm", "6x91 18 mm", "câble 1", "Seil 12", "Seil 2x18 mm"),
+        *(
+            "Seil 18 mm / 20 mm",
+            "R32-15",
+            "R32 mai",
+            "Spiralseilanker 14.5 mm",
+            "rope anchor 18 mm",
+        ),
+        *(
+            "Ø18",
+            "18 mm",
+            "1770",
+            "cable net 6x19 6x36 18 mm",
+            "Geweih 28",
+            "gewinde 28",
+        ),
+    ],
+)
+def test_a_name_that_holds_none_or_several_gives_none(name):
+    assert find_product(name) is None
+
+
+def test_a_thousand_names_that_are_none_give_none():
+    draw = random.Random(35)
+    words = ("post", "Anker", "ancrage", "amont", "talseitig", "guy", "foot", "type")
+    words += ("rock", "Fels", "rocher", "scree", "hauban", "upslope", "old", "neu")
+    for _ in range(1_000):
+        parts = draw.sample(words, draw.randint(0, 2))
+        ident = "".join(draw.choices(string.ascii_uppercase, k=draw.randint(1, 2)))
+        parts.append(f"{ident}{draw.choice(['', ' ', '-', '.'])}{draw.randint(1, 99)}")
+        if draw.random() < 0.5:
+            parts.append(f"{draw.randint(1, 9)}.{draw.randint(0, 9)} m")
+        if draw.random() < 0.3:
+            parts.append(f"{draw.randint(50, 500)} kN")
+        draw.shuffle(parts)
+        name = draw.choice([" ", ", ", " / "]).join(parts)
+        assert find_product(name) is None, name
+
+
+@pytest.mark.parametrize(
+    "part",
+    ["b500 ", "b 500 b ", "1x", "76.1x", "Ø ", "seil", "d=", "l=1", "gewi ", "9.9"],
+)
+def test_no_text_takes_long_to_read(part):
+    """Patterns that try every way of a repeated part would never end."""
+    find_product("GEWI " + part * 100 + "!")
+    find_product(part * 100 + "b500b ß²®½")
