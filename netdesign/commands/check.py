@@ -154,6 +154,9 @@ def check(
     if dry_run:
         count = len(profiles)
         sys.exit(announce(site, run, count, as_json=as_json, language=language))
+    if not quiet:
+        for question in site.questions:
+            tell(say("cli.question", text=question), language, err=True)
     outputs = plan_outputs(
         folder,
         [profile.id for profile in profiles],

@@ -59,6 +59,7 @@ def announce(
                 for one in phases
             ],
             "notes": [render(one, language) for one in site.notes],
+            "questions": [render(one, language) for one in site.questions],
         }
         click.echo(json.dumps(plan, indent=1))
     else:
@@ -88,6 +89,8 @@ def _show(
             tell(_name_phase(phase), language)
     for note in site.notes:
         tell(say("cli.note", text=note), language)
+    for question in site.questions:
+        tell(say("cli.question", text=question), language)
 
 
 def _name_phase(phase: Phase) -> Message:

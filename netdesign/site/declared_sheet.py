@@ -118,9 +118,7 @@ def _read_line(
     )
 
 
-def _check_row(
-    row: Reading, row_ids: Collection[str], findings: list[Finding]
-) -> bool:
+def _check_row(row: Reading, row_ids: Collection[str], findings: list[Finding]) -> bool:
     """Refuse an unknown net row; True of a line that holds for all of them."""
     is_of_all = row.word not in row_ids and normalise(row.word) in _ALL_ROWS
     if row.word and row_ids and row.word not in row_ids and not is_of_all:

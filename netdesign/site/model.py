@@ -456,6 +456,12 @@ class Site:
     what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
 
     @property
+    def questions(self) -> tuple[Message, ...]:
+        """Numbers that can hardly be meant; their net rows are not proven."""
+        asked = (one for one in self.findings if one.severity == "question")
+        return tuple(one.message for one in asked)
+
+    @property
     def ranges_sheet(self) -> str:
         """Sheet of the ranges, by the name that the workbook has for it."""
         cells = (one.cell for one in self.range_inputs if "!" in one.cell)

@@ -166,6 +166,7 @@ def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
         drawing=record_drawing(row, governing),
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
+        questions=list(row.questions),
         monitoring=record_monitoring(task.site, row),
         anchors=record_anchors(governing, loads.effects),
         pulls=record_pulls(loads.pulls),

@@ -270,6 +270,7 @@ class RowStudy:
     drawing: Drawing | None  # None when no case converged
     reasons: list[Text]  # why the row is not proven, or what failed; may be empty
     unsaid: list[Message] = field(default_factory=list)  # empty columns that decide
+    questions: list[Message] = field(default_factory=list)  # numbers hardly meant
     monitoring: list[MonitoringRecord] = field(default_factory=list)
     anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case

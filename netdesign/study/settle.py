@@ -100,7 +100,9 @@ def _check_inputs(row: NetRow) -> CheckResult | None:
         member=Member.NET,
         mode="plausible",
         verdict=Verdict.NOT_PROVEN,
-        reason=not_proven(*row.questions),
+        reason=say(
+            "check.questions", questions=row.questions, sheet=say("sheet.Declared")
+        ),
     )
 
 

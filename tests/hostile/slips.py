@@ -68,7 +68,7 @@ def list_slips(path):
                 if other is not None and other.text != cell.text:
                     swapped = {cell.place: other.text, other.place: cell.text}
                     yield Slip(f"swapped with the next {kind}", cell.place, swapped)
-        yield from list_units(table)
+        yield from list_units(table, set(columns))
 
 
 def read(cell):
@@ -78,11 +78,13 @@ def read(cell):
         return None
 
 
-def list_units(table):
-    """Headings whose unit is the next one that the column may have."""
+def list_units(table, filled):
+    """Headings of filled columns, with the next unit that the column may have."""
     fields = {field.key: field for field in table.plan.fields}
     for key, column in table.columns.items():
         field, unit = fields[key], column.unit
+        if column.number not in filled:
+            continue
         heading = table.sheet.cell(table.heading_row, column.number)
         units = field.units
         if unit not in units or len(units) < 2 or unit not in heading.text:

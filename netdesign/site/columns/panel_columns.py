@@ -7,7 +7,7 @@ from netdesign.site.columns.fields import Field
 from netdesign.site.columns.unit_names import ANGLES, FORCES, SHARES
 from netdesign.units import degree_from_radian
 
-_ROPE_NOTE = "id of sheet Ropes; left empty, the worst of that sheet counts"
+_ROPE_NOTE = "id of sheet Ropes; left empty, an EA of 5 to 60 MN, the worse counts"
 _SAG_NOTE = "as built, without snow, over the post spacing; left empty, 3 to 10 %"
 
 PANEL = (

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from functools import lru_cache
 from importlib.resources import files
 from typing import Any, TypeAlias
@@ -23,6 +23,8 @@ Doubt: TypeAlias = tuple[Reading, Message]
 _TOLERANCE = 0.05  # of a value of the catalogue
 _LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
 _FORCES = ("tendon", "rope")
+_TESTED = ("pull_out", "test_mean")
+_MOST_TESTED = 1.12  # times the tendon, whose strength may be given as that of yield
 # Quantities of a product by the columns that give them; the first is what is asked for.
 _OF_PRODUCT: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "Anchors": {
@@ -58,16 +60,23 @@ def list_doubts(line: Row, sheet: str) -> Iterator[Doubt]:
     sheet : str
         Its name in English.
     """
-    typed = {key: one for key, one in line.items() if is_typed(one)}
-    if sheet in _OF_PRODUCT:
-        yield from _list_unlike(typed, line["id"].word, _OF_PRODUCT[sheet])
+    typed = {key: one for key, one in line.items() if _is_meant(one, f"{sheet}.{key}")}
+    alone = dict(_list_unlike(typed, line, sheet))
     for key, reading in typed.items():
-        column = f"{sheet}.{key}"
-        if reading.number == 0.0 and column in load_usual()["zero"]["columns"]:
-            continue
-        told = _doubt_alone(reading, column) or _doubt_beside(reading, column, line)
+        told = _doubt_alone(reading, f"{sheet}.{key}")
+        if told and key not in alone:
+            alone[key] = told
+    for key, reading in typed.items():
+        told = alone.get(key) or _doubt_beside(reading, f"{sheet}.{key}", line, alone)
+        told = told or _doubt_tested(reading, key, line)
         if told:
             yield reading, told
+
+
+def _is_meant(reading: Reading, column: str) -> bool:
+    """A number is typed, and no zero that says that there is none."""
+    has_zero = column in load_usual()["zero"]["columns"]
+    return is_typed(reading) and not (has_zero and reading.number == 0.0)
 
 
 def is_typed(reading: Reading) -> bool:
@@ -90,10 +99,15 @@ def _doubt_alone(reading: Reading, column: str) -> Message | None:
     )
 
 
-def _doubt_beside(reading: Reading, column: str, line: Row) -> Message | None:
+def _doubt_beside(
+    reading: Reading, column: str, line: Row, doubted: Container[str]
+) -> Message | None:
+    """Doubt by others of the line, none of which is in doubt itself."""
     for least, most, powers in load_usual()["beside"].get(column, ()):
         others = [line[key] for key in powers]
         if any(one.state != "given" or not one.number for one in others):
+            continue
+        if any(key in doubted for key in powers):
             continue
         scale = math.prod(line[key].si ** power for key, power in powers.items())
         if not least * scale <= reading.si <= most * scale:
@@ -108,6 +122,17 @@ def _doubt_beside(reading: Reading, column: str, line: Row) -> Message | None:
     return None
 
 
+def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
+    """No test pulls more out of the ground than its tendon bears."""
+    tendon = line.get("tendon")
+    if key not in _TESTED or tendon is None or tendon.state != "given":
+        return None
+    is_tested = key == "test_mean" or line["basis"].word == "tested"
+    if not is_tested or reading.si <= _MOST_TESTED * tendon.si:
+        return None
+    return say("plausible.tested", tendon=_name_with_value(tendon))
+
+
 def _name_with_value(reading: Reading) -> Message:
     return say(
         "plausible.named",
@@ -119,13 +144,14 @@ def _name_with_value(reading: Reading) -> Message:
 
 
 def _list_unlike(
-    typed: Mapping[str, Reading], name: str, columns: Mapping[str, tuple[str, ...]]
-) -> Iterator[Doubt]:
+    typed: Mapping[str, Reading], line: Row, sheet: str
+) -> Iterator[tuple[str, Message]]:
     """Numbers of a type that are not those of the product that it is named after."""
-    product = find_product(name)
+    columns = _OF_PRODUCT.get(sheet, {})
+    product = find_product(line["id"].word) if columns else None
     if product is None:
         return
-    for key in columns.keys() & typed.keys():
+    for key in (one for one in columns if one in typed):
         reading = typed[key]
         spans = [product.values[one] for one in columns[key] if one in product.values]
         if not spans:
@@ -141,7 +167,7 @@ def _list_unlike(
         unit = reading.field.unit
         known = tuple(_name_span(from_si(a, unit), from_si(b, unit)) for a, b in spans)
         yield (
-            reading,
+            key,
             say(
                 "plausible.unlike",
                 product=product.id,

@@ -10,11 +10,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.site.cells.cells import Cell
-from netdesign.site.cells.findings import Finding
+from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.confirmed_values import Confirmation, show_value
 from netdesign.site.plausible.columns import list_column_doubts
 from netdesign.site.plausible.doubts import Doubt, list_doubts
-from netdesign.site.readings import Row, refuse
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.type_references import TypeSheets, list_references
 from netdesign.words.message import Message, say
 
@@ -67,11 +67,24 @@ def ask(
         if reading.cell is None or reading.place in settled or not rows:
             continue
         if reading.place not in asked:
-            refuse(reading, rule, _tell_how(reading.cell), findings, severity="question")
-            asked[reading.place] = findings[-1].message
+            refuse(
+                reading, rule, _tell_how(reading.cell), findings, severity="question"
+            )
+            asked[reading.place] = _name_question(reading, rule)
         for row in rows:
             by_row.setdefault(row, {})[asked[reading.place]] = None
     return {row: tuple(questions) for row, questions in by_row.items()}
+
+
+def _name_question(reading: Reading, rule: Message) -> Message:
+    """The question as the check of a net row has it."""
+    return say(
+        "plausible.asked",
+        place=reading.place,
+        field=reading.field.name,
+        text=quote(reading.text),
+        rule=rule,
+    )
 
 
 def _tell_how(cell: Cell) -> Message:
@@ -85,7 +98,9 @@ def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
     every = [line["id"].word for line in lines.nets]
     for line in lines.nets:
         yield from _give([line["id"].word], list_doubts(line, "Nets"))
-    place_of = {id(one): line["id"].word for line in lines.nets for one in line.values()}
+    place_of = {
+        id(one): line["id"].word for line in lines.nets for one in line.values()
+    }
     for doubt in list_column_doubts(lines.nets, "Nets"):
         yield [place_of[id(doubt[0])]], doubt
     for row, end in lines.ends.items():

@@ -23,6 +23,7 @@ from netdesign.study.records import CheckRecord, ProfileRecord, RowStudy
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
+_NEVER_MET = ("profile.named", "inputs.plausible")  # there while something is open
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
     Verdict.FAIL: (
@@ -55,7 +56,8 @@ def audit_checks(
     if _has_ropes(row) and not _goes_on(row):
         wanted += [f"{member}.{mode}.end" for member, mode in END_MODES]
     wanted.append(f"{Member.POST}.lateral")
-    lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
+    wanted += ["geometry.inclination", *_list_open(row, profile)]
+    lost = [name for name in wanted if name not in counts]
     if lost:
         yield say("audit.no_check", place=place, checks=tuple(lost))
     yield from _audit_floor(place, row, profile)
@@ -68,7 +70,10 @@ def audit_checks(
         if not is_own and check.member != Member.NET:
             what = name_check(check.member, check.mode, check.position)
             yield say("audit.check_of_other", place=where, what=what)
-        if check.mode in MODES_WITHOUT_FORCE:
+        if check.id in _NEVER_MET:
+            if check.verdict is not Verdict.NOT_PROVEN:
+                yield tell_verdict(where, check.verdict, Verdict.NOT_PROVEN)
+        elif check.mode in MODES_WITHOUT_FORCE:
             yield from _audit_direction(where, check, row, factors)
         elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
@@ -76,6 +81,14 @@ def audit_checks(
                 yield from _audit_force(where, check, row, factors)
                 if not accepts_law:
                     yield from _audit_snow(where, check, row)
+
+
+def _list_open(row: RowStudy, profile: ProfileRecord) -> Iterator[str]:
+    """Checks of a row that are there only while something is open."""
+    if profile.is_default:
+        yield "profile.named"
+    if row.questions:
+        yield "inputs.plausible"
 
 
 def _audit_force(

@@ -130,6 +130,8 @@ def _audit_row(
     place = say("audit.row", row=row.id)
     inputs = {"inputs": row.inputs}, {"inputs": list(given.inputs)}
     yield from tell_differences("audit.row_otherwise", *inputs, place=place)
+    asked = {"questions": row.questions}, {"questions": list(given.questions)}
+    yield from tell_differences("audit.row_otherwise", *asked, place=place)
     yield from audit_panel_inputs(row, given)
     if site.ranges.is_grid:
         points = [record_point(case) for case in build_cases(site.ranges)]

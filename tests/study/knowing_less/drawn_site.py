@@ -1,5 +1,6 @@
 """Drawn sites of one net row, every cell of which somebody might leave empty."""
 
+import math
 import random
 
 import pytest
@@ -161,7 +162,7 @@ def _draw_net(draw):
         "ground_law": ground,
         "net_height": height,
         "net_stiffness": _round(draw.uniform(4000.0, 22000.0)),
-        "slack": _round(draw.uniform(0.0, 0.11)),
+        "slack": draw.choice((0.0, *(_round(draw.uniform(0.012, 0.11)) for _ in "abcd"))),
         "post_spacing": _round(draw.uniform(2.4, 4.4)),
         "uphill_anchor_distance": _round(height * draw.uniform(0.7, 1.5)),
         "downhill_anchor_distance": _round(height * draw.uniform(0.6, 1.4)),
@@ -236,25 +237,30 @@ def _draw_anchors(draw):
         "pull_out": _round(270.0 * scale),
         "basis": draw.choice(("tested", "computed")),
     }
+    diameter = _round(draw.uniform(25.0, 57.0))
+    bears = 0.25 * math.pi * diameter**2 * 0.5  # [kN]
     yield {
         "id": "solid",
         "kind": "bar",
-        "bar_diameter": _round(draw.uniform(25.0, 57.0)),
+        "bar_diameter": diameter,
         "bar_strength": 500.0,
         "lever_arm": draw.choice((0.0, _round(draw.uniform(2.0, 60.0)))),
-        "pull_out": _round(300.0 * scale),
+        "pull_out": _round(bears * draw.uniform(0.6, 1.05)),
         "basis": "tested",
     }
+    diameter, inner = _round(draw.uniform(52.0, 73.0)), _round(draw.uniform(25.0, 45.0))
+    bears = 0.25 * math.pi * (diameter**2 - inner**2) * 0.54  # [kN]
+    mean = _round(bears * draw.uniform(0.6, 1.05))
     yield {
         "id": "hollow",
         "kind": "micropile",
-        "bar_diameter": _round(draw.uniform(52.0, 73.0)),
-        "inner_diameter": _round(draw.uniform(25.0, 45.0)),
+        "bar_diameter": diameter,
+        "inner_diameter": inner,
         "bar_strength": 540.0,
         "lever_arm": _round(draw.uniform(5.0, 80.0)),
         "test_count": draw.choice((2, 3, 5)),
-        "test_least": _round(400.0 * scale),
-        "test_mean": _round(450.0 * scale),
+        "test_least": _round(mean * draw.uniform(0.8, 1.0)),
+        "test_mean": mean,
     }
     yield {
         "id": "tried",

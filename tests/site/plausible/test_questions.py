@@ -1,0 +1,164 @@
+"""Questions about numbers of a workbook: which, of which net rows, how they end."""
+
+import openpyxl
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.site.plausible.doubts import load_usual
+from netdesign.site.reader import read_site
+from netdesign.site.template import workbook as template
+from netdesign.site.template.annotate import annotate_workbook
+from netdesign.words.catalogue import LANGUAGES, render
+from tests.hostile.slips import PLANS
+from tests.study.knowing_less.drawn_site import draw_lines, write_lines
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory):
+    path = tmp_path_factory.mktemp("plausible") / "site.xlsx"
+    template.write_site_workbook(path, example=True)
+    return path
+
+
+def asked(path, **cells):
+    """Questions with some cells replaced: the site, and their places."""
+    site = read_site(
+        path, instead={key.replace("_", "!"): v for key, v in cells.items()}
+    )
+    found = [one for one in site.findings if one.severity == "question"]
+    return site, [f"{one.sheet}!{one.cell}" for one in found]
+
+
+def rows_in_question(site):
+    return [row.id for row in site.rows if row.questions]
+
+
+def test_nothing_is_asked_of_the_example(example):
+    site, places = asked(example)
+    assert (places, rows_in_question(site), site.questions) == ([], [], ())
+
+
+@pytest.mark.parametrize(
+    ("cell", "typed", "rows", "told"),
+    [
+        ("Posts_D2", "3175", ["R1"], "HEB120: 317.5 cm4 (EN 10365)"),
+        ("Posts_C2", "340", ["R1"], "HEB120: 34.01 cm2"),
+        ("Posts_M2", "1441", ["R1"], "HEB120: 144.1 or 52.92 cm3"),
+        ("Ropes_B2", "3500", ["R1", "R2", "R3", "R6", "R7"], "50 to 2300 kN"),
+        ("Anchors_C2", "3800", ["R3", "R4", "R5"], "40 to 2500 kN"),
+        ("Nets_C3", "0.28", ["R2"], "0.8 to 6.5 m"),
+        ("Nets_N2", "40", ["R1"], "net height 2.5 m in Nets!I2"),
+        ("Nets_E4", "200", ["R3"], "4 to 100 m"),
+        ("Nets_E2", "1.5", ["R1"], "4 to 100 m"),
+        ("Ranges_C3", "1.5", ["R1", "R2", "R3", "R4", "R5", "R6", "R7"], "5 to 45 deg"),
+        ("Ends_L2", "3", ["R1"], "5 to 65 deg"),
+        ("Ropes_G7", "145000", [f"R{n}" for n in range(1, 8)], "7.5e+03 to 4.8e+04 kN"),
+    ],
+)
+def test_a_slip_is_asked_for_with_its_cell_and_its_rows(
+    example, cell, typed, rows, told
+):
+    """Those of the contract, and one of every sheet: none ends a study's other rows."""
+    site, places = asked(example, **{cell: typed})
+    assert places == [cell.replace("_", "!")]
+    assert rows_in_question(site) == rows
+    (question,) = site.questions
+    assert told in str(question)
+    assert f"= {typed}" in str(question)
+
+
+def declare(path, tmp_path, line, **cells):
+    workbook = openpyxl.load_workbook(path)
+    for place, value in cells.items():
+        sheet, cell = place.split("_")
+        workbook[sheet][cell] = value
+    for column, value in enumerate(line, start=1):
+        workbook["Declared"].cell(3, column).value = value
+    workbook.save(tmp_path / "declared.xlsx")
+    return tmp_path / "declared.xlsx"
+
+
+CONFIRMED = ("all", "Posts!D2 = 3175", "Drawing 12", "B. Rüegg", "2026-11-03")
+
+
+def test_a_number_that_is_confirmed_is_not_asked_for_and_told(example, tmp_path):
+    site, places = asked(declare(example, tmp_path, CONFIRMED, Posts_D2=3175))
+    assert (places, rows_in_question(site)) == ([], [])
+    (told,) = [str(one) for one in site.notes if "B. Rüegg" in str(one)]
+    assert "Posts!D2 = 3175" in told
+    assert len(site.declared) == 1  # that of R3: a number is no check
+
+
+@pytest.mark.parametrize(
+    ("line", "place", "told"),
+    [
+        (CONFIRMED, "B3", "holds"),
+        (("all", "Posts!D2 = 3176", *CONFIRMED[2:4], None), "E3", "empty"),
+        (("all", "Post!D2 = 3176", *CONFIRMED[2:]), "B3", "no longer true"),
+        (("R17", "Posts!D2 = 3176", *CONFIRMED[2:]), "A3", "no id"),
+        (("all", "Posts!D2 = 3176", None, *CONFIRMED[3:]), "C3", "empty"),
+    ],
+)
+def test_a_confirmation_that_does_not_hold_is_refused(
+    example, tmp_path, line, place, told
+):
+    path = declare(example, tmp_path, line, Posts_D2=3176)
+    with pytest.raises(SiteDataError) as caught:
+        read_site(path)
+    found = [f"{one.sheet}!{one.cell} {one.rule}" for one in caught.value.findings
+             if one.severity == "error"]  # fmt: skip
+    assert any(one.startswith(f"Declared!{place} ") and told in one for one in found), (
+        found
+    )
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_questions_are_marked_in_the_copy(example, language, tmp_path):
+    path = declare(example, tmp_path, (), Posts_D2=3175)
+    site = read_site(path)
+    (tmp_path / "copy.xlsx").write_bytes(
+        annotate_workbook(path, site.findings, language=language)
+    )
+    copy = openpyxl.load_workbook(tmp_path / "copy.xlsx")
+    assert "HEB120" in copy["Posts"]["D2"].comment.text
+    assert "Posts!D2 = 3175" in render(site.questions[0], language)
+
+
+def test_every_column_with_usual_numbers_is_a_column_and_its_bounds_are_wider():
+    """A number that is refused need not be asked for."""
+    fields = {
+        f"{plan.name}.{field.key}": field for plan in PLANS for field in plan.fields
+    }
+    usual = load_usual()
+    for column, (low, high, _) in usual["alone"].items():
+        if column.startswith("Ranges."):
+            continue
+        least, most = fields[column].bounds
+        assert least <= low < high <= most, column
+    for column, rules in usual["beside"].items():
+        sheet = column.partition(".")[0]
+        assert column in fields
+        for low, high, others in rules:
+            assert low < high
+            assert {f"{sheet}.{key}" for key in others} <= fields.keys()
+    assert set(usual["zero"]["columns"]) <= fields.keys() | {"Ranges.slack"}
+
+
+SITES = 200
+MOST_FALSE_ALARMS = 0.01
+
+
+def test_sensible_sites_are_asked_nothing(tmp_path):
+    """Drawn by what is built, not by what counts as usual here."""
+    alarms = []
+    for seed in range(5000, 5000 + SITES):
+        write_lines(tmp_path / "site.xlsx", draw_lines(seed))
+        alarms += [str(one) for one in read_site(tmp_path / "site.xlsx").questions]
+    assert len(alarms) <= MOST_FALSE_ALARMS * SITES, alarms[:20]
+
+
+def test_a_confirmed_number_is_confirmed_as_number(example, tmp_path):
+    for typed in (3175, 3175.0, "3175", "3175,0", "3.175e3"):
+        line = ("all", f"Posts!D2 = {typed}", *CONFIRMED[2:])
+        path = declare(example, tmp_path, line, Posts_D2=3175)
+        assert read_site(path).questions == ()

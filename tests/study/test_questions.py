@@ -1,0 +1,81 @@
+"""A net row whose numbers are in question: not proven, and no hand makes it a pass."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.outcome import Verdict
+from netdesign.study.audit import audit_study
+from netdesign.study.cases import solve_site
+from netdesign.study.document import read_document, write_document
+from netdesign.study.judge import judge_site
+from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.message import say
+from tests.small_site import RUN, build_row, build_site
+
+STANDARD = load_standard("nf-p-95-304-style")
+ASKED = say(
+    "plausible.asked",
+    place="Posts!D2",
+    field=say("column.Posts.second_moment"),
+    text='"3175"',
+    rule=say("plausible.diameter", diameter=12.0),
+)
+
+
+@pytest.fixture(scope="module")
+def judged():
+    site = build_site(build_row("R1", questions=(ASKED,)), build_row("R2"))
+    return site, judge_site(site, solve_site(site, RUN), STANDARD, RUN)
+
+
+def alter(study, **changes):
+    (check,) = [one for one in study.rows[0].checks if one.id == "inputs.plausible"]
+    others = [one for one in study.rows[0].checks if one is not check]
+    kept = [*others, replace(check, **changes)] if changes else others
+    row = replace(study.rows[0], checks=kept, verdict=Verdict.PASS, reasons=[])
+    return replace(study, rows=[row, *study.rows[1:]], verdict=Verdict.PASS)
+
+
+def test_the_row_is_not_proven_by_it_alone_and_the_other_one_passes(judged):
+    _, study = judged
+    first, second = study.rows
+    assert (first.verdict, second.verdict) == (Verdict.NOT_PROVEN, Verdict.PASS)
+    open_checks = [one for one in first.checks if one.verdict is not Verdict.PASS]
+    assert [one.id for one in open_checks] == ["inputs.plausible"]
+    for language in LANGUAGES:
+        told = render(open_checks[0].reason, language)
+        assert "Posts!D2" in told
+        assert "3175" in told
+        assert render(say("sheet.Declared"), language) in told
+
+
+def test_the_study_is_read_again_and_does_not_contradict_itself(judged):
+    site, study = judged
+    again = read_document(write_document(study))
+    assert again.rows[0].questions == [ASKED]
+    assert audit_study(again) == audit_study(again, STANDARD, site) == []
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"verdict": Verdict.PASS},
+        {"verdict": Verdict.PASS, "reason": say("check.passes")},
+        {"verdict": Verdict.DECLARED},
+    ],
+    ids=["dropped", "passed", "passed with a reason", "declared"],
+)
+def test_a_question_taken_for_an_answer_is_found(judged, changes):
+    _, study = judged
+    assert audit_study(alter(study, **changes), STANDARD)
+
+
+def test_a_question_forgotten_with_its_check_is_found_beside_the_site(judged):
+    site, study = judged
+    altered = alter(study)
+    forgotten = replace(altered.rows[0], questions=[])
+    altered = replace(altered, rows=[forgotten, *altered.rows[1:]])
+    assert audit_study(altered, STANDARD, site)
