@@ -15,7 +15,11 @@ import click
 from click.core import ParameterSource
 
 from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell
-from netdesign.commands.config import ENVIRONMENT_PREFIX, require_known_variables
+from netdesign.commands.config import (
+    ENVIRONMENT_PREFIX,
+    find_idle_variables,
+    require_known_variables,
+)
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.help import ToldContext
 from netdesign.commands.language import find_language, tell
@@ -79,7 +83,10 @@ def cli(context: click.Context, language: Language) -> None:
         # an option of all commands would be weaker than the variable of one of them
         refused = say("usage.language_later", command=name, language=language)
         raise UsageRefusal(refused, context)
-    require_known_variables(name, cli.commands[name])
+    command = cli.commands[name]
+    require_known_variables(name, command)
+    for idle in find_idle_variables(name, command, _COMMANDS):
+        tell(say("cli.note", text=idle), _speak(), err=True)
 
 
 cli.context_class = ToldContext  # its commands get theirs when they are imported

@@ -125,7 +125,7 @@ def _find_law(study: Study) -> CreepLaw:
 
 
 def _find_accuracy(study: Study) -> float:
-    """Accuracy that a study says; infinite, and so no cause of a note, if it is none."""
+    """Accuracy that a study says; infinite, no cause of a note, if it is none."""
     try:
         return float(study.provenance.settings["accuracy"])
     except (KeyError, ValueError):
