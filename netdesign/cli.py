@@ -22,7 +22,7 @@ from netdesign.commands.config import (
 )
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.help import ToldContext
-from netdesign.commands.language import find_language, tell
+from netdesign.commands.language import find_command, find_language, tell
 from netdesign.commands.options import language_option
 from netdesign.commands.running import EXIT_CODES, own_command
 from netdesign.commands.table import CommandTable
@@ -132,7 +132,8 @@ def _run() -> NoReturn:
         tell(say("cli.interrupted", command=own_command()), _speak(), err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
-        shown = describe_refusal(error, _speak())
+        _, command = find_command(cli, sys.argv[1:])
+        shown = describe_refusal(error, _speak(), command)
         click.echo(make_printable(shown), nl=False, err=True)
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
