@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.idle import refuse_idle
+from netdesign.commands.idle import refuse_without
 from netdesign.commands.options import (
     accuracy_option,
     jobs_option,
@@ -184,9 +184,9 @@ def _refuse_idle(given: Sequence[str], language: Language) -> None:
     """Refuse options of a measurement that is not asked for."""
     if not set(given) & set(_RANDOM):
         of_random = ("seed", "accuracy", "jobs")
-        refuse_idle(of_random, "idle_without", language, needed=_RANDOM)
+        refuse_without(of_random, _RANDOM, language)
     if "--envelope" not in given:
-        refuse_idle(["missed"], "idle_without", language, needed=("--envelope",))
+        refuse_without(["missed"], ("--envelope",), language)
 
 
 def _run_random(

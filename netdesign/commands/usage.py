@@ -189,22 +189,22 @@ def _name_accepted(kind: Any) -> Message | str | None:
     if isinstance(kind, click.Choice):
         return ", ".join(map(str, kind.choices))
     if isinstance(kind, click.types.IntParamType):
-        return _name_number(kind, "whole_number")
+        return say("usage.whole_number", limits=_name_limits(kind))
     if isinstance(kind, click.types.FloatParamType):
-        return _name_number(kind, "number")
+        return say("usage.number", limits=_name_limits(kind))
     if isinstance(kind, click.Path):
         return say("usage.file" if kind.file_okay else "usage.folder")
     return None
 
 
-def _name_number(kind: Any, key: str) -> Message:
-    """A number with its limits, as they can be typed: with a point in any language."""
+def _name_limits(kind: Any) -> Message | str:
+    """Limits of a number as they can be typed: with a point in any language."""
     low, high = getattr(kind, "min", None), getattr(kind, "max", None)
     if low is None:
-        return say(f"usage.{key}")
+        return ""
     if high is None:
-        return say(f"usage.{key}_from", low=f"{low:g}")
-    return say(f"usage.{key}_between", low=f"{low:g}", high=f"{high:g}")
+        return say("usage.least", low=f"{low:g}")
+    return say("usage.between", low=f"{low:g}", high=f"{high:g}")
 
 
 def _name(error: click.BadParameter) -> str:

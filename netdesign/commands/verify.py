@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from netdesign.commands.faults import tell_faults
-from netdesign.commands.idle import refuse_idle
+from netdesign.commands.idle import refuse_without
 from netdesign.commands.language import tell
 from netdesign.commands.options import (
     force_option,
@@ -86,7 +86,7 @@ def verify(
     """
     if study_file is None:
         of_study = ("site_file", "standard", "jobs")
-        refuse_idle(of_study, "idle_without", language, needed=("--study",))
+        refuse_without(of_study, ("--study",), language)
         sys.exit(_run_pack(as_json=as_json, out=out, force=force, language=language))
     if out is not None:
         raise UsageRefusal(say("usage.out_not_with_study"))

@@ -13,9 +13,9 @@ import click
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.idle import (
-    refuse_idle,
-    refuse_idle_delimiter,
-    refuse_idle_jobs,
+    refuse_delimiter,
+    refuse_jobs,
+    refuse_without,
 )
 from netdesign.commands.language import tell
 from netdesign.commands.options import (
@@ -143,10 +143,10 @@ def winter(
     if example == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
     heights_read = [] if heights is None else [heights]
-    refuse_idle_delimiter(*heights_read, site_file, language=language)
-    refuse_idle_jobs(executor, language)
+    refuse_delimiter(*heights_read, site_file, language=language)
+    refuse_jobs(executor, language)
     if fit is None:
-        refuse_idle(FIT_NAMES, "idle_without", language, needed=("--fit",))
+        refuse_without(FIT_NAMES, ("--fit",), language)
     folder = out or (None if as_json else Path(_FOLDER))
     names = _list_places(folder, overwrite=force)
     site = _read_site(site_file, overwrite=force, language=language, **reading)
