@@ -259,7 +259,9 @@ def _write_reasons(
         cell = Cell(text=text)
         book.write_cell(sheet, (index, column), Column(heading=""), cell)
     of_row, check = _write_own(index), _write_governing_line(index)
-    name = f'IF(C{line}="{book.word(Verdict.PASS)}","",INDEX(check_name,{check})&": ")'
+    colon = book.words("show.label", label="", text="")
+    passes = f'C{line}="{book.word(Verdict.PASS)}"'
+    name = f'IF({passes},"",INDEX(check_name,{check})&"{colon}")'
     now = (
         f"IFERROR(IF(INDEX(check_verdict,{check})=C{line},"
         f'{name}&INDEX(check_reason,{check}),"{book.words("caption.changed_held")}"),'
