@@ -15,10 +15,14 @@ import click
 from click.core import ParameterSource
 
 from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell
-from netdesign.commands.config import ENVIRONMENT_PREFIX, require_known_variables
+from netdesign.commands.config import (
+    ENVIRONMENT_PREFIX,
+    find_idle_variables,
+    require_known_variables,
+)
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.help import ToldContext
-from netdesign.commands.language import find_language, tell
+from netdesign.commands.language import find_command, find_language, tell
 from netdesign.commands.options import language_option
 from netdesign.commands.running import EXIT_CODES, own_command
 from netdesign.commands.table import CommandTable
@@ -79,7 +83,10 @@ def cli(context: click.Context, language: Language) -> None:
         # an option of all commands would be weaker than the variable of one of them
         refused = say("usage.language_later", command=name, language=language)
         raise UsageRefusal(refused, context)
-    require_known_variables(name, cli.commands[name])
+    command = cli.commands[name]
+    require_known_variables(name, command)
+    for idle in find_idle_variables(name, command, _COMMANDS):
+        tell(say("cli.note", text=idle), _speak(), err=True)
 
 
 cli.context_class = ToldContext  # its commands get theirs when they are imported
@@ -125,7 +132,8 @@ def _run() -> NoReturn:
         tell(say("cli.interrupted", command=own_command()), _speak(), err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
-        shown = describe_refusal(error, _speak())
+        _, command = find_command(cli, sys.argv[1:])
+        shown = describe_refusal(error, _speak(), command)
         click.echo(make_printable(shown), nl=False, err=True)
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:

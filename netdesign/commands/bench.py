@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.commands.idle import refuse_without
 from netdesign.commands.options import (
     accuracy_option,
     jobs_option,
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 Kind = Literal["stress", "errors", "lines"]
 
 _EXIT_FAIL = 1
+_RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,6 +154,7 @@ def bench(
     }
     given = [name for name, value in wanted.items() if value is not None]
     _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
+    _refuse_idle(given, language)
     telling = _Telling(language, as_json)
     kinds: dict[Kind, int | None] = {"stress": stress, "errors": errors, "lines": lines}
     for kind, count in kinds.items():
@@ -173,8 +176,17 @@ def _refuse_mixtures(given: Sequence[str], *, quick: bool, named: bool) -> None:
         raise UsageRefusal(say("bench.one_of", given=tuple(given)))
     if given and named:
         raise UsageRefusal(say("bench.named_only"))
-    if quick and set(given) & {"--stress", "--errors", "--lines"}:
+    if quick and set(given) & set(_RANDOM):
         raise UsageRefusal(say("bench.not_quick"))
+
+
+def _refuse_idle(given: Sequence[str], language: Language) -> None:
+    """Refuse options of a measurement that is not asked for."""
+    if not set(given) & set(_RANDOM):
+        of_random = ("seed", "accuracy", "jobs")
+        refuse_without(of_random, _RANDOM, language)
+    if "--envelope" not in given:
+        refuse_without(["missed"], ("--envelope",), language)
 
 
 def _run_random(

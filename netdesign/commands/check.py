@@ -15,6 +15,7 @@ from netdesign.commands.check_end import CheckEnd, CheckTask
 from netdesign.commands.check_outputs import plan_outputs
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.dry_run import announce
+from netdesign.commands.idle import refuse_delimiter, refuse_jobs
 from netdesign.commands.language import tell
 from netdesign.commands.next_steps import tell_next_steps
 from netdesign.commands.options import (
@@ -132,6 +133,8 @@ def check(
     """
     if example == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
+    refuse_delimiter(site_file, language=language)
+    refuse_jobs(executor, language)
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     require_one(instead, size=size, has_folder=folder is not None, dry_run=dry_run)
     reading |= {"overwrite": force, "language": language}

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,13 @@ from netdesign.words.message import Message, say
 CONFIG_NAME = "netdesign.toml"
 ENVIRONMENT_PREFIX = "NETDESIGN"
 LANGUAGE_VARIABLE = "NETDESIGN_LANGUAGE"
+_START = f"{ENVIRONMENT_PREFIX}_"
+# Variables of no single command.
+_OF_ALL = (
+    LANGUAGE_VARIABLE,
+    *("NETDESIGN_CORE", "NETDESIGN_STORE", "NETDESIGN_TRACEBACK"),
+)
+_OF_TESTS = ("NETDESIGN_TESTS_", "NETDESIGN_FUZZ_")
 
 
 class ConfiguredCommand(click.Command):
@@ -84,17 +91,55 @@ def require_known_variables(name: str, command: click.Command) -> None:
     UsageError
         With the name that it is near to, if there is one.
     """
-    if isinstance(command, click.Group):
-        return
-    known = [
-        variable
-        for param in command.params
-        for variable in (*(param.envvar or ()), _name_variable(name, param.name or ""))
-    ]
+    known = _list_variables(name, command)
     start = _name_variable(name, "")
     for variable in sorted(os.environ):
         if variable.startswith(start) and variable not in known:
             raise UsageRefusal(_suggest(variable, variable, known))
+
+
+def find_idle_variables(
+    name: str, command: click.Command, names: Iterable[str]
+) -> list[Message]:
+    """Tell of variables that begin as ours do and that nothing reads.
+
+    Parameters
+    ----------
+    name : str
+        Of the command that runs.
+    command : click.Command
+        The same.
+    names : iterable of str
+        Of all commands; their variables may be there for other runs.
+    """
+    starts = (*(_name_variable(one, "") for one in names), *_OF_TESTS)
+    known = _list_variables(name, command)
+    return [
+        _tell_idle(variable, _name_variable(name, variable.removeprefix(_START)), known)
+        for variable in sorted(os.environ)
+        if variable.startswith(_START)
+        and variable not in _OF_ALL
+        and not variable.startswith(starts)
+    ]
+
+
+def _tell_idle(variable: str, own: str, known: Sequence[str]) -> Message:
+    if own in known:
+        return say("usage.idle_variable_near", variable=variable, near=own)
+    return say("usage.idle_variable", variable=variable)
+
+
+def _list_variables(name: str, command: click.Command) -> list[str]:
+    """Variables of a command and of those below it."""
+    found = [
+        variable
+        for param in command.params
+        for variable in (*(param.envvar or ()), _name_variable(name, param.name or ""))
+    ]
+    below = command.commands if isinstance(command, click.Group) else {}
+    for one, of_group in below.items():
+        found += _list_variables(f"{name}_{one}", of_group)
+    return found
 
 
 def _name_variable(command: str, option: str) -> str:

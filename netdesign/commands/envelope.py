@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.idle import refuse_jobs
 from netdesign.commands.language import tell
 from netdesign.commands.options import (
     accuracy_option,
@@ -110,6 +111,7 @@ def envelope(
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene_file
 
+    refuse_jobs(executor, language)
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)
     read = read_scene_file(scene_file, "steady")

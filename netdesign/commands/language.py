@@ -26,7 +26,7 @@ _OPTION = "--language"
 
 def find_language(group: click.Group, words: Sequence[str]) -> Language:
     """Language of a command line; what is no language is refused elsewhere."""
-    path, command = _find_command(group, words)
+    path, command = find_command(group, words)
     variables = (_name_variable(path), LANGUAGE_VARIABLE)
     told = next(filter(None, map(os.environ.get, variables)), None)
     found = _find_option(words) or told
@@ -40,7 +40,7 @@ def tell(message: Message | str, language: Language, *, err: bool = False) -> No
     click.echo(render(message, language), err=err)
 
 
-def _find_command(
+def find_command(
     group: click.Group, words: Sequence[str]
 ) -> tuple[tuple[str, ...], click.Command | None]:
     """Names of the command, as far as they are known, and the command."""

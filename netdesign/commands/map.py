@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from netdesign.commands.idle import refuse_delimiter
 from netdesign.commands.language import tell
 from netdesign.commands.options import force_option, language_option
 from netdesign.commands.site_input import build_text_format, text_options
@@ -38,6 +39,7 @@ def map_headings(
     from netdesign.site.mapping import name_map
     from netdesign.site.questions import write_questions
 
+    refuse_delimiter(site_file, language=language)
     place = name_map(site_file)
     require_free([place], overwrite=force)
     text, missing = write_questions(site_file, build_text_format(**reading), language)

@@ -62,7 +62,7 @@ def _check_delimiter(
     sign = _DELIMITERS.get(value or "", value or "")
     is_mark = sign == "\t" or (sign.isprintable() and not sign.isalnum())
     if len(sign) > 1 or sign == '"' or not is_mark:
-        raise ValueRefusal(say("usage.delimiter"), context, option)
+        raise ValueRefusal(say("usage.delimiter", text=sign), context, option)
     return sign
 
 

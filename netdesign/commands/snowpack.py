@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.config import ConfiguredCommand
+from netdesign.commands.idle import refuse_delimiter, refuse_without
 from netdesign.commands.language import tell
 from netdesign.commands.options import json_option, language_option
 from netdesign.commands.site_input import build_text_format, text_options
@@ -62,6 +63,9 @@ def snowpack(
     from netdesign.snowpack.series import smooth
     from netdesign.winter.row_winters import FIRST_DENSITY
 
+    refuse_delimiter(height_file, language=language)
+    if not as_json:
+        refuse_without(["layers"], ("--json",), language)
     found, remarks = read_height_file(height_file, build_text_format(**reading))
     for remark in remarks:
         tell(remark.message, language, err=True)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.idle import refuse_without
 from netdesign.commands.language import tell
 from netdesign.commands.options import (
     force_option,
@@ -84,8 +85,8 @@ def verify(
     netdesign verify --study reports/study.json --site site.xlsx
     """
     if study_file is None:
-        if site_file or standard or jobs:
-            raise UsageRefusal(say("usage.only_with_study"))
+        of_study = ("site_file", "standard", "jobs")
+        refuse_without(of_study, ("--study",), language)
         sys.exit(_run_pack(as_json=as_json, out=out, force=force, language=language))
     if out is not None:
         raise UsageRefusal(say("usage.out_not_with_study"))

@@ -12,6 +12,11 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.idle import (
+    refuse_delimiter,
+    refuse_jobs,
+    refuse_without,
+)
 from netdesign.commands.language import tell
 from netdesign.commands.options import (
     accuracy_option,
@@ -31,6 +36,7 @@ from netdesign.commands.site_input import (
 from netdesign.commands.solving import open_phases, solving_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.commands.winter_fit import (
+    FIT_NAMES,
     SOLVES,
     fit_options,
     fit_rows,
@@ -136,6 +142,11 @@ def winter(
 
     if example == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
+    heights_read = [] if heights is None else [heights]
+    refuse_delimiter(*heights_read, site_file, language=language)
+    refuse_jobs(executor, language)
+    if fit is None:
+        refuse_without(FIT_NAMES, ("--fit",), language)
     folder = out or (None if as_json else Path(_FOLDER))
     names = _list_places(folder, overwrite=force)
     site = _read_site(site_file, overwrite=force, language=language, **reading)

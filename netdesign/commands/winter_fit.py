@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from netdesign.words.catalogue import Language
 
 SOLVES = 600  # of a fit, about
+FIT_NAMES = ("noise", "cell_error", "rope_kelvin", "known")  # of its parameters
 _PARAMETERS = {
     "slip": "slip_length",
     "density": "density_factor",
@@ -54,8 +55,7 @@ def fit_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def packed(*arguments: Any, is_fitted: bool, **given: Any) -> Any:
-        names = ("noise", "cell_error", "rope_kelvin", "known")
-        choice = FitChoice(**{name: given.pop(name) for name in names})
+        choice = FitChoice(**{name: given.pop(name) for name in FIT_NAMES})
         return command(*arguments, fit=choice if is_fitted else None, **given)
 
     for option in (

@@ -35,7 +35,7 @@ _SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (90, 200)
 _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
 HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take
-_CLOSEST_GAP = 1e-3  # however accurate the cases are
+CLOSEST_GAP = 1e-3  # of a search, however accurate its cases are
 
 
 def count_cases(site: Site) -> int:
@@ -150,7 +150,7 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         ranges=ranges,
         layout=row.layout,
         settings=run.settings,
-        search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
+        search=SearchSettings(gap=max(run.settings.accuracy, CLOSEST_GAP)),
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
         panels=row.panels,

@@ -105,7 +105,7 @@ def gather_study(
         profile=record_profile(standard),
         rows=list(rows),
         range_inputs=list(site.range_inputs),
-        notes=list_site_notes(site, run.creep_law),
+        notes=list_site_notes(site, run.creep_law, run.settings.accuracy),
         provenance=record_provenance(site, run),
         what_if=list(site.what_if),
     )

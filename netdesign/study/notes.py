@@ -14,6 +14,7 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
+from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.effects import RowEffects, list_assumed
 from netdesign.study.end_note import list_end_notes
 from netdesign.study.pulls import AnchorPull
@@ -24,11 +25,28 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
 
 
-def list_site_notes(site: Site, law: CreepLaw) -> list[Message]:
-    """Notes of the importer, and on what the model does with the site's snow."""
+def list_site_notes(site: Site, law: CreepLaw, accuracy: float) -> list[Message]:
+    """Notes of the importer, on the model of the site's snow, on the search.
+
+    ``accuracy`` is the one asked for [-].
+    """
     without_winter = bool(site.monitoring) and site.winter is None
     measured = [say("monitoring.needs_winter")] if without_winter else []
-    return [*site.notes, *_validity_notes(site, law), *_layer_notes(site), *measured]
+    return [
+        *site.notes,
+        *_validity_notes(site, law),
+        *_layer_notes(site),
+        *measured,
+        *_search_notes(site, accuracy),
+    ]
+
+
+def _search_notes(site: Site, accuracy: float) -> list[Message]:
+    """Say where a search ends before the accuracy that its cases have."""
+    if site.ranges.is_grid or accuracy >= CLOSEST_GAP:
+        return []
+    asked, closest = 100.0 * accuracy, 100.0 * CLOSEST_GAP
+    return [say("note.accuracy_of_cases", asked=asked, closest=closest)]
 
 
 def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:

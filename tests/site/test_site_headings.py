@@ -84,6 +84,13 @@ def test_a_heading_with_several_meanings_is_refused_with_them(
     )
 
 
+def test_a_heading_whose_sides_mean_two_columns_is_refused(sheets, save, refused):
+    sheets["Ranges"][0][2] = "de / high"
+    finding = next(one for one in refused(save(sheets)) if one.cell == "C1")
+    assert finding.sheet == "Ranges"
+    assert str(finding.rule) == 'is ambiguous: "low" or "high"'
+
+
 @pytest.mark.parametrize("heading", ["slak [-]", "slack value"])
 def test_an_optional_heading_nearly_right_is_refused_not_defaulted(
     sheets, save, refused, heading

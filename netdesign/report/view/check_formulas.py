@@ -8,6 +8,7 @@ tests its own cells; none relies on another cell having been left alone.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
 from netdesign.report.words import MISSING
@@ -60,6 +61,65 @@ def write_verdict(
     told = f"IF(IFERROR({live},{open_})={fails},{fails},{declared})"
     held = f"IF({given}={fails},{fails},IF({is_declared},{told},{open_}))"
     return f'=IFERROR(IF({given}="{MISSING}",{live},{held}),{open_})'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChangedReasons:
+    """Sentences of a check that is no longer as in the study, by what decides now."""
+
+    passes: str
+    fails: str
+    spans: str  # the resistance, or ends that are not in order
+    lacks: str  # a number
+    set: str  # by the study
+    profile: str
+    factor: str
+
+
+def write_reason(
+    ends: Sequence[str],
+    places: tuple[str, str],
+    conditions: Sequence[str],
+    words: dict[Verdict, str],
+    reasons: ChangedReasons,
+) -> str:
+    """Reason of a check that was changed: it follows the live verdict.
+
+    Parameters
+    ----------
+    ends : sequence of str
+        Low, value and high of the utilisation.
+    places : tuple of str
+        What the study has set, and the live verdict.
+    conditions : sequence of str
+        Conditions of `write_held`: of the profile, then of the factors.
+    words : mapping of Verdict to str
+        Words of the verdicts.
+    reasons : ChangedReasons
+        Sentences.
+    """
+    given, verdict = places
+    passes, fails = (f'{verdict}="{words[one]}"' for one in _VERDICTS[:2])
+    known = ",".join(f"ISNUMBER({end})" for end in ends)
+    lacks = _quote(reasons.lacks)
+    by_ratio = (
+        f"IF({passes},{_quote(reasons.passes)},IF({fails},{_quote(reasons.fails)},"
+        f"IF(AND({known}),{_quote(reasons.spans)},{lacks})))"
+    )
+    by_study = (
+        f"IF({verdict}={given},{_quote(reasons.set)},"
+        f"IF({fails},{_quote(reasons.fails)},{lacks}))"
+    )
+    told = f'IF({given}="{MISSING}",{by_ratio},{by_study})'
+    causes = (reasons.profile, *([reasons.factor] * (len(conditions) - 1)))
+    for condition, cause in reversed([*zip(conditions, causes, strict=True)]):
+        told = f"IF({condition},{told},{_quote(cause)})"
+    return f"IFERROR({told},{lacks})"
+
+
+def _quote(text: str) -> str:
+    """Text in a formula."""
+    return '"' + text.replace('"', '""') + '"'
 
 
 def write_given_verdict(given: str, words: dict[Verdict, str]) -> str:

@@ -14,6 +14,7 @@ from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.view.check_formulas import (
     ROUNDING,
+    ChangedReasons,
     compute_rank,
     write_given_verdict,
     write_held,
@@ -21,6 +22,7 @@ from netdesign.report.view.check_formulas import (
     write_quotient,
     write_rank,
     write_ratio,
+    write_reason,
     write_unchanged,
     write_verdict,
 )
@@ -237,6 +239,7 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         "check_utilisation": _RATIOS[1],
         "check_utilisation_high": _RATIOS[2],
         "check_verdict": _VERDICT,
+        "check_reason": _TAIL[1],
         "check_rank": _RANK,
         "check_unchanged": _UNCHANGED,
         "check_load": _LOADS[2],
@@ -297,7 +300,7 @@ class _CheckLine:
         for field, text in zip(_LEAD[1:], texts, strict=True):
             self._put(field, Cell(text=text))
         self._write_study(check, view)
-        self._write_sentences((view.resistance_from, view.reason))
+        self._write_sentences(check, view)
         fields = (*_LEAD[1:], *_TAIL)
         shown = (*texts, view.resistance_from, view.reason)
         lines = count_lines(shown, [field.width for field in fields])
@@ -383,11 +386,27 @@ class _CheckLine:
         )
         self._sheet.write_formula(*self._place(_UNCHANGED), formula, None, 1)
 
-    def _write_sentences(self, texts: tuple[str, str]) -> None:
-        """Write sentences of the study, shown as long as they hold."""
-        form, changed = self._book.text(text_wrap=True), self._book.words(CHANGED)
-        for field, stored, text in zip(_TAIL, _STUDY_TEXTS, texts, strict=True):
-            formula = f'=IF({self._at(_UNCHANGED)}=1,{self._at(stored)},"{changed}")'
+    def _write_sentences(self, check: CheckRecord, view: CheckView) -> None:
+        """Write sentences of the study, shown as long as they hold.
+
+        Afterwards the reason is that of the live verdict.
+        """
+        form, words = self._book.text(text_wrap=True), self._book.words
+        now = (
+            f'"{words(CHANGED)}"',
+            write_reason(
+                [self._at(field) for field in _RATIOS],
+                (self._at(_SET), self._at(_VERDICT)),
+                self._list_conditions(check),
+                {verdict: self._book.word(verdict) for verdict in Verdict},
+                _list_reasons(words),
+            ),
+        )
+        texts = (view.resistance_from, view.reason)
+        for field, stored, live, text in zip(
+            _TAIL, _STUDY_TEXTS, now, texts, strict=True
+        ):
+            formula = f"=IF({self._at(_UNCHANGED)}=1,{self._at(stored)},{live})"
             self._sheet.write_formula(*self._place(field), formula, form, text)
 
     def _at(self, field: _Field) -> str:
@@ -425,6 +444,18 @@ class _CheckLine:
         live = f'=IFERROR({formula},"{MISSING}")'
         cached = MISSING if value is None else value
         self._sheet.write_formula(*self._place(field), live, form, cached)
+
+
+def _list_reasons(words: Words) -> ChangedReasons:
+    return ChangedReasons(
+        passes=words("caption.changed_passes"),
+        fails=words("caption.changed_fails"),
+        spans=words("caption.changed_spans"),
+        lacks=words("caption.changed_lacks"),
+        set=words("caption.changed_set"),
+        profile=words("caption.changed_profile"),
+        factor=words("caption.changed_factor"),
+    )
 
 
 def show_load(check: CheckRecord, view: CheckView, words: Words) -> str:

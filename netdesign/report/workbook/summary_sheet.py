@@ -171,12 +171,21 @@ def _write_row(
     _write_reasons(book, sheet, index, shown, is_held=held)
 
 
+def _write_own(index: int) -> str:
+    """Condition of a count: a check is of this net row."""
+    return f"check_net_row_number,A{index + 1}"
+
+
+def _write_governing_line(index: int) -> str:
+    """Line of the check that governs a row now, among the checks."""
+    return f"MATCH(_xlfn.MAXIFS(check_rank,{_write_own(index)}),check_rank,0)"
+
+
 def _write_governing(
     book: Book, sheet: Any, index: int, row: RowStudy, shown: RowView
 ) -> None:
     """Name and case of the check that decides now."""
-    mine = f"check_net_row_number,A{index + 1}"
-    line = f"MATCH(_xlfn.MAXIFS(check_rank,{mine}),check_rank,0)"
+    mine, line = _write_own(index), _write_governing_line(index)
     none = book.words("heading.no_check")
     first, second, third = (
         _write_mark(f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})", book)
@@ -236,7 +245,10 @@ def _show_case(case: CasePoint, words: Words) -> str:
 def _write_reasons(
     book: Book, sheet: Any, index: int, shown: RowView, *, is_held: bool
 ) -> None:
-    """Reasons of the study, as long as every check of the row is as it was."""
+    """Reasons of the study, as long as every check of the row is as it was.
+
+    Afterwards the reason of the check that governs now, which follows its verdict.
+    """
     line, reasons = index + 1, _explain(shown)
     texts = {
         _HELD: shown.verdict.word if is_held else MISSING,
@@ -246,10 +258,18 @@ def _write_reasons(
     for column, text in texts.items():
         cell = Cell(text=text)
         book.write_cell(sheet, (index, column), Column(heading=""), cell)
-    of_row = f"check_net_row_number,A{line}"
+    of_row, check = _write_own(index), _write_governing_line(index)
+    colon = book.words("show.label", label="", text="")
+    passes = f'C{line}="{book.word(Verdict.PASS)}"'
+    name = f'IF({passes},"",INDEX(check_name,{check})&"{colon}")'
+    now = (
+        f"IFERROR(IF(INDEX(check_verdict,{check})=C{line},"
+        f'{name}&INDEX(check_reason,{check}),"{book.words("caption.changed_held")}"),'
+        f'"{book.words(CHANGED)}")'
+    )
     formula = (
         f"=IF(AND(C{line}=P{line},COUNTIFS({of_row},check_unchanged,1)="
-        f'COUNTIFS({of_row})),O{line},"{book.words(CHANGED)}")'
+        f"COUNTIFS({of_row})),O{line},{now})"
     )
     form = book.text(text_wrap=True)
     sheet.write_formula(index, _REASONS, formula, form, reasons)

@@ -73,7 +73,7 @@ def read_workbook(
         workbook, damaged, hostile or far too large.
     """
     is_folder = _is_folder(path)
-    if is_folder or path.suffix.casefold() in _TEXT_SUFFIXES:
+    if is_text(path):
         paths = sorted(path.glob("*.csv")) if is_folder else [path]
         if not paths:
             raise refuse_file(path.name, say("book.no_csv"), say("book.nets_csv"))
@@ -97,6 +97,11 @@ def read_workbook(
         unread=read[1],
         remarks=read[2],
     )
+
+
+def is_text(path: Path) -> bool:
+    """A file is read as csv, or is a folder of csv files."""
+    return _is_folder(path) or path.suffix.casefold() in _TEXT_SUFFIXES
 
 
 def _is_folder(path: Path) -> bool:

@@ -27,6 +27,8 @@ _SYMBOL = re.compile(
 # What stands between two languages, the surest first; a stroke may also be part of
 # a name: "Frottement neige/filet".
 _BETWEEN = (r"\n|\s+[/|–—-]\s+|;", r"\n|\s+[/|–—-]\s+|;|/")
+# Wherever a word may stand apart from the others: "de / high", "high (de)", "de, high".
+_APART = re.compile(r"\s+[–—-]\s+|[\n/|,;:()\[\]]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,8 @@ class Part:
     Attributes
     ----------
     name : str
-        Folded name without symbols; may be empty.
+        Folded name without symbols; may be empty. Small words count where they are all
+        that it has: "de" is a heading of its own.
     symbols : frozenset of str
         Symbols of the trade beside it, such as ``Dk``.
     """
@@ -57,10 +60,7 @@ def fold(text: str) -> str:
     >>> fold("Hauteur du filet"), fold("Stuetzen-Abstand") == fold("Stützenabstand")
     ('hauteurfilet', True)
     """
-    plain = text.replace("⊥", " perp ").casefold()
-    decomposed = unicodedata.normalize("NFKD", plain)
-    letters = "".join(one for one in decomposed if not unicodedata.combining(one))
-    words = (word for word in _WORD.findall(letters) if word not in _small_words())
+    words = (word for word in _list_words(text) if word not in _small_words())
     joined = "".join(words)
     for pair in ("ae", "oe", "ue"):
         joined = joined.replace(pair, pair[0])
@@ -85,16 +85,45 @@ def find_unit(text: str) -> str:
 
 
 def split_languages(text: str) -> Iterator[tuple[Part, ...]]:
-    """Parts of a heading: first all of it as one name, then cut between languages."""
+    """Parts of a heading: first all of it as one name, then cut between languages.
+
+    A small word that stands apart says something of its own: all of it as one name
+    would drop the word, and take "de / high" for "high".
+    """
     plain = text.strip()
     if len(plain) > LONGEST_HEADING:
         return
     without_units = _remove_units(plain)
-    yield (read_part(without_units),)
+    if not find_words_apart(without_units):
+        yield (read_part(without_units),)
     for between in _BETWEEN:
         pieces = [one for one in re.split(between, without_units) if one.strip()]
         if len(pieces) > 1:
             yield tuple(map(read_part, pieces))
+
+
+def is_small(text: str) -> bool:
+    """A text has nothing but articles and prepositions.
+
+    >>> is_small("de"), is_small("de la"), is_small("high"), is_small("-")
+    (True, True, False, False)
+    """
+    return bool(_WORD.search(text)) and not fold(text)
+
+
+def find_words_apart(text: str) -> tuple[str, ...]:
+    """Pieces of a heading that would not count in a name: small words, "?".
+
+    >>> find_words_apart("de / high"), find_words_apart("hauteur de filet / -")
+    (('de',), ())
+    """
+    pieces = [one.strip() for one in _APART.split(text) if one.strip(" -–—")]
+    named = [
+        one
+        for one in pieces
+        if _WORD.search(one) or normalise_unit(one) not in KNOWN_UNITS
+    ]
+    return tuple(one for one in named if not fold(one)) if len(named) > 1 else ()
 
 
 def _is_short(unit: str) -> bool:
@@ -121,8 +150,18 @@ def read_part(text: str) -> Part:
         for sign in _SYMBOL.findall(text)
         if sign.replace("_", "") in symbols
     }
+    if not found and is_small(text):
+        return Part("".join(_list_words(text)), frozenset())
     rest = _SYMBOL.sub(lambda one: "" if one[1] in found else one[0], text)
     return Part(fold(rest), frozenset(found.values()))
+
+
+def _list_words(text: str) -> list[str]:
+    """Words without case and accents."""
+    plain = text.replace("⊥", " perp ").casefold()
+    decomposed = unicodedata.normalize("NFKD", plain)
+    letters = "".join(one for one in decomposed if not unicodedata.combining(one))
+    return _WORD.findall(letters)
 
 
 @lru_cache(maxsize=1)

@@ -6,6 +6,7 @@ symbols, the group that it stands under. Else it is asked for.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -14,7 +15,9 @@ from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_hea
 from netdesign.site.columns.heading_text import (
     Part,
     find_unit,
+    find_words_apart,
     fold,
+    is_small,
     read_part,
     split_languages,
 )
@@ -98,9 +101,15 @@ class Lexicon:
         if grouped:
             return self._conclude(grouped)
         found = self._match_alone(text)
-        if found.field and group and not _goes_with(found.field, group):
+        if found.field and group and not self._may_stand_under(group, text):
             return Match(readings=(found.field,), contrary=group)
         return found
+
+    def _may_stand_under(self, group: str, text: str) -> bool:
+        """A group is about the subject of a heading; "de" stands not under "high"."""
+        field, above = self._match_alone(text).field, self._match_alone(group).field
+        is_other = is_small(text) and above not in (None, field)
+        return field is not None and not is_other and _goes_with(field, group)
 
     def _match_grouped(self, text: str, group: str) -> _Keys:
         own, _ = split_heading(text)
@@ -108,8 +117,12 @@ class Lexicon:
         for name in (above + own, own + above):
             if name in self.names:
                 return self.names[name]
+        if is_small(text) or is_small(group):  # beside the other it would not count
+            return _NOTHING
         for whole in (f"{group} {text}", f"{text} {group}"):
-            parts = next(split_languages(whole), (Part("", frozenset()),))
+            parts = next(split_languages(whole), ())
+            if len(parts) != 1:  # names of two languages
+                continue
             keys, contrary = self._find(parts[0])
             if keys and not contrary:
                 return keys
@@ -117,16 +130,22 @@ class Lexicon:
 
     def _match_alone(self, text: str) -> Match:
         own, bracket = split_heading(text)
-        if own in self.names:
+        before = re.split(r"[\[(]", text)[0]  # where its signs do not count: "? / high"
+        if own in self.names and not find_words_apart(before):
             found = self._conclude(self.names[own])
             field = found.field
             if field and not self._may_stand_behind(bracket, field):
                 return Match(readings=(field,), contrary=bracket)
             return found
+        readings = _NOTHING
         for parts in split_languages(text):
             known = [self._find(part) for part in parts]
             if all(keys for keys, _ in known):
                 return self._agree(known)
+            readings = readings.union(*(keys for keys, _ in known))
+        apart = find_words_apart(text)  # as a word more, it would leave a column unread
+        if apart and readings:
+            return self._conclude(readings | _UNCLEAR, apart[0])
         return UNKNOWN
 
     def _may_stand_behind(self, bracket: str, field: Field) -> bool:

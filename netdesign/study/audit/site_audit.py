@@ -103,7 +103,7 @@ def audit_site(
     parts = (
         ("project", study.project, site.project),
         ("ranges", study.range_inputs, list(site.range_inputs)),
-        ("notes", study.notes, list_site_notes(site, law)),
+        ("notes", study.notes, list_site_notes(site, law, _find_accuracy(study))),
         ("site_file", study.provenance.site_file, site.file_name),
         ("what_if", study.what_if, list(site.what_if)),
     )
@@ -122,6 +122,14 @@ def audit_site(
 def _find_law(study: Study) -> CreepLaw:
     name = study.provenance.settings.get("creep_law", "").partition(" ")[0]
     return CREEP_LAWS.get(name, BOUTILLIER_2004)
+
+
+def _find_accuracy(study: Study) -> float:
+    """Accuracy that a study says; infinite, no cause of a note, if it is none."""
+    try:
+        return float(study.provenance.settings["accuracy"])
+    except (KeyError, ValueError):
+        return math.inf
 
 
 def _audit_row(

@@ -96,3 +96,37 @@ def test_a_study_may_not_call_a_check_declared_without_a_declaration():
     forged = replace(STUDY, rows=[replace(row, checks=checks)])
     with pytest.raises(Exception, match="without a declaration"):
         require_consistent(forged)
+
+
+# Key of the sentence of the first two checks; None where they stand as in the study.
+REASONS = {
+    "as it was": (None, None),
+    "strong": ("set", None),
+    "weak": ("fails", None),
+    "no resistance": ("set", None),
+    "set to pass": ("lacks", None),
+    "another set to declared": (None, "lacks"),
+}
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_the_reason_follows_what_decides_a_declared_check(name, fresh):
+    sheet = read_workbook(fresh[name])["Checks"]
+    told = {
+        Words("en")(f"caption.changed_{one}"): one for one in ("set", "fails", "lacks")
+    }
+    found = tuple(told.get(sheet[f"X{line}"].value) for line in (LINE, LINE + 1))
+    assert found == REASONS[name]
+
+
+def test_a_row_that_the_study_holds_back_says_so(tmp_path):
+    study = build_study(rows=1)
+    row = replace(study.rows[0], verdict=Verdict.NOT_PROVEN)
+    study = replace(study, rows=[row], verdict=Verdict.NOT_PROVEN)
+    book = read_workbook(render_workbook(study), formulas=True)
+    book["Checks"][f"L{LINE}"] = 1e6
+    book.save(buffer := io.BytesIO())
+    content = recalculate({"held": buffer.getvalue()}, tmp_path)["held"]
+    summary = read_workbook(content)["Summary"]
+    assert summary["C6"].value == "NOT PROVEN"
+    assert summary["N6"].value == Words("en")("caption.changed_held")

@@ -229,13 +229,16 @@ def test_sentences_of_the_study_go_where_they_no_longer_hold(language, fresh):
     words, book = Words(language), read_workbook(fresh[f"spoilt-{language}"])
     sheet, changed = book[words("heading.checks")], words(CHANGED)
     spoilt = [line for (line, _), _ in zip(LOADED, SPOILS, strict=False)]
+    reasons = {words(f"caption.changed_{one}") for one in ("lacks", "spans")}
     for line, check in LOADED:
-        texts = {sheet[f"{letter}{line}"].value for letter in "WX"}
-        assert (texts == {changed}) is (line in spoilt), check.id
+        assert (sheet[f"W{line}"].value == changed) is (line in spoilt), check.id
+        assert (sheet[f"X{line}"].value in reasons) is (line in spoilt), check.id
     summary = book[words("heading.summary")]
     assert summary["D3"].value == words("meaning.not_proven")
-    assert summary["N6"].value == changed
-    assert summary["K6"].value == sheet["C5"].value  # the first of those not proven
+    name = sheet["C5"].value  # the first of those not proven
+    assert summary["K6"].value == name
+    told = words("caption.changed_lacks")
+    assert summary["N6"].value == words("show.label", label=name, text=told)
 
 
 def test_what_governs_and_why_follows_an_edited_cell(fresh):
@@ -245,11 +248,14 @@ def test_what_governs_and_why_follows_an_edited_cell(fresh):
         "Foot anchor, pull-out", "Foot anchor, pull-out", "Foot anchor, pull-out"
     ]  # fmt: skip
     assert summary["L6"].value == "450 kg/m³, φ 15°, θ 35°"
-    changed = ENGLISH(CHANGED)
-    assert [checks[f"X{line}"].value == changed for line in (5, 6, 18, 22)] == [
-        False, True, True, True
+    fails, lacks, passes = (
+        ENGLISH(f"caption.changed_{one}") for one in ("fails", "lacks", "passes")
+    )
+    assert [checks[f"X{line}"].value for line in (5, 6, 18, 22)] == [
+        "Failed cases.", fails, lacks, passes
     ]  # fmt: skip
     assert summary["D3"].value == ENGLISH("meaning.fail")
+    assert summary["N6"].value == f"Foot anchor, pull-out: {fails}"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -362,24 +368,91 @@ def find_table_columns(sheet):
 
 
 def list_live(book):
-    """Verdict and utilisation of each check, and whether its sentence stands."""
-    changed = ENGLISH(CHANGED)
+    """Verdict, utilisation and reason of each check."""
     lines = read_rows(book["Checks"], "No.")
-    return [(one["Verdict"], one["μ"], one["Reason"] != changed) for one in lines]
+    return [(one["Verdict"], one["μ"], one["Reason"]) for one in lines]
 
 
 @pytest.mark.parametrize("name", ["other-value", "no-value"])
 def test_nothing_is_proven_by_a_profile_that_was_not_solved(name, fresh):
     book = read_workbook(fresh[name])
-    assert {(one, kept) for one, _, kept in list_live(book)} == {("NOT PROVEN", False)}
-    assert book["Summary"]["C3"].value == "NOT PROVEN"
+    reason = ENGLISH("caption.changed_profile")
+    assert {(one, why) for one, _, why in list_live(book)} == {("NOT PROVEN", reason)}
+    summary = book["Summary"]
+    assert summary["C3"].value == "NOT PROVEN"
+    assert summary["N6"].value == f"{summary['K6'].value}: {reason}"
+
+
+# A factor on all actions of a study that passes; verdict and reason of its checks.
+FACTOR_EDITS = {
+    "eases": (0.75, "pass", "passes"),
+    "breaks": (4.5, "fail", "fails"),
+    "spans": (None, "not_proven", "spans"),
+    "lacks": ("", "not_proven", "lacks"),
+}
+
+
+def find_spanning(study):
+    """Factor by which the band of the most used check lies across its resistance."""
+    loaded = [one for one in expected_checks(study) if one.utilisation]
+    check = max(loaded, key=lambda one: one.utilisation)
+    low, high = check.utilisation_band
+    return 1.5 * 2.0 / (low + high)
+
+
+def edit_factor(language, factor):
+    """The factor on all actions typed over in the workbook of a study that passes."""
+    study = name_factors(build_study(rows=1))
+    book = read_workbook(render_workbook(study, language), formulas=True)
+    line = [one.id for one in study.profile.values].index("action.snow")
+    value = find_spanning(study) if factor is None else factor
+    book[Words(language)("heading.profile")][f"C{5 + line}"] = value
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
+@pytest.fixture(scope="module")
+def factored(tmp_path_factory):
+    """Recalculated workbooks by language and edit."""
+    books = {
+        f"{language}-{name}": edit_factor(language, factor)
+        for language in LANGUAGES
+        for name, (factor, *_) in FACTOR_EDITS.items()
+    }
+    return recalculate(books, tmp_path_factory.mktemp("factored"))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", FACTOR_EDITS)
+def test_the_reason_follows_the_verdict_of_another_factor(language, name, factored):
+    words, book = Words(language), read_workbook(factored[f"{language}-{name}"])
+    _, verdict, reason = FACTOR_EDITS[name]
+    sheet, summary = book[words("heading.checks")], book[words("heading.summary")]
+    told = words(f"caption.changed_{reason}")
+    lines = read_rows(sheet, words("heading.no"))
+    found = [
+        (one[words("heading.verdict")], one[words("heading.reason")]) for one in lines
+    ]
+    assert (words(f"verdict.{verdict}"), told) in found
+    stale = {words("check.passes"), words("check.fails")}
+    sentences = {words(f"caption.changed_{one}"): one for one in ("passes", "fails")}
+    for shown, why in found:
+        assert why not in stale or shown == words("verdict.pass")
+        if why in sentences:
+            key = {"passes": "pass", "fails": "fail"}[sentences[why]]
+            assert shown == words(f"verdict.{key}")
+    assert summary["C6"].value == words(f"verdict.{verdict}")
+    named = words("show.label", label=summary["K6"].value, text=told)
+    assert summary["N6"].value == (told if verdict == "pass" else named)
 
 
 def test_factors_of_the_profile_are_live(fresh):
     for name, share in (("on-action", 1.4 / 1.5), ("on-tendons", 1.3 / 1.35)):
         live = list_live(read_workbook(fresh[name]))
         checks = expected_checks(LOOSE)
-        assert live[0][0] == "NOT PROVEN"  # its resistance has the factors of the study
+        # its resistance has the factors of the study
+        assert live[0][::2] == ("NOT PROVEN", ENGLISH("caption.changed_factor"))
         for (verdict, used, _), check in zip(live[1:], checks[1:], strict=True):
             assert verdict == "PASS"
             is_changed = name == "on-action" or check.mode == "tendon"

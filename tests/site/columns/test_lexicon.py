@@ -3,7 +3,7 @@
 import unicodedata
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from netdesign.site.columns.all_tables import SHEETS
@@ -95,7 +95,6 @@ def test_a_heading_written_otherwise_is_the_same_or_asked_for(drawn):
 @settings(max_examples=800)
 @given(st.sampled_from(NAMES), st.sampled_from(NAMES))
 def test_two_headings_in_one_cell_are_taken_only_if_they_agree(one, other):
-    assume(fold(one[2]))  # "de" is a name alone, and no word beside another
     lexicon = LEXICA[one[0]]
     match = lexicon.match(f"{one[2]} / {other[2]}")
     alone = lexicon.match(other[2])
@@ -106,6 +105,61 @@ def test_two_headings_in_one_cell_are_taken_only_if_they_agree(one, other):
         assert lexicon.match(whole.replace("/", " ")).field == match.field
     if alone.field and alone.field.key != one[1]:
         assert match.field is None
+
+
+APART = (" / ", "/", "\n", " - ", " – ", "; ", " | ", ", ")
+WORDS_ALONE = load_synonyms("signs")["small"]["words"]
+
+
+@settings(max_examples=800)
+@given(
+    st.sampled_from(NAMES),
+    st.sampled_from([*WORDS_ALONE, "?", "..."]),
+    st.sampled_from(APART),
+    st.booleans(),
+)
+def test_a_small_word_apart_is_no_word_of_the_name_beside_it(one, word, sign, is_first):
+    sheet, _, name = one
+    lexicon = LEXICA[sheet]
+    text = f"{word}{sign}{name}" if is_first else f"{name}{sign}{word}"
+    alone, match = lexicon.match(word).field, lexicon.match(text)
+    if match.field is not None:
+        assert alone == match.field
+
+
+# The heading of sheet Ranges, the field that it is, the fields that are asked for
+@pytest.mark.parametrize(
+    ("heading", "key", "readings", "contrary"),
+    [
+        ("de / high", None, {"low", "high"}, ""),
+        ("high/de", None, {"low", "high"}, ""),
+        ("von\nmax", None, {"low", "high"}, ""),
+        ("à / low", None, {"low", "high"}, ""),
+        ("des / high", None, {"high"}, "des"),
+        ("? / high", None, {"high"}, "?"),
+        ("the high (de)", None, set(), ""),
+        ("de, high", None, set(), ""),
+        ("xyz / high", None, set(), ""),
+        ("de / von", "low", set(), ""),
+        ("von / min", "low", set(), ""),
+        ("à / bis", "high", set(), ""),
+        ("valeur maximale / to", "high", set(), ""),
+        ("high / -", "high", set(), ""),
+    ],
+)
+def test_both_sides_of_a_heading_mean_one_field(heading, key, readings, contrary):
+    match = LEXICA["Ranges"].match(heading)
+    assert (match.field and match.field.key) == key
+    assert {one.key for one in match.readings} == readings
+    assert match.contrary == contrary
+
+
+def test_a_small_word_means_no_other_field_than_its_group():
+    ranges, nets = LEXICA["Ranges"], LEXICA["Nets"]
+    assert ranges.match("de", "high").field is None
+    assert ranges.match("high", "de").field.key == "high"
+    assert ranges.match("de", "minimum").field.key == "low"
+    assert nets.match("de", "hauteur verticale").field is None
 
 
 # Heading, symbol or group beside it, and what is asked for
