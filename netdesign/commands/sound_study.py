@@ -68,8 +68,8 @@ def _find_site(
     except NetDesignError as error:
         if site_file is not None:
             raise
-        reason = render(error.message, language).partition("\n")[0]
-        _tell_uncompared(study_file, "stored.site_uncompared", reason, language)
+        first = render(error.message, language).partition("\n")[0]
+        _tell_uncompared(study_file, "stored.site_uncompared", first, language)
         return None
     if site.sha256 == study.provenance.site_sha256:
         return site

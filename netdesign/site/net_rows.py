@@ -455,6 +455,7 @@ def _describe_type(
         tests=tests,
         lack=say("type.no_inner", id=kind["id"].word) if is_open else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
+        ground=kind["ground"].word if "ground" in kind else "",
     )
 
 

@@ -69,7 +69,7 @@ def test_what_is_no_study_ends_with_3(call, files, content):
 
 @pytest.fixture(scope="module")
 def real(tmp_path_factory):
-    """Folder with two sites of one net row that passes, and fails; and their studies."""
+    """Folder with two sites, whose net row passes and fails, and their studies."""
     folder = tmp_path_factory.mktemp("turned")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)

@@ -196,7 +196,7 @@ def _measure_bar(ratio: float) -> float:
 
 
 def work_out(check: CheckRecord, words: Words) -> Worked:
-    """Worked calculation of a check that has a demand and a resistance, or none left."""
+    """Worked calculation of a check with a demand and a resistance, or none left."""
     needed = words.show_with_unit("resistance_kN", check.demand_high_kN)
     return Worked(
         title=words(

@@ -65,13 +65,7 @@ def audit_checks(
     clauses = {value.id: value.clause for value in profile.values}
     for check in row.checks:
         where = say("audit.check", place=place, check=check.id)
-        end = ".end" if check.position == "edge" else ""
-        is_own = check.id == f"{check.member}.{check.mode}{end}"
-        if not is_own and check.member != Member.NET:
-            what = name_check(check.member, check.mode, check.position)
-            yield say("audit.check_of_other", place=where, what=what)
-        if check.is_unbounded is not _is_used_up(check):
-            yield say("audit.unbounded", place=where)
+        yield from _audit_itself(where, check)
         if check.mode in MODES_WITHOUT_FORCE:
             yield from _audit_direction(where, check, row, factors)
         elif check.member != Member.NET:
@@ -80,6 +74,17 @@ def audit_checks(
                 yield from _audit_force(where, check, row, factors)
                 if not accepts_law:
                     yield from _audit_snow(where, check, row)
+
+
+def _audit_itself(place: Message, check: CheckRecord) -> Iterator[Message]:
+    """A check of any kind: its name, and a utilisation without a bound."""
+    end = ".end" if check.position == "edge" else ""
+    is_own = check.id == f"{check.member}.{check.mode}{end}"
+    if not is_own and check.member != Member.NET:
+        what = name_check(check.member, check.mode, check.position)
+        yield say("audit.check_of_other", place=place, what=what)
+    if check.is_unbounded is not _is_used_up(check):
+        yield say("audit.unbounded", place=place)
 
 
 def _audit_force(
