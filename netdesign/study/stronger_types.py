@@ -51,8 +51,9 @@ def find_type_change(
         return None
     if enough:
         weakest = min(enough, key=lambda key: (enough[key], key))
-        named = "type_to_ask" if enough[weakest].is_asked else "type_of_workbook"
-        told = say(f"change.{named}", type=weakest)
+        told = say("change.type_of_workbook", type=weakest)
+        if enough[weakest].is_asked:
+            told = say("change.type_to_ask", type=weakest)
         return _record(told, enough[weakest].characteristic, given)
     factor = standard.find_resistance_factor(given.mode, "declared")
     if given.mode != "rope" or factor is None:

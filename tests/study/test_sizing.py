@@ -125,12 +125,12 @@ def test_a_type_of_unknown_ground_is_told_as_a_question(example, language):
     _, cells, _ = size(example, **{BUILT: ""})
     (line,) = list_sized(cells, Words(language))
     asks = {"en": "tested in the ground of this row?",
-            "fr": "essayé dans le terrain de cette rangée\u00a0?",
+            "fr": "justifié par essais dans le terrain de cette rangée\u00a0?",
             "de": "im Baugrund dieser Werkreihe geprüft?"}  # fmt: skip
     assert asks[language] in line
     _, cells, _ = size(example, **{A40: "rock", A57: "scree"})
     (line,) = list_sized(cells, Words(language))
-    ends = {"en": "not tried: 2", "fr": "essayés\u00a0: 2", "de": "untersucht: 2"}
+    ends = {"en": "not tried: 2", "fr": "écartés\u00a0: 2", "de": "untersucht: 2"}
     assert line.endswith(ends[language])
 
 
