@@ -18,7 +18,7 @@ def find_ground(site: Site, type_id: str) -> str:
 
 
 def holds_in_ground(member: str, now: str, other: Resistance) -> bool | None:
-    """Whether a type holds in the ground of the type that it would replace.
+    """Validity of a type in the ground of the type that it would replace.
 
     Parameters
     ----------
