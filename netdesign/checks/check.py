@@ -137,7 +137,8 @@ def declare(result: CheckResult, declaration: Declaration | None) -> CheckResult
 
 def withhold(result: CheckResult, reason: Message) -> CheckResult:
     """Check whose numbers are information only, and prove nothing either way."""
-    return replace(result, verdict=Verdict.NOT_PROVEN, reason=not_proven(reason))
+    told = not_proven(reason)
+    return replace(result, verdict=Verdict.NOT_PROVEN, reason=told, is_unbounded=False)
 
 
 def find_characteristic(

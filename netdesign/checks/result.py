@@ -143,6 +143,9 @@ class CheckResult:
         Ids of the profile's values in this check that are only assumed.
     declaration : Declaration or None
         Where it is said to be proven, whatever the verdict.
+    is_unbounded : bool
+        Nothing is left to resist the demand: its utilisation is infinite, and no
+        number.
     correlation : tuple of float or None
         Factors on mean and least of the tests that gave the resistance [-].
     """
@@ -162,4 +165,5 @@ class CheckResult:
     utilisation: Band | None = None
     assumed: tuple[str, ...] = ()
     declaration: Declaration | None = None
+    is_unbounded: bool = False
     correlation: tuple[float, float] | None = None

@@ -12,6 +12,7 @@ import click
 
 from netdesign.commands.language import tell
 from netdesign.commands.options import json_option, language_option
+from netdesign.commands.sound_study import require_sound
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
@@ -30,7 +31,8 @@ def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
     """Show what changed from one study to another: verdicts, checks, inputs.
 
     Verdicts that got worse come first. Exit code 1 if a verdict turned: of the study,
-    of a net row or of any check in it.
+    of a net row or of any check in it. A study that contradicts itself, its site file
+    or its limit profile is refused, as by `netdesign report`.
 
     \b
     netdesign diff rev-a/study.json rev-b/study.json
@@ -39,7 +41,10 @@ def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
     from netdesign.report.difference import compare_studies, write_difference
     from netdesign.study.document import load_study
 
-    changes = compare_studies(load_study(old), load_study(new))
+    before, after = load_study(old), load_study(new)
+    for study, path in ((before, old), (after, new)):
+        require_sound(study, path, None, None, language)
+    changes = compare_studies(before, after)
     if as_json:
         click.echo(
             json.dumps(write_difference(changes, language), indent=1, allow_nan=False)

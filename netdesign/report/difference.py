@@ -309,7 +309,7 @@ def _list_governing(row: RowStudy) -> Named:
     if check is not None:
         found[say("diff.governing_check")] = _Word(check.id, _name_check(check))
         for key in ("utilisation", "demand_kN", "resistance_kN"):
-            found[say(f"diff_check.{key}")] = getattr(check, key)
+            found[say(f"diff_check.{key}")] = _read_value(check, key)
         point = check.case.values if check.case else {}
         for key, value in point.items():
             named = _add_unit(QUANTITIES[key].label, QUANTITIES[key].unit)
@@ -332,8 +332,13 @@ def _list_checks(row: RowStudy) -> Named:
 
 
 def _read_value(check: CheckRecord, key: str) -> Any:
-    """Value of a check; the basis of its resistance has words, its proof a place."""
+    """Value of a check; the basis of its resistance has words, its proof a place.
+
+    A utilisation without a bound is a word, too: JSON has no infinite number.
+    """
     value = getattr(check, key)
+    if key == "utilisation" and check.is_unbounded:
+        return _Word("unbounded", say("diff_value.unbounded"))
     if key == "declared":
         return _name_proof(check)
     if key == "resistance_basis" and value:
@@ -419,7 +424,7 @@ def _keep_rest(study: Study) -> object:
 def _keep_row_rest(row: RowStudy) -> object:
     """Parts of a net row that are told in sum only."""
     told = dict.fromkeys(_OF_CHECK) | {"verdict": Verdict.PASS, "clause": ""}
-    told |= {"resistance_basis": "", "resistance_type": ""}
+    told |= {"resistance_basis": "", "resistance_type": "", "is_unbounded": False}
     return replace(
         row,
         verdict=Verdict.PASS,

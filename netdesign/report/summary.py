@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from netdesign.report.terminal import Headings, RowLine, Summary
+from netdesign.report.view.check_view import rank_check
 from netdesign.report.view.row_tables import describe_flip, is_far_from_limit
 from netdesign.report.view.whole import ReportView, RowView, build_view
 from netdesign.report.words import MISSING, Words, show_check, show_text
@@ -109,8 +110,15 @@ def _list_lines(view: ReportView, words: Words) -> list[str]:
 
 
 def list_changes(study: Study, words: Words) -> list[str]:
-    """Lines of what flips each failing, unproven or close check; else why nothing."""
-    checks = [(row, check) for row in study.rows for check in row.checks]
+    """Lines of what flips each failing, unproven or close check; else why nothing.
+
+    Of each row the governing check comes first.
+    """
+    checks = [
+        (row, check)
+        for row in study.rows
+        for check in sorted(row.checks, key=rank_check)
+    ]
     found = []
     for row, check in checks:
         place = words(

@@ -33,6 +33,7 @@ if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
     from netdesign.study.records import CheckRecord
 
 MISSING = "-"
+UNBOUNDED = "∞"  # a utilisation beyond any number
 _FIGURES = 5  # of a number that nobody typed: what follows is right to a thousandth
 _BLANKS = re.compile("[ \n]+")
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
@@ -81,7 +82,11 @@ class Words:
         '2,500'
         >>> ENGLISH.show_number("utilisation", 1.0004)  # never rounded down to a pass
         '>1.000'
+        >>> ENGLISH.show_number("utilisation", math.inf)  # nothing resists
+        '∞'
         """
+        if key == "utilisation" and value == math.inf:
+            return UNBOUNDED
         if value is None or not math.isfinite(value):
             return MISSING
         quantity = QUANTITIES[key]
@@ -119,6 +124,8 @@ class Words:
         """Number to five significant digits: enough to redo what follows from it."""
         if value is None:
             return MISSING
+        if value == math.inf:
+            return UNBOUNDED
         is_long = math.isfinite(value) and abs(value) >= 1e5
         return self.write(f"{value:.0f}" if is_long else f"{value:.5g}")
 
@@ -143,7 +150,7 @@ class Words:
 
     def show_band(self, key: str, low: float | None, high: float | None) -> str:
         """Band of a number: ``0.842 to 0.871``."""
-        if low is None or high is None:
+        if low is None or high is None or not math.isfinite(high):
             return MISSING
         ends = {"low": self.show_number(key, low), "high": self.show_number(key, high)}
         return self("show.band", **ends)

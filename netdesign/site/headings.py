@@ -489,7 +489,8 @@ def compute_likeness(text: str, field: Field) -> float:
 
 def _has_instead(field: Field, found: set[str]) -> bool:
     """Another column gives what a missing one would: a range both of its ends."""
-    return field.key in ("low", "high") and "span" in found
+    is_end_of_range = field.key in ("low", "high") and "span" in found
+    return is_end_of_range or not found.isdisjoint(field.instead)
 
 
 def find_cover(sheet: Sheet, row: int, column: int) -> MergedRange | None:

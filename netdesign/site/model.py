@@ -114,6 +114,7 @@ class Resistance:
     dimensions: AnchorType | PostSection | BaseFriction | None = None
     lack: Message | None = None  # why there is no value, where that needs more words
     buckling_length: float | None = None  # of a post, with which it was computed [m]
+    ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

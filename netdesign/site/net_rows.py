@@ -71,6 +71,7 @@ from netdesign.structure.layout import (
 from netdesign.structure.members import EndMember, Member
 from netdesign.words.message import Message, say
 
+_GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
 # By type sheet: a member that takes its types, and what these may fail by.
 _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = MappingProxyType(
     {
@@ -173,6 +174,8 @@ def _build_net_row(
     count_before = len(findings)
     line = _fill_in_distances(line)
     row = fill_in_ranges(line, ranged, findings)
+    law = _read_ground_law(row)
+    line, row = _with_law(line, law), _with_law(row, law)
     check_statements(line, lines, end, findings)
     layers = build_layers(lines, row["slope_angle"], findings)
     is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
@@ -314,6 +317,21 @@ def _understand_thickness(
     return height.si * math.cos(slope_angle.si)
 
 
+def _read_ground_law(row: Row) -> Reading:
+    """Ground law as typed; where nobody types one beside a glide, the ground slides."""
+    law = row["ground_law"]
+    given = [row[key] for key in _GLIDE if row[key].state == "given"]
+    if law.state != "blank" or len(given) != 1:
+        return law
+    (glide,) = given
+    how = say("column.ground_of_glide", name=glide.field.name, place=glide.place)
+    return replace(law, state="given", value="sliding", cell=glide.cell, derivation=how)
+
+
+def _with_law(row: Row, law: Reading) -> Row:
+    return {**row, "ground_law": law}
+
+
 def _understand_ground(
     row: Row, thickness: float | None, findings: list[Finding]
 ) -> GroundLaw | None:
@@ -321,6 +339,12 @@ def _understand_ground(
     if "faulty" in (law.state, slip.state, glide.state):
         return None
     given = [reading for reading in (slip, glide) if reading.state == "given"]
+    if law.state == "blank":
+        seen = next(one for one in (law, glide, slip) if one.cell is not None)
+        rule = say("nets.both_given") if given else say("cell.empty")
+        accepted = say("accepted.exactly_one") if given else law.field.accepted
+        refuse(seen, rule, accepted, findings)
+        return None
     if law.word != "sliding":
         for reading in given:
             name = law.field.name_word(law.word)
@@ -455,6 +479,7 @@ def _describe_type(
         tests=tests,
         lack=say("type.no_inner", id=kind["id"].word) if is_open else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
+        ground=kind["ground"].word if "ground" in kind else "",
     )
 
 

@@ -93,6 +93,7 @@ class Reading:
             text=self.text,
             value="" if self.value is None else self.value,
             cell="default" if self.state == "default" else self.place,
+            derivation=self.derivation,
         )
 
 
@@ -214,7 +215,9 @@ def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Read
 
 
 def _refuse_blank(field: Field) -> Refusal | None:
-    return Refusal(say("cell.empty"), field.accepted) if field.required else None
+    if not field.required or field.instead:  # whoever knows those columns refuses it
+        return None
+    return Refusal(say("cell.empty"), field.accepted)
 
 
 def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | None:

@@ -177,5 +177,5 @@ def _list_needed(plan: SheetPlan, headings: Headings) -> list[int]:
     return [
         headings.columns[field.key].number
         for field in plan.fields
-        if field.required and field.key in headings.columns
+        if field.required and not field.instead and field.key in headings.columns
     ]

@@ -108,7 +108,8 @@ def _read_field(
 ) -> Reading:
     column = table.columns.get(field.key)
     if column is None:
-        if field.required:  # the missing heading is a finding already
+        has_instead = any(key in table.columns for key in field.instead)
+        if field.required and not has_instead:  # a finding already
             return Reading(field=field, state="faulty")
         return read_nothing(field, None)
     cell = table.sheet.cell(row, column.number)

@@ -29,6 +29,7 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
+_ALONE = "ground"  # says something without the columns beside it
 _DEFAULT_GROUTING, _DEFAULT_TERMINATION = "A", "clips"
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
 
@@ -117,9 +118,13 @@ def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
 
 
 def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
-    """All columns are given; some without the others are a finding."""
+    """All columns are given; some without the others are a finding.
+
+    A ground may stand alone: it says where a type was tested, too.
+    """
     present = [row[key] for key in keys if key in row]
-    given = [reading for reading in present if reading.state == "given"]
+    asking = [row[key] for key in keys if key in row and key != _ALONE]
+    given = [reading for reading in asking if reading.state == "given"]
     if any(reading.state == "faulty" for reading in present) or not given:
         return False
     lacking = [key for key in keys if key not in row or row[key].state == "blank"]

@@ -274,8 +274,8 @@ def _name_largest(check: CheckRecord) -> str:
 
 def _find_worst(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     """Check of the largest utilisation by a solved case; None without any."""
-    rated = [c for c in checks if c.utilisation is not None and c.case]
-    return max(rated, key=lambda check: check.utilisation or 0.0, default=None)
+    rated = [check for check in checks if check.used is not None and check.case]
+    return max(rated, key=lambda check: check.used or 0.0, default=None)
 
 
 def _governing_result(

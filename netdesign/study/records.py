@@ -6,6 +6,7 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -182,6 +183,9 @@ class CheckRecord:
 
     The six numbers are None where they do not exist: a geometry check has no
     force; a missing resistance gives no utilisation (and never a pass).
+
+    Where nothing is left to resist the demand, ``is_unbounded`` says so: JSON has no
+    infinite number, so ``utilisation`` is None there, too.
     """
 
     id: str  # e.g. "foot_anchor.tendon", "geometry.inclination"
@@ -210,6 +214,19 @@ class CheckRecord:
     changes: list[ChangeRecord] = field(default_factory=list)
     holds: list[HoldRecord] = field(default_factory=list)
     position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
+    is_unbounded: bool = False  # utilisation beyond any number; the check fails
+
+    @property
+    def used(self) -> float | None:
+        """Utilisation to sort and to show by [-]: infinite where it has no bound."""
+        return math.inf if self.is_unbounded else self.utilisation
+
+    @property
+    def used_band(self) -> tuple[float | None, float | None]:
+        """Utilisation at both ends of the demand, as `used` [-]."""
+        if self.is_unbounded:
+            return math.inf, math.inf
+        return self.utilisation_band
 
     @property
     def utilisation_band(self) -> tuple[float | None, float | None]:

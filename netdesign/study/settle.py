@@ -141,12 +141,15 @@ def judge_forces(
     gap: Message | None,
     doubt: Message | None,
 ) -> CheckResult:
-    """Check of forces; it fails where a moment alone is too much for a post."""
+    """Check of forces; it fails where a moment alone is too much for a post.
+
+    Nothing of the post is left for its force then: the utilisation has no bound.
+    """
     result = check_member(action, given, standard, gap=gap, doubt=doubt)
     lack = given.lack
     if lack is None or lack.key != "post_bending.too_much":
         return result
-    return replace(result, verdict=Verdict.FAIL, reason=lack)
+    return replace(result, verdict=Verdict.FAIL, reason=lack, is_unbounded=True)
 
 
 def place_check(check: CheckRecord, position: Position) -> CheckRecord:
@@ -180,6 +183,7 @@ def record_result(result: CheckResult, given: Resistance | None = None) -> Check
         resistance_cell=given.source if given else "",
         resistance_derivation=_describe_derivation(given, result),
         declared=_record_declaration(result.declaration),
+        is_unbounded=result.is_unbounded,
     )
 
 

@@ -1,8 +1,9 @@
 """Smallest types of the workbook with which failing checks pass: each one is tried.
 
 A type is tried where the workbook names it: in its cell, with every check that follows
-from that cell, at each support. No force depends on the types that are tried here; a
-type for which that does not hold is not judged.
+from that cell, at each support. An anchor type of another ground is not tried. No force
+depends on the types that are tried here; a type for which that does not hold is not
+judged.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from netdesign.checks import Standard
 from netdesign.outcome import Verdict
 from netdesign.site.model import END_MODES, MEMBER_MODES, NAMED_BY, NetRow, Site
 from netdesign.structure.members import EndMember, Member
+from netdesign.study.anchor_ground import find_ground, holds_in_ground
 from netdesign.study.cases import have_same_forces
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite
@@ -48,6 +50,10 @@ class SizedCell:
         Upper end of the largest utilisation of these checks, with that type [-].
     tried : int
         Number of types that were tried.
+    left_out : int
+        Number of types that were not, since they are for another ground.
+    is_asked : bool
+        Nobody says whether ``now`` holds in the ground of the row: no solution yet.
     """
 
     row_id: str
@@ -57,6 +63,8 @@ class SizedCell:
     now: str = ""
     used: float | None = None
     tried: int = 0
+    left_out: int = 0
+    is_asked: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,7 +76,9 @@ class _Slot:
     cell: str
     was: str
     checks: tuple[str, ...]  # their ids
-    types: tuple[str, ...]  # of its sheet
+    types: tuple[str, ...]  # of its sheet, but for those of another ground
+    asked: frozenset[str]  # those of which the ground is not known to be the row's
+    left_out: int  # those of another ground
 
     def choose(self, number: int) -> str | None:
         """Type of a trial; None where all were tried."""
@@ -85,7 +95,7 @@ def size_site(
     """Find the smallest type for every cell whose checks do not all pass.
 
     The smallest is the one that is used most while everything passes; of two alike the
-    first by its name.
+    first by its name. Types that are known to hold in the ground come before others.
 
     Parameters
     ----------
@@ -120,7 +130,11 @@ def size_site(
 
 
 def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
-    best = min(passing, key=lambda kind: (-passing[kind], kind), default="")
+    best = min(
+        passing,
+        key=lambda kind: (kind in slot.asked, -passing[kind], kind),
+        default="",
+    )
     return SizedCell(
         row_id=slot.row_id,
         column=slot.column,
@@ -129,6 +143,8 @@ def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
         now=best,
         used=passing.get(best),
         tried=len(slot.types) if slot.cell else 0,
+        left_out=slot.left_out,
+        is_asked=best in slot.asked,
     )
 
 
@@ -142,6 +158,7 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
             checks.setdefault((column, *place), []).append(check)
     for (column, cell, was), members in checks.items():
         if any(one.verdict in _OPEN for one in members):
+            holding = _compare_grounds(site, column, was)
             yield _Slot(
                 row_id=row.id,
                 column=column,
@@ -149,11 +166,21 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
                 was=was,
                 checks=tuple(one.id for one in members),
                 types=tuple(
-                    one.type_id
-                    for one in site.catalogue
-                    if one.mode == _MODES[column] and one.type_id != was
+                    kind for kind, fits in holding.items() if fits is not False
                 ),
+                asked=frozenset(kind for kind, fits in holding.items() if fits is None),
+                left_out=sum(fits is False for fits in holding.values()),
             )
+
+
+def _compare_grounds(site: Site, column: Column, was: str) -> dict[str, bool | None]:
+    """Other types of a column's sheet: whether each holds in the ground of that one."""
+    ground = find_ground(site, was)
+    return {
+        one.type_id: holds_in_ground(column, ground, one)
+        for one in site.catalogue
+        if one.mode == _MODES[column] and one.type_id != was
+    }
 
 
 def _find_column(member: str) -> Column | None:

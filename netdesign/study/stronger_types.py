@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from netdesign.checks import Standard, find_characteristic
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import compute_rope_resistance
 from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
+from netdesign.study.anchor_ground import holds_in_ground
 from netdesign.study.dependent import find_short_post
 from netdesign.study.records import ChangeRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -18,6 +20,18 @@ _CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
 _DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
 
 
+@dataclass(frozen=True, slots=True, order=True, kw_only=True)
+class _Enough:
+    """A type that reaches a demand, in the order in which types are offered.
+
+    ``is_asked``: nobody says whether it holds in the ground of the row.
+    """
+
+    is_asked: bool
+    design: float  # [N]
+    characteristic: float  # [N]
+
+
 def find_type_change(
     site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
 ) -> ChangeRecord | None:
@@ -26,30 +40,48 @@ def find_type_change(
     First the weakest type of the workbook, whether a net row uses it or not; else, for
     ropes, a diameter of the catalogue. None where the type that is there does, where
     it is that of another member, or nothing is known that would.
+
+    An anchor type of another ground is none of them. One whose ground is not known, or
+    in the place of such a one, comes last, and asks for it.
     """
     if given.member in NAMED_BY:
         return None
-    enough: dict[str, tuple[float, float]] = {}  # design, characteristic [N]
+    enough = _list_enough(site, row, given, demand, standard)
+    if given.type_id in enough:
+        return None
+    if enough:
+        weakest = min(enough, key=lambda key: (enough[key], key))
+        told = say("change.type_of_workbook", type=weakest)
+        if enough[weakest].is_asked:
+            told = say("change.type_to_ask", type=weakest)
+        return _record(told, enough[weakest].characteristic, given)
+    factor = standard.find_resistance_factor(given.mode, "declared")
+    if given.mode != "rope" or factor is None:
+        return None
+    return _find_rope(demand * factor.value_si, given)
+
+
+def _list_enough(
+    site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
+) -> dict[str, _Enough]:
+    """Types of the workbook that reach a demand [N]; none of another ground."""
+    found = {}
     for other in site.catalogue:
-        if other.mode != given.mode or find_short_post(other, row, site.ranges):
+        fits = holds_in_ground(given.member, given.ground, other)
+        is_other = other.mode != given.mode or fits is False
+        if is_other or find_short_post(other, row, site.ranges):
             continue
         factor = standard.find_resistance_factor(other.mode, other.basis)
         value, lack = find_characteristic(other, standard)
         if value is None or lack or factor is None:
             continue
         if value / factor.value_si >= demand:
-            enough[other.type_id] = (value / factor.value_si, value)
-    if given.type_id in enough:
-        return None
-    if enough:
-        weakest = min(enough, key=lambda key: (enough[key], key))
-        return _record(
-            say("change.type_of_workbook", type=weakest), enough[weakest][1], given
-        )
-    factor = standard.find_resistance_factor(given.mode, "declared")
-    if given.mode != "rope" or factor is None:
-        return None
-    return _find_rope(demand * factor.value_si, given)
+            found[other.type_id] = _Enough(
+                is_asked=fits is None,
+                design=value / factor.value_si,
+                characteristic=value,
+            )
+    return found
 
 
 def _find_rope(needed: float, given: Resistance) -> ChangeRecord | None:

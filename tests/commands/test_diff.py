@@ -1,12 +1,17 @@
 import json
+import sys
 from dataclasses import replace
 
+import openpyxl
 import pytest
 
+from netdesign import cli
 from netdesign.outcome import Verdict
 from netdesign.site.model import Project
-from netdesign.study.document import write_document
+from netdesign.study.document import read_document, write_document
 from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, Study
+from netdesign.words.catalogue import LANGUAGES
+from tests.short_example import write_short_example
 
 STUDY = Study(
     schema=SCHEMA,
@@ -18,7 +23,7 @@ STUDY = Study(
     notes=[],
     provenance=Provenance(
         version="1",
-        command="",
+        command="netdesign check site.xlsx",
         started="",
         site_file="site.xlsx",
         site_sha256="",
@@ -62,12 +67,60 @@ def test_what_is_no_study_ends_with_3(call, files, content):
     assert call("diff", files / "old.json", path).code == 3
 
 
-def test_a_turned_verdict_ends_with_1_in_text_and_document(call, files):
-    turned = replace(STUDY, verdict=Verdict.FAIL)
-    path = files / "turned.json"
-    path.write_text(write_document(turned), encoding="utf-8")
+@pytest.fixture(scope="module")
+def real(tmp_path_factory):
+    """Folder with two sites, whose net row passes and fails, and their studies."""
+    folder = tmp_path_factory.mktemp("turned")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        patch.setenv("NETDESIGN_STORE", str(folder / "cases.sqlite"))
+        write_short_example(folder / "passes.xlsx", ["R1"])
+        book = openpyxl.load_workbook(folder / "passes.xlsx")
+        heading = {cell.value: cell.column for cell in book["Posts"][1]}
+        book["Posts"].cell(2, heading["bearing resistance [kN]"]).value = 50
+        book.save(folder / "fails.xlsx")
+        for name in ("passes", "fails"):
+            words = ["--out", name, "--no-html", "--no-excel", "--jobs", "1"]
+            asked = ["netdesign", "check", f"{name}.xlsx", "--accuracy", "0.05"]
+            patch.setattr(sys, "argv", [*asked, *words])
+            with pytest.raises(SystemExit):
+                cli.main()
+    return folder
+
+
+def test_a_turned_verdict_ends_with_1_in_text_and_document(call, real):
+    passes, fails = (real / name / "study.json" for name in ("passes", "fails"))
     for options in ((), ("--json",)):
-        assert call("diff", files / "old.json", path, *options).code == 1
-        assert call("diff", path, files / "old.json", *options).code == 1
-    shown = call("diff", files / "old.json", path).out.splitlines()
-    assert shown == ["verdict", "  verdict: not proven -> fail"]
+        assert call("diff", passes, fails, *options).code == 1
+        assert call("diff", fails, passes, *options).code == 1
+    shown = call("diff", passes, fails)
+    assert shown.out.splitlines()[:2] == ["verdict", "  verdict: pass -> fail"]
+    assert shown.err == ""  # both were compared with their sites and profiles
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("is_sealed", [True, False])
+def test_an_altered_study_is_refused_as_by_report(call, real, language, is_sealed):
+    path = real / "fails" / "study.json"
+    document = json.loads(path.read_text(encoding="utf-8"))
+    document["rows"][0]["verdict"] = document["verdict"] = "pass"
+    text = json.dumps(document)
+    altered = path.with_name("altered.json")
+    text = write_document(read_document(text)) if is_sealed else text
+    altered.write_text(text, encoding="utf-8")
+    chosen = ("--language", language)
+    reported = call("report", altered, "--out", "new", *chosen)
+    for pair in ((altered, path), (path, altered)):
+        ended = call("diff", *pair, *chosen)
+        assert (ended.code, ended.out) == (3, "")
+        assert ended.err == reported.err
+    assert reported.code == 3
+
+
+def test_a_study_whose_site_is_gone_is_compared_and_says_so(call, real, tmp_path):
+    alone = tmp_path / "alone.json"
+    alone.write_bytes((real / "passes" / "study.json").read_bytes())
+    ended = call("diff", alone, real / "passes" / "study.json")
+    assert ended.code == 0
+    (line,) = ended.err.splitlines()
+    assert line.startswith(f"{alone}: not compared with its site file: ")

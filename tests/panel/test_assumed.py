@@ -88,7 +88,9 @@ def find_excess(seed):
         one = solve([panel])
         if isinstance(one, PanelForces):
             for name, band in one.bands.items():
-                found[name] = max(found[name], band.value / max(worst[name].value, 10.0))
+                found[name] = max(
+                    found[name], band.value / max(worst[name].value, 10.0)
+                )
     return found
 
 

@@ -14,6 +14,7 @@ from netdesign.snow.ground import (
     build_ground_from_glide_factor,
 )
 from netdesign.structure.layout import DEFAULT_POST_TILT
+from netdesign.words.catalogue import LANGUAGES, render
 
 HEADINGS = 0
 FIRST, SECOND = 1, 2
@@ -417,6 +418,79 @@ def test_ground_law_and_its_number_must_agree(
     (finding,) = refused(save(sheets))
     assert finding.cell == cell
     assert str(finding.rule).startswith(rule)
+
+
+def drop_column(sheets, label):
+    """Sheet Nets without a column; its place from zero."""
+    place = next(n for n, one in enumerate(sheets["Nets"][0]) if one.startswith(label))
+    for line in sheets["Nets"]:
+        del line[place]
+    return place
+
+
+@pytest.mark.parametrize(("slip", "glide"), [(None, 1.8), (2.0, None)])
+@pytest.mark.parametrize("is_there", [True, False])
+def test_a_glide_without_a_ground_law_means_sliding(
+    sheets, save, slip, glide, is_there
+):
+    put(sheets, "slip length", slip)
+    put(sheets, "glide factor", glide)
+    put(sheets, "ground law", "sliding")
+    put(sheets, "ground law", "free", SECOND)
+    typed = read_site(save(sheets)).rows[0]
+    put(sheets, "ground law", None)
+    if not is_there:
+        put(sheets, "glide factor", 1.4, SECOND)
+        put(sheets, "slip length", None, SECOND)
+        drop_column(sheets, "ground law")
+    row = read_site(save(sheets)).rows[0]
+    assert row.ground == typed.ground
+    assert row.ground.kind == "sliding"
+    (echo,) = [one for one in row.inputs if one.label.key == "column.Nets.ground_law"]
+    (source,) = [
+        one
+        for one in row.inputs
+        if isinstance(one.value, float) and one.value == (slip or glide)
+        and one.label.key in ("column.Nets.slip_length", "column.Nets.glide_factor")
+    ]  # fmt: skip
+    assert (echo.text, echo.value, echo.cell) == ("", "sliding", source.cell)
+    told = [render(echo.derivation, language) for language in LANGUAGES]
+    assert all(source.cell in one for one in told)
+    names = {"en": "sliding ground", "fr": "sol glissant", "de": "gleitender Boden"}
+    assert [one.partition(":")[0].strip() for one in told] == [
+        names[language] for language in LANGUAGES
+    ]
+
+
+@pytest.mark.parametrize(
+    ("slip", "glide", "rule"),
+    [
+        (None, None, "is empty"),
+        (2.0, 1.8, "needs a slip length or a glide factor: both"),
+    ],
+)
+@pytest.mark.parametrize("is_there", [True, False])
+def test_without_a_ground_law_one_glide_is_needed(
+    sheets, save, refused, slip, glide, rule, is_there
+):
+    put(sheets, "ground law", None)
+    put(sheets, "slip length", slip)
+    put(sheets, "glide factor", glide)
+    if not is_there:
+        put(sheets, "glide factor", 1.4, SECOND)
+        drop_column(sheets, "ground law")
+    (finding,) = refused(save(sheets))
+    assert finding.cell == ("F2" if is_there else "G2")
+    assert str(finding.rule).startswith(rule)
+
+
+def test_without_a_column_of_the_ground_or_its_glide_the_sheet_is_refused(
+    sheets, save, refused
+):
+    for label in ("ground law", "slip length", "glide factor"):
+        drop_column(sheets, label)
+    (finding,) = refused(save(sheets))
+    assert str(finding.rule) == 'lacks the heading "ground law"'
 
 
 def test_an_id_that_no_sheet_defines_is_refused_with_near_matches(

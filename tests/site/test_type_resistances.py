@@ -238,3 +238,44 @@ def test_place_in_the_row_is_read(sheets, save):
     assert first.layout.post_base_distance == 0.8
     assert (second.gap, second.altitude) == (math.inf, None)
     assert second.layout.post_base_distance is None
+
+
+@pytest.mark.parametrize(
+    ("columns", "basis"),
+    [({}, "tested"), (TESTS, "tested"), (None, "")],
+    ids=["a value", "tests", "nothing yet"],
+)
+@pytest.mark.parametrize(
+    ("heading", "word", "ground"),
+    [
+        ("ground", "scree", "scree"),
+        ("terrain", "rocher", "rock"),
+        ("Baugrund", "Kalkstein", "limestone"),
+    ],
+)
+def test_a_ground_alone_says_where_a_type_was_tested(
+    sheets, save, columns, basis, heading, word, ground
+):
+    if columns != {}:
+        sheets["Anchors"][1][2:] = [None, None]
+    add_columns(sheets, "Anchors", **(columns or {}), **{heading: word})
+    site = read_site(save(sheets))
+    for mode in ("tendon", "pull_out"):
+        assert resistance(site, "foot_anchor", mode).ground == ground
+    assert resistance(site, "foot_anchor", "pull_out").basis == basis
+    assert {one.ground for one in site.catalogue if one.mode == "rope"} == {""}
+
+
+def test_a_drilled_hole_asks_for_its_ground(sheets, save, refused):
+    sheets["Anchors"][1][2:] = [None, None]
+    columns = {key: value for key, value in BOND.items() if key != "ground"}
+    add_columns(sheets, "Anchors", **columns)
+    (finding,) = refused(save(sheets))
+    assert "needs more beside it: ground" in str(finding)
+
+
+def test_a_bond_in_a_ground_without_bond_stress_is_refused(sheets, save, refused):
+    sheets["Anchors"][1][2:] = [None, None]
+    add_columns(sheets, "Anchors", **(BOND | {"ground": "scree"}))
+    (finding,) = refused(save(sheets))
+    assert "ground = 'scree': must be one of clay-soft" in str(finding)

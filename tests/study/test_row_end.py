@@ -75,7 +75,11 @@ def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost()
     assert open_checks == {
         *(f"{member}.{mode}.end" for member, mode in END_MODES),
         *(name for name in checks if name.startswith("post") and name[-4:] == ".end"),
-        *(name for name in checks if name.startswith("uphill_") and name[-4:] != "tion"),
+        *(
+            name
+            for name in checks
+            if name.startswith("uphill_") and name[-4:] != "tion"
+        ),
     }
     for name in open_checks:
         assert "triangular nets are not covered" in str(checks[name].reason)

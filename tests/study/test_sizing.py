@@ -6,10 +6,13 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
+from netdesign.report.view.what_if import list_sized
+from netdesign.report.words import Words
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study.check_site import solve_rows
 from netdesign.study.sizing import size_site
+from netdesign.words.catalogue import LANGUAGES
 from tests.short_example import write_short_example
 from tests.small_site import ROWS, RUN, build_site
 
@@ -90,6 +93,45 @@ def test_without_a_type_that_does_nothing_is_claimed(example):
     ]
     assert (last.now, last.used) == ("", None)
     assert last.tried == 6
+
+
+# Cells of the grounds: of A40-tested, A28-computed, which is built, and A57-tested.
+A40, BUILT, A57 = "Anchors!I3", "Anchors!I5", "Anchors!I8"
+
+
+@pytest.mark.parametrize(
+    ("grounds", "now", "is_asked", "left_out"),
+    [
+        ({}, "A40-tested", False, 0),
+        ({A40: "rock"}, "A57-tested", False, 1),
+        ({A40: "rock", A57: "scree"}, "", False, 2),
+        ({A40: ""}, "A57-tested", False, 0),
+        ({A40: "", A57: "rock"}, "A40-tested", True, 1),
+        ({BUILT: ""}, "A40-tested", True, 0),
+        ({BUILT: "gravel"}, "", False, 6),
+    ],
+)
+def test_a_type_is_found_for_its_own_ground_and_asked_for_an_unknown_one(
+    example, grounds, now, is_asked, left_out
+):
+    _, cells, _ = size(example, **grounds)
+    (found,) = [one for one in cells if one.column == "foot_anchor"]
+    assert (found.now, found.is_asked, found.left_out) == (now, is_asked, left_out)
+    assert found.tried == 6 - left_out
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_type_of_unknown_ground_is_told_as_a_question(example, language):
+    _, cells, _ = size(example, **{BUILT: ""})
+    (line,) = list_sized(cells, Words(language))
+    asks = {"en": "tested in the ground of this row?",
+            "fr": "justifié par essais dans le terrain de cette rangée\u00a0?",
+            "de": "im Baugrund dieser Werkreihe geprüft?"}  # fmt: skip
+    assert asks[language] in line
+    _, cells, _ = size(example, **{A40: "rock", A57: "scree"})
+    (line,) = list_sized(cells, Words(language))
+    ends = {"en": "not tried: 2", "fr": "écartés\u00a0: 2", "de": "untersucht: 2"}
+    assert line.endswith(ends[language])
 
 
 def test_a_site_that_passes_has_nothing_to_replace(example):

@@ -274,7 +274,11 @@ def test_impossible_axis_splay_and_count_are_one_finding_each(
     ("post", "anchor", "place"),
     [
         ({"sliding resistance of the base [kN]": 60}, {}, "Posts"),
-        ({}, {"kind of anchor": "micropile", "inner diameter of a tube [mm]": 32}, "Anchors"),
+        (
+            {},
+            {"kind of anchor": "micropile", "inner diameter of a tube [mm]": 32},
+            "Anchors",
+        ),
     ],
 )
 def test_what_is_given_twice_or_is_no_tube_is_one_finding(

@@ -61,7 +61,7 @@ def badge(verdict: VerdictWords) -> Piece:
 
 def show_utilisation(check: CheckView) -> Content:
     """Utilisation with its band."""
-    band = f" {check.band}" if check.bar else ""
+    band = f" {check.band}" if check.bar and check.band != MISSING else ""
     return (Piece(check.utilisation, is_bold=True), Piece(band))
 
 

@@ -7,11 +7,12 @@ tests its own cells; none relies on another cell having been left alone.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.words import MISSING
+from netdesign.report.words import MISSING, UNBOUNDED
 
 ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
 _ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
@@ -23,6 +24,7 @@ _RANKS = {
 }
 _ROW_RANK = 1e8
 _LARGEST = 1e5  # utilisation that counts in the rank
+_BEYOND = 2e5  # counts in the place of one without a bound
 
 
 def write_product(action: str, factor: str) -> str:
@@ -37,10 +39,14 @@ def write_quotient(above: str, below: str) -> str:
     return f'IF({is_known},{above}/{below},"{MISSING}")'
 
 
-def write_ratio(demand: str, resistance: str) -> str:
-    """Utilisation: a demand of at least zero over a resistance above zero."""
+def write_ratio(demand: str, resistance: str, *, is_unbounded: bool = False) -> str:
+    """Utilisation: a demand of at least zero over a resistance above zero.
+
+    Without these it is not known, or ``is_unbounded``: nothing resists.
+    """
     known = f"AND({_is_number(demand, '>=0')},{_is_number(resistance, '>0')})"
-    return f'IF({known},{demand}/{resistance},"{MISSING}")'
+    otherwise = UNBOUNDED if is_unbounded else MISSING
+    return f'IF({known},{demand}/{resistance},"{otherwise}")'
 
 
 def write_verdict(
@@ -159,17 +165,17 @@ def write_rank(number: str, verdict: str, ratio: str, words: dict[Verdict, str])
     worst = "0"
     for one in (Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL):
         worst = f'IF({verdict}="{words[one]}",{_RANKS[one]:.0f},{worst})'
-    used = f"IF(ISNUMBER({ratio}),MIN({ratio},{_LARGEST:.0f}),-1)"
+    other = f'IF({ratio}="{UNBOUNDED}",{_BEYOND:.0f},-1)'
+    used = f"IF(ISNUMBER({ratio}),MIN({ratio},{_LARGEST:.0f}),{other})"
     return f"={number}*{_ROW_RANK:.0f}+{worst}+{used}"
 
 
 def compute_rank(number: int, verdict: Verdict, ratio: float | None) -> float:
     """Number that the formula of `write_rank` gives."""
-    return (
-        number * _ROW_RANK
-        + _RANKS[verdict]
-        + (-1.0 if ratio is None else min(ratio, _LARGEST))
-    )
+    used = -1.0 if ratio is None else min(ratio, _LARGEST)
+    if ratio == math.inf:
+        used = _BEYOND
+    return number * _ROW_RANK + _RANKS[verdict] + used
 
 
 def write_unchanged(

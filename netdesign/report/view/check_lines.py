@@ -108,7 +108,7 @@ def _build_line(viewed: list[_Viewed], words: Words) -> CheckLine:
         end=shown.get(True),
         verdict=show_verdict(worst, words),
         is_met=worst is Verdict.PASS,
-        most_used=max(one.utilisation or 0.0 for one in group),
+        most_used=max(one.used or 0.0 for one in group),
         remarks=tuple(_list_remarks(group, words)),
     )
 

@@ -13,6 +13,7 @@ from netdesign.report.view.demand_steps import (
 )
 from netdesign.report.words import (
     MISSING,
+    UNBOUNDED,
     VerdictWords,
     Words,
     show_check,
@@ -103,19 +104,19 @@ def rank_check(check: CheckRecord) -> tuple[int, float]:
 
 
 def _ratio(check: CheckRecord) -> float:
-    return -1.0 if check.utilisation is None else check.utilisation
+    return -1.0 if check.used is None else check.used
 
 
 def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     """Check with the largest utilisation, of those that have one."""
-    known = [check for check in checks if check.utilisation is not None]
+    known = [check for check in checks if check.used is not None]
     return max(known, key=_ratio, default=None)
 
 
 def find_shown(row: RowStudy) -> CheckRecord | None:
     """Check of which the page shows most: the governing one, or the most used one."""
     governing = find_governing(row.checks)
-    if governing and governing.utilisation is not None:
+    if governing and governing.used is not None:
         return governing
     return find_highest(row.checks)
 
@@ -130,7 +131,7 @@ def find_shown_member(row: RowStudy) -> str:
 
 def view_check(check: CheckRecord, words: Words) -> CheckView:
     """Put one check into words."""
-    low, high = check.utilisation_band
+    low, high = check.used_band
     return CheckView(
         title=show_check(words, check),
         clause=show_text(check.clause),
@@ -141,9 +142,9 @@ def view_check(check: CheckRecord, words: Words) -> CheckView:
         resistance_cell=check.resistance_cell,
         demand=words.show_number("demand_kN", check.demand_kN),
         resistance=words.show_number("resistance_kN", check.resistance_kN),
-        utilisation=words.show_number("utilisation", check.utilisation),
+        utilisation=words.show_number("utilisation", check.used),
         band=words.show_band("utilisation", low, high),
-        bar=_build_bar(low, check.utilisation, high),
+        bar=_build_bar(low, check.used, high),
         verdict=show_verdict(check.verdict, words),
         case=_name_case(check, words),
         case_short=_name_case(check, words, is_short=True),
@@ -195,7 +196,7 @@ def _measure_bar(ratio: float) -> float:
 
 
 def work_out(check: CheckRecord, words: Words) -> Worked:
-    """Worked calculation of a check that has a demand and a resistance."""
+    """Worked calculation of a check with a demand and a resistance, or none left."""
     needed = words.show_with_unit("resistance_kN", check.demand_high_kN)
     return Worked(
         title=words(
@@ -207,8 +208,7 @@ def work_out(check: CheckRecord, words: Words) -> Worked:
             *_derive_action(check, words),
             *_derive_resistance(check, words),
             _factor_action(check, words),
-            _reduce_resistance(check, words),
-            _compare_both(check, words),
+            *_list_comparison(check, words),
         ),
         needed=words(
             "show.needed", verdict=words(f"verdict.{check.verdict}"), force=needed
@@ -259,6 +259,16 @@ def _reduce_resistance(check: CheckRecord, words: Words) -> Step:
     )
 
 
+def _list_comparison(check: CheckRecord, words: Words) -> tuple[Step, ...]:
+    """Resistance and utilisation; where nothing is left to resist, why that is so."""
+    if not check.is_unbounded:
+        return _reduce_resistance(check, words), _compare_both(check, words)
+    return (
+        Step(symbols="R_d", numbers=words.show(check.reason), result=MISSING),
+        Step(symbols="μ", numbers=words("show.nothing_resists"), result=UNBOUNDED),
+    )
+
+
 def _compare_both(check: CheckRecord, words: Words) -> Step:
     low, high = check.utilisation_band
     return Step(
@@ -269,7 +279,7 @@ def _compare_both(check: CheckRecord, words: Words) -> Step:
         ),
         result=words(
             "show.with_band",
-            value=words.show_number("utilisation", check.utilisation),
+            value=words.show_number("utilisation", check.used),
             band=words.show_band("utilisation", low, high),
         ),
     )

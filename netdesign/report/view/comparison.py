@@ -147,7 +147,7 @@ def _show_checks(checks: Sequence[CheckRecord], words: Words) -> Cell:
     governing = find_governing(checks)
     if governing is None:
         return text_cell(words("compare.not_checked"))
-    used = words.show_number("utilisation", governing.utilisation)
+    used = words.show_number("utilisation", governing.used)
     parts = [f"{VERDICTS[governing.verdict].symbol} {used}"]
     if used == MISSING:
         parts = [show_verdict(governing.verdict, words).word]

@@ -202,8 +202,8 @@ def build_check_figures(row: RowStudy, words: Words) -> Table:
 
 
 def _list_ratios(check: CheckRecord) -> tuple[float | None, ...]:
-    low, high = check.utilisation_band
-    return low, check.utilisation, high
+    low, high = check.used_band
+    return low, check.used, high
 
 
 _Given = tuple[str, str, str, str, float | None]

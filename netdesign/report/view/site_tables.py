@@ -58,7 +58,7 @@ def _sum_up(checks: Sequence[CheckRecord], words: Words) -> Cell:
     if not checks:
         return text_cell(MISSING)
     worst = min((one.verdict for one in checks), key=SEVERITY.index)
-    known = [one.utilisation for one in checks if one.utilisation is not None]
+    known = [one.used for one in checks if one.used is not None]
     symbol = VERDICTS[worst].symbol
     if not known:
         return text_cell(symbol)

@@ -89,12 +89,16 @@ def _tell_sized(one: SizedCell, words: Words) -> str:
     if not one.cell:
         return words("what_if.no_cell", **place)
     if not one.now:
-        return words(
+        told = words(
             "what_if.no_type", **place, cell=one.cell, was=one.was, count=one.tried
         )
+        if not one.left_out:
+            return told
+        left_out = words("what_if.other_ground", count=one.left_out)
+        return words.join((told, left_out))
     used = words.show_number("utilisation", one.used)
     return words(
-        "what_if.type",
+        "what_if.type_to_ask" if one.is_asked else "what_if.type",
         **place,
         cell=one.cell,
         was=one.was or MISSING,

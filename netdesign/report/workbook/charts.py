@@ -25,10 +25,12 @@ def add_utilisation_chart(
     rows: tuple[int, int],
     columns: tuple[int, int],
     place: tuple[int, int],
+    unbounded: Sequence[int] = (),
 ) -> None:
     """Largest utilisation of each net row beside the limit, on the summary.
 
-    ``columns`` are those of the two.
+    ``columns`` are those of the two. Rows that are ``unbounded`` have no bar: what
+    their cells show stands in its place.
     """
     first, last = rows
     ratio, bound = columns
@@ -41,6 +43,7 @@ def add_utilisation_chart(
             "values": [name, first, ratio, last, ratio],
             "fill": {"color": _BARS},
             "gap": 60,
+            "data_labels": _label_rows(book, rows, ratio, unbounded),
         }
     )
     limit = book.workbook.add_chart({"type": "line"})
@@ -56,6 +59,23 @@ def add_utilisation_chart(
     _finish(chart, (book.words("heading.largest_of_rows"), "", ""))
     chart.set_size({"width": 500, "height": 260})
     sheet.insert_chart(*place, chart, {"object_position": 1, "y_offset": 4})
+
+
+def _label_rows(
+    book: Book, rows: tuple[int, int], column: int, labelled: Sequence[int]
+) -> dict[str, Any] | None:
+    """Labels of some rows' bars, each with what its cell shows; None without any."""
+    if not labelled:
+        return None
+    first, last = rows
+    letter = chr(ord("A") + column)
+    custom = [
+        {"value": f"={book.refer('summary', f'${letter}${row + 1}')}"}
+        if row in labelled
+        else {"delete": True}
+        for row in range(first, last + 1)
+    ]
+    return {"value": True, "custom": custom}
 
 
 def add_force_chart(

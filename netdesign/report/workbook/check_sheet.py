@@ -6,6 +6,7 @@ calculate show the study's numbers.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -32,6 +33,7 @@ from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import (
     MISSING,
+    UNBOUNDED,
     Words,
     add_unit,
     name_heading,
@@ -328,11 +330,13 @@ class _CheckLine:
         on_resistance = self._factors.on_resistance(check)
         self._put_factor(_RESISTANCE_FACTOR, check.resistance_factor, on_resistance)
         self._put_number(_RESISTANCE, check.resistance_kN, write_quotient(*parts))
-        low, high = check.utilisation_band
+        low, high = check.used_band
         for field, demand_field, ratio in zip(
-            _RATIOS, _DEMANDS, (low, check.utilisation, high), strict=True
+            _RATIOS, _DEMANDS, (low, check.used, high), strict=True
         ):
-            live = write_ratio(at(demand_field), at(_RESISTANCE))
+            live = write_ratio(
+                *(at(demand_field), at(_RESISTANCE)), is_unbounded=check.is_unbounded
+            )
             self._put_number(field, ratio, live)
 
     def _write_verdict(self, number: int, check: CheckRecord) -> None:
@@ -350,7 +354,7 @@ class _CheckLine:
         form = self._book.text(bold=True, text_wrap=True)
         self._sheet.write_formula(*self._place(_VERDICT), held, form, shown)
         rank = write_rank(self._at(_LEAD[0]), self._at(_VERDICT), ends[1], words)
-        value = compute_rank(number, check.verdict, check.utilisation)
+        value = compute_rank(number, check.verdict, check.used)
         self._sheet.write_formula(*self._place(_RANK), rank, None, value)
 
     def _list_conditions(self, check: CheckRecord) -> list[str]:
@@ -375,7 +379,7 @@ class _CheckLine:
             strict=True,
         ):
             self._put(field, Cell(text=text))
-        numbers = (*check.utilisation_band, check.resistance_characteristic_kN)
+        numbers = (*check.used_band, check.resistance_characteristic_kN)
         for field, number in zip(_STUDY_NUMBERS, numbers, strict=True):
             self._put_number(field, number)
         live = (_RATIOS[0], _RATIOS[2], _RESISTANCE_K)
@@ -435,15 +439,23 @@ class _CheckLine:
         self, field: _Field, value: float | None, formula: str = ""
     ) -> None:
         """Write a number; with ``formula`` it is live, and "-" without its parts."""
+        shown = show_cached(value)
         if not formula:  # its text stands only where no number does
-            self._put(field, Cell(text=MISSING, number=value))
+            text = shown if isinstance(shown, str) else MISSING
+            self._put(field, Cell(text=text, number=value))
             return
         form = self._book.format(
             align="right", num_format=number_format(field.quantity)
         )
         live = f'=IFERROR({formula},"{MISSING}")'
-        cached = MISSING if value is None else value
-        self._sheet.write_formula(*self._place(field), live, form, cached)
+        self._sheet.write_formula(*self._place(field), live, form, shown)
+
+
+def show_cached(value: float | None) -> float | str:
+    """Value of the study that a formula's cell shows: a number, or a sign for none."""
+    if value is None:
+        return MISSING
+    return UNBOUNDED if value == math.inf else value
 
 
 def _list_reasons(words: Words) -> ChangedReasons:

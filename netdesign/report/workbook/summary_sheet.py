@@ -11,9 +11,9 @@ from netdesign.report.view.check_view import find_case, find_governing, find_hig
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.what_if import mark_title
 from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import MISSING, Words, number_format
+from netdesign.report.words import MISSING, UNBOUNDED, Words, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
-from netdesign.report.workbook.check_sheet import CHANGED, show_load
+from netdesign.report.workbook.check_sheet import CHANGED, show_cached, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.writer import Book, count_lines, fit_headings
@@ -68,7 +68,13 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     book.paper(sheet).repeat(_HEAD_ROW)
     book.paper(sheet).height = find_height(widths, A4, 1)
     rows, columns = (_HEAD_ROW + 1, last), (_RATIO, _LIMIT)
-    add_utilisation_chart(book, sheet, rows, columns, (last + 2, _LIMIT + 1))
+    unbounded = [
+        _HEAD_ROW + number
+        for number, row in enumerate(study.rows, 1)
+        if any(check.is_unbounded for check in row.checks)
+    ]
+    place = (last + 2, _LIMIT + 1)
+    add_utilisation_chart(book, sheet, rows, columns, place, unbounded)
     _write_below(book, sheet, view, last + 2)
 
 
@@ -285,9 +291,9 @@ def _write_reasons(
 
 def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     highest = find_highest(row.checks)
-    known = [check.utilisation_band[1] for check in row.checks]
+    known = [check.used_band[1] for check in row.checks]
     ends = [end for end in known if end is not None]
-    cached = (highest.utilisation if highest else None, max(ends, default=None))
+    cached = (highest.used if highest else None, max(ends, default=None))
     form = book.format(align="right", num_format=number_format("utilisation"))
     for column, (name, value) in enumerate(
         zip(("check_utilisation", "check_utilisation_high"), cached, strict=True),
@@ -295,12 +301,11 @@ def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     ):
         mine = f"check_net_row_number,A{index + 1}"
         formula = (
-            f'=IF(COUNTIFS({mine},{name},">=0")>0,'
-            f'_xlfn.MAXIFS({name},{mine}),"{MISSING}")'
+            f'=IF(COUNTIFS({mine},{name},"{UNBOUNDED}")>0,"{UNBOUNDED}",'
+            f'IF(COUNTIFS({mine},{name},">=0")>0,'
+            f'_xlfn.MAXIFS({name},{mine}),"{MISSING}"))'
         )
-        sheet.write_formula(
-            index, column, formula, form, MISSING if value is None else value
-        )
+        sheet.write_formula(index, column, formula, form, show_cached(value))
 
 
 def _explain(shown: RowView) -> str:

@@ -36,6 +36,8 @@ def _word(key: str, words: tuple[str, ...], note: str = "") -> Field:
 
 
 _GROUND = _CATALOGUE["bond"]["ground"]
+# Where anchors are tested; the catalogue has no bond stress of these.
+_TESTED_IN = ("scree", "gneiss", "rock")
 _INSTEAD = "with the columns beside it, instead of a"
 
 ROW_POSITION = (
@@ -88,8 +90,9 @@ ANCHOR_DIMENSIONS = (
     _number("bond_length", LENGTHS, (0.5, 30.0)),
     _word(
         "ground",
-        tuple(_GROUND),
-        "for the least bond stress of the catalogue: "
+        (*_GROUND, *_TESTED_IN),
+        "where the type was tested or computed; left empty, no other type is offered "
+        "without asking; for the least bond stress of the catalogue: "
         + "; ".join(f"{name}: {entry['text']}" for name, entry in _GROUND.items()),
     ),
     _word(

@@ -52,6 +52,8 @@ class Field:
         Least and largest accepted value, in the first unit.
     required : bool
         Whether the heading and every cell below it must be there.
+    instead : tuple of str
+        Keys of columns of which one says what a missing cell or heading would.
     default : float or None
         Value of an empty cell, in the first unit.
     words : mapping of str to tuple of str
@@ -77,6 +79,7 @@ class Field:
     units: tuple[str, ...] = ()
     bounds: tuple[float, float] = (0.0, 0.0)
     required: bool = False
+    instead: tuple[str, ...] = ()
     default: float | None = None
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     refers_to: str = ""

@@ -100,13 +100,15 @@ NETS = word_plan(
                 aliases=("ground",),
                 kind="word",
                 required=True,
+                instead=("slip_length", "glide_factor"),
                 words={
                     "free": ("free glide",),
                     "no-slip": ("rough",),
                     "sliding": ("slides",),
                 },
                 note="free: the snow glides freely; no-slip: it does not move on the "
-                "ground; sliding: give a slip length or a glide factor",
+                "ground; sliding: give a slip length or a glide factor; left empty "
+                "beside one of these, it slides",
             ),
             Field(
                 key="slip_length",

@@ -24,11 +24,13 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
 _NEVER_MET = ("profile.named", "inputs.plausible")  # there while something is open
+# A post of which the snow's moment leaves nothing for the force along it.
+_UNBOUNDED = "post_bending.too_much"
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
     Verdict.FAIL: (
         *("check.fails", "check.fails_besides", "check.fails_though_declared"),
-        "post_bending.too_much",
+        _UNBOUNDED,
     ),
     Verdict.NOT_PROVEN: ("check.not_proven",),
     Verdict.DECLARED: ("check.declared",),
@@ -65,11 +67,7 @@ def audit_checks(
     clauses = {value.id: value.clause for value in profile.values}
     for check in row.checks:
         where = say("audit.check", place=place, check=check.id)
-        end = ".end" if check.position == "edge" else ""
-        is_own = check.id == f"{check.member}.{check.mode}{end}"
-        if not is_own and check.member != Member.NET:
-            what = name_check(check.member, check.mode, check.position)
-            yield say("audit.check_of_other", place=where, what=what)
+        yield from _audit_itself(where, check)
         if check.id in _NEVER_MET:
             if check.verdict is not Verdict.NOT_PROVEN:
                 yield tell_verdict(where, check.verdict, Verdict.NOT_PROVEN)
@@ -89,6 +87,17 @@ def _list_open(row: RowStudy, profile: ProfileRecord) -> Iterator[str]:
         yield "profile.named"
     if row.questions:
         yield "inputs.plausible"
+
+
+def _audit_itself(place: Message, check: CheckRecord) -> Iterator[Message]:
+    """A check of any kind: its name, and a utilisation without a bound."""
+    end = ".end" if check.position == "edge" else ""
+    is_own = check.id == f"{check.member}.{check.mode}{end}"
+    if not is_own and check.member != Member.NET:
+        what = name_check(check.member, check.mode, check.position)
+        yield say("audit.check_of_other", place=place, what=what)
+    if check.is_unbounded is not _is_used_up(check):
+        yield say("audit.unbounded", place=place)
 
 
 def _audit_force(
@@ -218,7 +227,7 @@ def _audit_verdict(
     is_known = low is not None and high is not None and check.demand_kN is not None
     if resistance and used_low is not None and used_high is not None:
         verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
-    if _find_own_reason(check).key == "post_bending.too_much":
+    if check.is_unbounded:
         verdict = Verdict.FAIL
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
@@ -231,6 +240,12 @@ def _audit_verdict(
     if leave_out_governing(check.reason).key not in _REASONS[check.verdict]:
         told = say(f"verdict.{check.verdict}")
         yield say("audit.other_reason", place=place, verdict=told)
+
+
+def _is_used_up(check: CheckRecord) -> bool:
+    """A moment leaves nothing of the post for the force along it, by its reason."""
+    has_numbers = check.utilisation is not None or check.resistance_kN is not None
+    return _find_own_reason(check).key == _UNBOUNDED and not has_numbers
 
 
 def _find_own_reason(check: CheckRecord) -> Message:

@@ -62,9 +62,9 @@ def audit_support(
 
 def _find_governing(row: RowStudy) -> CasePoint | None:
     """Case that has to be drawn: of the largest utilisation, or of the foot's force."""
-    rated = [one for one in row.checks if one.utilisation is not None and one.case]
+    rated = [one for one in row.checks if one.used is not None and one.case]
     if rated:
-        return max(rated, key=lambda check: check.utilisation or 0.0).case
+        return max(rated, key=lambda check: check.used or 0.0).case
     largest = find_largest(row, Member.FOOT_ANCHOR)
     return largest.case if largest else None
 

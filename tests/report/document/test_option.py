@@ -15,7 +15,7 @@ ONLY = ("--no-html", "--no-excel", "--detail", "summary")
 @pytest.fixture
 def study_file(tmp_path, monkeypatch):
     """Stored study of no site; what it says is not compared with one."""
-    monkeypatch.setattr(command, "_require_sound", lambda *_: None)
+    monkeypatch.setattr(command, "require_sound", lambda *_: None)
     path = tmp_path / "study.json"
     path.write_text(write_document(build_study()), encoding="utf-8")
     return path

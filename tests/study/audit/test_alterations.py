@@ -10,7 +10,7 @@ import pytest
 
 from netdesign import cli
 from netdesign.checks import load_standard
-from netdesign.commands import report as report_command
+from netdesign.commands import sound_study
 from netdesign.commands import verify as verify_command
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
@@ -73,7 +73,7 @@ def site(home):
 
 @pytest.fixture
 def try_both(monkeypatch, call, tmp_path, text, site):
-    """Ends of `report` and of `verify --study` with an altered document.
+    """Ends of `report`, `verify --study` and `diff` with an altered document.
 
     The site is read once, and solved once: the solve is the study's own, which
     ``test_verify_study`` shows to come out again.
@@ -89,7 +89,7 @@ def try_both(monkeypatch, call, tmp_path, text, site):
 
     monkeypatch.setattr(verify_command, "open_run", solve)
     monkeypatch.setattr(use_case, "check_site", judge)
-    for module in (verify_command, report_command):
+    for module in (verify_command, sound_study):
         monkeypatch.setattr(module, "read_own_site", lambda *_: site)
 
     def run(document, *, seal=True):
@@ -99,14 +99,18 @@ def try_both(monkeypatch, call, tmp_path, text, site):
             written = write_document(read_document(written))
         path.write_text(written, encoding="utf-8")
         options = ("--no-html", "--no-excel", "--force")
-        return call("report", path, *options), call("verify", "--study", path)
+        return (
+            call("report", path, *options),
+            call("verify", "--study", path),
+            call("diff", path, path),
+        )
 
     return run
 
 
 def test_the_study_itself_is_rendered_and_verified(try_both, text):
     ended = try_both(json.loads(text))
-    assert [one.code for one in ended] == [0, 0]
+    assert [one.code for one in ended] == [0, 0, 0]
     assert "same bytes" in ended[1].out
 
 
@@ -114,8 +118,9 @@ def test_the_study_itself_is_rendered_and_verified(try_both, text):
 def test_an_alteration_is_refused_or_noticed(try_both, text, kind):
     document = json.loads(text)
     KINDS[kind](document)
-    rendered, verified = try_both(document)
+    rendered, verified, compared = try_both(document)
     assert verified.code in (1, 3, 4), verified.out
+    assert (compared.code == REFUSED) is (rendered.code == REFUSED), compared.err
     assert (rendered.code == REFUSED) is (kind not in SOLVE_ONLY), rendered.err
 
 

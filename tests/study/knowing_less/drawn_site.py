@@ -162,7 +162,9 @@ def _draw_net(draw):
         "ground_law": ground,
         "net_height": height,
         "net_stiffness": _round(draw.uniform(4000.0, 22000.0)),
-        "slack": draw.choice((0.0, *(_round(draw.uniform(0.012, 0.11)) for _ in "abcd"))),
+        "slack": draw.choice(
+            (0.0, *(_round(draw.uniform(0.012, 0.11)) for _ in "abcd"))
+        ),
         "post_spacing": _round(draw.uniform(2.4, 4.4)),
         "uphill_anchor_distance": _round(height * draw.uniform(0.7, 1.5)),
         "downhill_anchor_distance": _round(height * draw.uniform(0.6, 1.4)),
