@@ -45,7 +45,7 @@ class Confirmation:
 
 
 def is_confirmation(line: Row) -> bool:
-    """A line of sheet Declared names a cell and its value, not a check."""
+    """Presence of a cell and its value in the place of a check."""
     return split_replacement(line["check"].word) is not None
 
 
@@ -94,7 +94,7 @@ def _read(
 
 
 def show_value(cell: Cell) -> str:
-    """What a cell holds, of a formula its result."""
+    """Content of a cell as text; of a formula its result."""
     is_number = isinstance(cell.value, int | float)
     return f"{cell.value:.10g}" if is_number else cell.text
 

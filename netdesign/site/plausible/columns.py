@@ -85,7 +85,7 @@ def _list_misfits(lines: Sequence[Row], key: str) -> Iterator[Doubt]:
 
 
 def _read_name(line: Row, key: str) -> tuple[str, float, Reading] | None:
-    """What a name has around its number, the number, and the force of the type."""
+    """Text around the number of a name, the number, and the force of the type."""
     match, reading = _NAME.match(line["id"].word), line[key]
     if match is None or not is_typed(reading):
         return None

@@ -68,10 +68,7 @@ def audit_checks(
     for check in row.checks:
         where = say("audit.check", place=place, check=check.id)
         yield from _audit_itself(where, check)
-        if check.id in _NEVER_MET:
-            if check.verdict is not Verdict.NOT_PROVEN:
-                yield tell_verdict(where, check.verdict, Verdict.NOT_PROVEN)
-        elif check.mode in MODES_WITHOUT_FORCE:
+        if check.mode in MODES_WITHOUT_FORCE:
             yield from _audit_direction(where, check, row, factors)
         elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
@@ -96,6 +93,8 @@ def _audit_itself(place: Message, check: CheckRecord) -> Iterator[Message]:
     if not is_own and check.member != Member.NET:
         what = name_check(check.member, check.mode, check.position)
         yield say("audit.check_of_other", place=place, what=what)
+    if check.id in _NEVER_MET and check.verdict is not Verdict.NOT_PROVEN:
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     if check.is_unbounded is not _is_used_up(check):
         yield say("audit.unbounded", place=place)
 
