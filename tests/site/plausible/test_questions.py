@@ -9,7 +9,7 @@ from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.words.catalogue import LANGUAGES, render
-from tests.hostile.slips import PLANS
+from tests.site.plausible.slips import PLANS
 from tests.study.knowing_less.drawn_site import draw_lines, write_lines
 
 

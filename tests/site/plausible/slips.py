@@ -4,6 +4,7 @@ Altered are all numbers that a verdict rests on: times and by 10, 100 and 1000, 
 for the number beside or below it, the heading's unit taken for the next one.
 """
 
+import re
 from dataclasses import dataclass
 
 from netdesign.errors import SiteDataError
@@ -56,7 +57,7 @@ def list_slips(path):
             value = read(cell)
             if value is None:
                 continue
-            if value:
+            if value and not is_grouped(cell):
                 for kind, factor in FACTORS.items():
                     text = f"{value * factor:.10g}"
                     yield Slip(kind, cell.place, {cell.place: text})
@@ -76,6 +77,11 @@ def read(cell):
         return float(cell.text.replace(",", ".").replace(" ", ""))
     except ValueError:
         return None
+
+
+def is_grouped(cell):
+    """A text such as 9.500, which this module would not read as the program does."""
+    return isinstance(cell.value, str) and bool(re.search(r"[.' ]\d{3}", cell.text))
 
 
 def list_units(table, filled):
