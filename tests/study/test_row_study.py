@@ -77,7 +77,7 @@ def test_weak_anchor_fails_and_every_change_is_solved(found, changes):
     assert check(found).verdict is Verdict.FAIL
     assert set(changes) == {
         "characteristic resistance",
-        "type strong of the workbook",
+        "type strong of the workbook (was it tested in the ground of this row?)",
         "post spacing",
         "snow density",
         "snow thickness",

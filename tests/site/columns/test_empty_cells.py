@@ -24,7 +24,7 @@ def read_table():
 
 
 def list_optional(plan):
-    names = [str(one.name) for one in plan.fields if not one.required]
+    names = [str(one.name) for one in plan.fields if not one.required or one.instead]
     return sorted([*names, *(str(one.name) for one in plan.items)])
 
 
