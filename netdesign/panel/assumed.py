@@ -17,11 +17,13 @@ Ends = tuple[float, float]  # least and largest value; equal where it is given
 
 # Cut; which end of the sag of ridge rope and lower rope, of their EA; mid-anchors.
 _WORST: tuple[tuple[Cut, int, int, int, int, bool], ...] = (
-    ("uniform", 0, 1, 0, 0, False),  # uphill guy of a taut net
-    ("uniform", 1, 1, 0, 0, False),
+    ("uniform", 0, 1, 0, 0, False),  # uphill guy
     ("uniform", 0, 1, 1, 0, False),
-    ("uniform", 0, 1, 1, 1, False),  # uphill guy of a slack net
+    ("uniform", 1, 1, 0, 0, False),
+    ("uniform", 1, 1, 1, 0, False),
     ("upper", 0, 1, 1, 0, False),
+    ("upper", 0, 1, 1, 1, False),
+    ("fitted", 0, 1, 1, 0, False),
     ("fitted", 1, 0, 1, 1, False),  # lower rope along the row
     ("fitted", 0, 1, 1, 1, False),  # ridge rope along the row
     ("fitted", 0, 1, 1, 1, True),

@@ -9,6 +9,7 @@ from netdesign.panel.inputs import CUTS
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import BorderRope, RowPanel
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.type_resistances import find_breaking
 from netdesign.words.message import Message, say
 
 _NEEDED = ("net_cut", "ridge_rope", "ridge_sag", "lower_rope", "lower_sag")
@@ -91,7 +92,7 @@ def _list_assumed(row: Row, ropes: Mapping[str, Row]) -> list[Message]:
 def _find_stiffness(line: Row | None) -> Ends:
     if line is None:
         return find_stiffness(None, None)
-    return find_stiffness(line["axial_stiffness"].given_si, line["rope"].given_si)
+    return find_stiffness(line["axial_stiffness"].given_si, find_breaking(line))
 
 
 def _describe_rope(line: Row | None) -> BorderRope:

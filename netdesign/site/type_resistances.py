@@ -207,6 +207,19 @@ def _rope(row: Row) -> tuple[float, Message]:
     )
 
 
+def find_breaking(row: Row) -> float | None:
+    """Breaking force of a rope without the loss of its ends [N]; None if not known."""
+    rope = row["rope"]
+    if rope.derivation is None:
+        return rope.given_si
+    return compute_rope_resistance(
+        diameter=row["rope_diameter"].si,
+        grade=row["grade"].si,
+        breaking_factor=find_rope_factor(row["construction"].word, "K").value,
+        termination=1.0,
+    )
+
+
 def _buckling(row: Row) -> tuple[float, Message]:
     curve, found = name_curve(row), compute_buckling(row)
     imperfection = find_imperfection(curve)

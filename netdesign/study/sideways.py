@@ -195,14 +195,25 @@ def find_sideways(
         share=value.value,
         splay=splay,
         pull=_widen(heads, sum(hidden.values()), floor.pull if floor else 0.0),
-        least_tension=min(
-            max(0.0, min(head.tension for head in heads) - in_guys),
-            floor.least_tension if floor else math.inf,
-        ),
+        least_tension=_find_least_tension(row, heads, in_guys, floor),
         uphill=max(one.largest_uphill for one in weights),
         downhill=max(one.largest_downhill for one in weights),
         post=max(one.post for one in weights),
     )
+
+
+def _find_least_tension(
+    row: NetRow, heads: Sequence[_Head], hidden: float, floor: HeadSpan | None
+) -> float:
+    """Least tension of the guys at work [N]; none where the panel is assumed.
+
+    Between two panels as they may be built, the guy of one side can give way to that
+    of the other: then neither has any.
+    """
+    if row.panel is not None and row.panel.assumed:
+        return 0.0
+    solved = max(0.0, min(head.tension for head in heads) - hidden)
+    return min(solved, floor.least_tension) if floor else solved
 
 
 def check_sideways(row: NetRow, sideways: Sideways, gap: Message | None) -> CheckResult:

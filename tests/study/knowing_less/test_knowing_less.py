@@ -33,6 +33,7 @@ RANK = {
     Verdict.PASS: 2,
 }
 SITES_IN_SUITE, SETS_A_SITE = 30, 10
+FOUND = (1005, 1016, 1025)  # sites that showed a fault once
 
 
 def judge(path, lines):
@@ -107,6 +108,11 @@ def assert_never_better(path, seed, count):
 @pytest.mark.parametrize("seed", range(SITES_IN_SUITE))
 def test_no_set_of_empty_cells_makes_anything_better(tmp_path, seed):
     assert_never_better(tmp_path / "site.xlsx", seed, SETS_A_SITE)
+
+
+@pytest.mark.parametrize("seed", FOUND)
+def test_what_was_found_once_stays_mended(tmp_path, seed):
+    assert_never_better(tmp_path / "site.xlsx", seed, 20)
 
 
 @pytest.mark.slow
