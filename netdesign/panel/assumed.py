@@ -17,18 +17,24 @@ Ends = tuple[float, float]  # least and largest value; equal where it is given
 
 # Cut; which end of the sag of ridge rope and lower rope, of their EA; mid-anchors.
 _WORST: tuple[tuple[Cut, int, int, int, int, bool], ...] = (
-    ("uniform", 0, 1, 0, 0, False),  # uphill guy
+    # for the uphill guy
+    ("uniform", 0, 1, 0, 0, False),
     ("uniform", 0, 1, 1, 0, False),
+    ("uniform", 0, 1, 1, 1, False),
     ("uniform", 1, 1, 0, 0, False),
     ("uniform", 1, 1, 1, 0, False),
+    ("upper", 0, 0, 1, 0, False),
     ("upper", 0, 1, 1, 0, False),
     ("upper", 0, 1, 1, 1, False),
+    ("fitted", 0, 0, 1, 0, False),
     ("fitted", 0, 1, 1, 0, False),
-    ("fitted", 1, 0, 1, 1, False),  # lower rope along the row
-    ("fitted", 0, 1, 1, 1, False),  # ridge rope along the row
+    # for lower rope and ridge rope along the row
+    ("fitted", 1, 0, 1, 1, False),
+    ("fitted", 0, 1, 1, 1, False),
     ("fitted", 0, 1, 1, 1, True),
-    ("fitted", 1, 1, 1, 1, False),  # foot anchor
-    ("fitted", 1, 1, 1, 1, True),  # post, downhill guy
+    # for foot anchor, post and downhill guy
+    ("fitted", 1, 1, 1, 1, False),
+    ("fitted", 1, 1, 1, 1, True),
 )
 
 
