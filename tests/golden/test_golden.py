@@ -1,0 +1,38 @@
+"""Studies of forty drawn sites: every number as it was, to a billionth."""
+
+import math
+
+import pytest
+
+from tests.golden.golden import SEEDS, judge_seed, load_stored
+
+TOLERANCE = 1e-9
+# Below these a number is a residual, and follows the order of a sum.
+NOTHING = 1e-9
+
+
+@pytest.fixture(scope="module")
+def stored():
+    return load_stored()
+
+
+def is_same(one, other):
+    if isinstance(one, float) and isinstance(other, float):
+        return math.isclose(one, other, rel_tol=TOLERANCE, abs_tol=NOTHING)
+    return one == other
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_every_number_is_what_it_was(stored, seed):
+    then, now = stored[str(seed)], judge_seed(seed)
+    assert now.keys() == then.keys(), sorted(now.keys() ^ then.keys())[:10]
+    other = [key for key in then if not is_same(then[key], now[key])]
+    assert not other, [(key, then[key], now[key]) for key in other[:10]]
+
+
+def test_the_sites_hold_all_verdicts_and_grounds(stored):
+    verdicts = {value for study in stored.values() for key, value in study.items()
+                if key.endswith("/verdict")}  # fmt: skip
+    assert verdicts == {"pass", "fail", "not_proven", "declared"}
+    words = {value for study in stored.values() for value in study.values()}
+    assert {"free", "no-slip", "sliding"} <= words
