@@ -1,8 +1,8 @@
-"""An envelope: the largest force of one net over ranges of density and friction.
+"""An envelope: the largest force of one net over ranges of density and slack.
 
 The picture shows the force at the net's foot for each case that the search solved. The
-line is the bound: no case within the ranges has a larger force. The force grows with
-the density; for one density it depends on the friction between snow and net.
+line is the bound: the search lets no case within the ranges lie above it. The force
+grows with the density, and it falls with the slack: a taut net pulls more.
 
 Run ``python -m netdesign.examples.envelope``. It writes ``envelope.png``, or the file
 that you name.
@@ -14,7 +14,6 @@ import sys
 from math import radians
 
 from netdesign import (
-    GroundLaw,
     Interval,
     Net,
     Ranges,
@@ -25,12 +24,14 @@ from netdesign import (
     SearchSettings,
     Snowpack,
     SolverSettings,
+    build_ground_from_glide_factor,
     search_rows,
 )
 
 SNOW = Snowpack(
     slope_angle=radians(40), thickness=3.0, upslope_length=20.0, density=300.0
 )
+GROUND = build_ground_from_glide_factor(1.8, 3.0)
 NET = Net(
     height_normal=3.0,
     inclination=radians(30),
@@ -39,10 +40,10 @@ NET = Net(
     friction_angle=radians(30),
 )
 TASK = RowTask(
-    scene=Scene(snowpack=SNOW, ground=GroundLaw(kind="no-slip"), net=NET),
+    scene=Scene(snowpack=SNOW, ground=GROUND, net=NET),
     ranges=Ranges.of(
         density=Interval(low=250.0, high=450.0),  # [kg/m3]
-        friction_angle=Interval(low=radians(15), high=radians(45)),
+        slack=Interval(low=0.02, high=0.1),
     ),
     layout=None,
     settings=SolverSettings(accuracy=0.005),
@@ -57,18 +58,19 @@ def draw(found: RowEnvelope, path: str) -> None:
 
     figure = Figure(figsize=(5, 3.4), layout="constrained")
     axes = figure.subplots()
-    for low, high, marker in ((15, 25, "o"), (25, 35, "s"), (35, 46, "^")):
+    for low, high, marker in ((0.02, 0.05, "^"), (0.05, 0.08, "s"), (0.08, 0.11, "o")):
         cases = [
             (one.case.density, one.member_forces["foot"].value / 1e3)
             for one in found.results
-            if radians(low) <= one.case.friction_angle + 1e-9 < radians(high)
+            if low <= one.case.values["slack"] < high
         ]
-        label = f"friction angle from {low}°"
+        label = f"slack from {low:.0%}"
         axes.plot(*zip(*cases, strict=True), marker, mfc="none", mec="0", label=label)
     bound = found.extremes["foot"].widened.high / 1e3
     axes.axhline(bound, color="black", linestyle="--", label="bound")
     axes.set(xlabel="density of the snow [kg/m³]", ylabel="force at the foot [kN/m]")
-    axes.legend(loc="upper left")
+    axes.set_ylim(bottom=0)
+    axes.legend(loc="lower right")
     figure.savefig(path)
 
 
@@ -80,9 +82,8 @@ def main() -> None:
         raise SystemExit(str(found.gap))
     foot = found.extremes["foot"]
     print(f"largest force at the foot {foot.force.value / 1e3:.2f} kN/m")
-    print(
-        f"nowhere above {foot.widened.high / 1e3:.2f} kN/m, after {len(found.results)} cases"
-    )
+    cases = len(found.results)
+    print(f"nowhere above {foot.widened.high / 1e3:.2f} kN/m, after {cases} cases")
     draw(found, path)
     print(f"wrote {path}")
 

@@ -1,8 +1,8 @@
 """A history: a straight net takes up its load while the snow creeps into it.
 
 The picture shows the pulls of the net against the time since the snow began to creep.
-Both rise within hours and then hardly change: the plateau. A steady solve gives the
-plateau at once, without the way to it.
+At first the straight net hardly holds the snow. Both pulls rise within hours and then
+hardly change: the plateau. A steady solve gives the plateau alone.
 
 Run ``python -m netdesign.examples.history``. It writes ``history.png``, or the file
 that you name.
@@ -36,7 +36,9 @@ NET = Net(
     friction_angle=radians(30),
 )
 SCENE = Scene(snowpack=SNOW, ground=build_ground_from_glide_factor(1.8, 3.0), net=NET)
-SETTINGS = TransientSettings(accuracy=0.05, start="straight", densifies=False)
+SETTINGS = TransientSettings(
+    accuracy=0.05, start="straight", horizon=96 * HOUR, densifies=False
+)
 
 
 def draw(solution: Solution, path: str) -> None:
@@ -50,6 +52,7 @@ def draw(solution: Solution, path: str) -> None:
     axes.plot(hours, [hypot(*one.foot) / 1e3 for one in moments], "k-", label="foot")
     axes.plot(hours, [hypot(*one.head) / 1e3 for one in moments], "k--", label="head")
     axes.set(xlabel="time [h]", ylabel="pull of the net [kN/m]", xscale="log")
+    axes.set_xlim(left=0.01)
     axes.legend(loc="upper left")
     figure.savefig(path)
 

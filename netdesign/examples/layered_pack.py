@@ -87,9 +87,9 @@ def draw(feet: dict[str, list[float]], grounds: list[str], path: str) -> None:
 
     figure = Figure(figsize=(5, 3.4), layout="constrained")
     axes = figure.subplots()
-    for (kind, pulls), shift, hatch in zip(feet.items(), (-0.2, 0.2), ("", "///")):
+    for kind, shift, hatch in (("layered", -0.2, ""), ("uniform", 0.2, "///")):
         places = [place + shift for place in range(len(grounds))]
-        axes.bar(places, pulls, 0.4, color="white", ec="black", hatch=hatch, label=kind)
+        axes.bar(places, feet[kind], 0.4, fc="white", ec="0", hatch=hatch, label=kind)
     axes.set(ylabel="pull at the foot [kN/m]")
     axes.set_xticks(range(len(grounds)), grounds)
     axes.legend(loc="upper left")

@@ -33,13 +33,11 @@ def draw(needed: dict[str, float], path: str) -> None:
 
     figure = Figure(figsize=(5, 2.6), layout="constrained")
     axes = figure.subplots()
-    bars = axes.barh(
-        list(needed), list(needed.values()), color="0.8", edgecolor="black"
-    )
+    names, forces = list(needed), list(needed.values())
+    bars = axes.barh(names, forces, color="0.8", edgecolor="black")
     axes.bar_label(bars, fmt="%.0f", padding=3)
     axes.axvline(FORCE, color="black", linestyle="--")
-    axes.set(xlabel="pull-out resistance needed [kN]", xlim=(0, None))
-    axes.margins(x=0.15)
+    axes.set(xlabel="pull-out resistance needed [kN]", xlim=(0.0, 1.15 * max(forces)))
     figure.savefig(path)
 
 

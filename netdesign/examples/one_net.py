@@ -1,8 +1,8 @@
 """A scene: one net under snow that glides freely on smooth ground.
 
-The picture shows the net from the side, and the forces of the snow on it. The net hangs
-through, downslope is to the right, and the snow presses more at the foot than at the
-head. The whole snow of 20 m slope hangs on this one net.
+The picture shows the net from the side, downslope to the right. The arrows are its
+pulls on the foot anchors and on the post heads. The snow of 20 m of slope hangs on this
+one net, since the ground holds none of it.
 
 Run ``python -m netdesign.examples.one_net``. It writes ``one_net.png``, or the file
 that you name: ``python -m netdesign.examples.one_net net.svg``.
@@ -46,15 +46,17 @@ def build_scene() -> Scene:
 
 
 def draw(solution: Solution, path: str) -> None:
-    """Draw the net's shape and the forces of the snow on it."""
+    """Draw the net and its pulls on what holds it."""
     from matplotlib.figure import Figure
 
     x, y = solution.net_curve
-    force_x, force_y = solution.net_forces / abs(solution.net_forces).max()
     figure = Figure(figsize=(5, 3.4), layout="constrained")
     axes = figure.subplots()
-    axes.plot(x, y, color="black", marker=".", label="net")
-    axes.quiver(x, y, force_x, force_y, width=0.003, color="0.4", label="snow on it")
+    axes.plot(x, y, "k.-", label="net")
+    for end, pull in ((0, solution.foot), (-1, solution.head)):
+        tip = x[end] + pull.x / 1e5, y[end] + pull.y / 1e5
+        axes.annotate("", tip, (x[end], y[end]), arrowprops={"width": 1, "fc": "0.7"})
+        axes.text(*tip, f"  {pull.size / 1e3:.0f} kN/m", va="top")
     axes.axhline(0.0, color="black", linewidth=2.0)
     axes.set(xlabel="downslope [m]", ylabel="above the ground [m]")
     axes.axis("equal")

@@ -1,7 +1,8 @@
 """A panel: the net between two posts hangs on two ropes, and pulls on what holds them.
 
-The picture shows the net from the side, at a post and half way between two posts. There
-the ropes give way: the net moves downslope, and the ropes carry its load to the posts.
+The picture shows the two ropes from above, downslope is down. The dots hold them: foot
+anchors the lower rope, post heads the upper one. Under the snow both ropes hang
+downslope, so that they pull hard on the dots along the row, too.
 
 Run ``python -m netdesign.examples.panel``. It writes ``panel.png``, or the file that
 you name.
@@ -42,18 +43,22 @@ ROPE = Rope(stiffness=2e7, sag=0.06)  # axial stiffness EA [N]
 PANEL = Panel(post_spacing=4.0, lower=ROPE, upper=ROPE, cut="upper")
 
 
-def draw(panel: PanelSolution, path: str) -> None:
-    """Draw the net at the post and in mid-panel."""
+def draw(panel: PanelSolution, head: float, path: str) -> None:
+    """Draw both ropes from above; ``head`` is how far downslope a post head is [m]."""
     from matplotlib.figure import Figure
 
+    order = panel.stations.argsort()  # from the post to the middle
+    half = [0.0, *panel.stations[order]]
+    across = [*half, *(PANEL.post_spacing - z for z in reversed(half))]
     figure = Figure(figsize=(5, 3.4), layout="constrained")
     axes = figure.subplots()
-    axes.plot(*panel.curves[0], "k-", label="near the post")
-    axes.plot(*panel.curves[-1], "k--", label="half way between two posts")
-    axes.axhline(0.0, color="black", linewidth=2.0)
-    axes.set(xlabel="downslope [m]", ylabel="above the ground [m]")
-    axes.axis("equal")
-    axes.legend(loc="upper left")
+    for name, end, node, style in (("lower", 0.0, 0, "k-"), ("upper", head, -1, "k--")):
+        along = [end, *panel.curves[order, 0, node]]
+        axes.plot(across, [*along, *reversed(along)], style, label=f"{name} rope")
+        axes.plot([0.0, PANEL.post_spacing], [end, end], "ko")
+    axes.set(xlabel="along the row [m]", ylabel="downslope [m]")
+    axes.invert_yaxis()
+    axes.legend()
     figure.savefig(path)
 
 
@@ -71,7 +76,7 @@ def main() -> None:
         print(f"{name} {hypot(*force) / 1e3:.1f} kN, downslope {force[0] / 1e3:.1f} kN")
     for name, rope in (("lower", panel.lower), ("upper", panel.upper)):
         print(f"{name} rope {rope.tension / 1e3:.1f} kN")
-    draw(panel, path)
+    draw(panel, solution.head_point[0], path)
     print(f"wrote {path}")
 
 

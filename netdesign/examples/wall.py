@@ -1,4 +1,4 @@
-"""A wall: the force of the snow on it, for ground that is smoother and smoother.
+"""A wall: the force of the snow on a wall, for ground that is smoother and smoother.
 
 The picture shows the force along the slope for four glide factors N. The Swiss
 guideline takes N times the force on rough ground: the broken line. That is meant for a

@@ -1,8 +1,8 @@
 """A winter: daily snow heights of a station become forces on a net.
 
 The upper picture shows the snow height, the lower one the force at the net's foot. The
-largest force comes long after the first deep snow, when the pack is heavy and dense.
-The curve has steps: each day's layers are joined to a few, not always the same ones.
+largest force comes some days after the highest snow: the pack is lower, but denser. The
+curve jumps where the layers of two days are joined in different ways.
 
 Run ``python -m netdesign.examples.winter``. It writes ``winter.png``, or the file that
 you name. The heights are made up: ``winter_2000.csv``, a station at 2000 m.
