@@ -15,6 +15,13 @@ ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 USAGE = (ROOT / "netdesign" / "USAGE.md").read_text(encoding="utf-8")
 TUTORIAL = (ROOT / "netdesign" / "TUTORIAL.md").read_text(encoding="utf-8")
+SHORT_SENTENCES = [
+    ROOT / "README.md",
+    ROOT / "netdesign" / "USAGE.md",
+    ROOT / "netdesign" / "examples" / "README.md",
+]
+MOST_WORDS = 25  # of a sentence
+FLAGS = re.DOTALL | re.MULTILINE
 MOST_LINES = 140  # of the README: it is read before anything is installed
 NETDESIGN = Path(sys.executable).with_name("netdesign")
 
@@ -79,6 +86,17 @@ def test_first_screen_holds_both_set_up_commands():
 
 def test_readme_is_short():
     assert len(README.splitlines()) <= MOST_LINES
+
+
+@pytest.mark.parametrize("page", SHORT_SENTENCES, ids=lambda page: page.name)
+def test_sentences_are_short(page):
+    """Tables and lists of the columns apart."""
+    text = page.read_text(encoding="utf-8")
+    text = re.sub(r"```.*?```|<img.*?>|\]\([^)]*\)|^\|.*?$", "", text, flags=FLAGS)
+    for part in re.split(r"\n\n|\n(?=- )", text):
+        for sentence in re.split(r"(?<=[.!?]) (?=[A-Z`\[*])", " ".join(part.split())):
+            words = [word for word in sentence.split() if re.search(r"\w", word)]
+            assert len(words) <= MOST_WORDS, sentence
 
 
 def test_both_installs_make_the_same_environment():
