@@ -5,6 +5,8 @@
 """
 
 from netdesign.cable.net import Net as Net
+from netdesign.checks import Standard as Standard
+from netdesign.checks import list_standards as list_standards
 from netdesign.checks import load_standard as load_standard
 from netdesign.coupling.history.settings import TransientSettings as TransientSettings
 from netdesign.coupling.history.transient import solve_transient as solve_transient
@@ -15,10 +17,22 @@ from netdesign.coupling.solution import Solution as Solution
 from netdesign.coupling.solution import WallSolution as WallSolution
 from netdesign.coupling.steady.rigid import solve_rigid as solve_rigid
 from netdesign.coupling.steady.solve import solve_steady as solve_steady
+from netdesign.envelope.ranges import Interval as Interval
+from netdesign.envelope.ranges import Ranges as Ranges
+from netdesign.envelope.rows import RowEnvelope as RowEnvelope
+from netdesign.envelope.rows import RowTask as RowTask
+from netdesign.envelope.search import search_rows as search_rows
 from netdesign.errors import NetDesignError as NetDesignError
 from netdesign.errors import SolveError as SolveError
 from netdesign.files.scene import read_scene as read_scene
+from netdesign.panel.inputs import Panel as Panel
+from netdesign.panel.inputs import Rope as Rope
+from netdesign.panel.solution import FailedPanel as FailedPanel
+from netdesign.panel.solution import PanelSolution as PanelSolution
+from netdesign.panel.solve import solve_panel as solve_panel
+from netdesign.search.maxima import SearchSettings as SearchSettings
 from netdesign.site.reader import read_site as read_site
+from netdesign.site.template.workbook import write_site_workbook as write_site_workbook
 from netdesign.snow.ground import GroundLaw as GroundLaw
 from netdesign.snow.ground import (
     build_ground_from_glide_factor as build_ground_from_glide_factor,
@@ -27,5 +41,17 @@ from netdesign.snow.snowpack import Layer as Layer
 from netdesign.snow.snowpack import Snowpack as Snowpack
 from netdesign.snow.snowpack import build_layered_snowpack as build_layered_snowpack
 from netdesign.snow.wall import Wall as Wall
+from netdesign.snowpack.follow import follow_heights as follow_heights
+from netdesign.solving.runner import Runner as Runner
+from netdesign.structure.layout import SupportLayout as SupportLayout
 from netdesign.study.check_run import CheckRun as CheckRun
 from netdesign.study.check_site import check_site as check_site
+from netdesign.winter.day import DaySolver as DaySolver
+from netdesign.winter.day import WinterRow as WinterRow
+from netdesign.winter.fit import FitTask as FitTask
+from netdesign.winter.fit import SeasonFit as SeasonFit
+from netdesign.winter.fit import fit_season as fit_season
+from netdesign.winter.fit_readings import FitReading as FitReading
+from netdesign.winter.fit_readings import Noise as Noise
+from netdesign.winter.season import Season as Season
+from netdesign.winter.season import follow_season as follow_season

@@ -105,7 +105,7 @@ THIRD_PARTY = {
     "weasyprint": ("report.page.pdf",),
     "docx": ("report.document.*",),
     "PIL": ("report.drawing.raster",),  # matplotlib writes PNG by it
-    "matplotlib": (*("report.drawing.*", "evidence.*", "examples.one_net"),),
+    "matplotlib": (*("report.drawing.*", "evidence.*", "examples.*"),),
     "pandas": ("report.view.case_table",),
     "click": ("cli", "commands.*"),
     "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),

@@ -1,1 +1,1 @@
-"""Programs to start from: ``python -m netdesign.examples.one_net``."""
+"""Ten programs to start from: ``python -m netdesign.examples.one_net``."""

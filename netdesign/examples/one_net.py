@@ -1,10 +1,16 @@
-"""One net under uniform snow: what it pulls with at foot and head, and its shape.
+"""A scene: one net under snow that glides freely on smooth ground.
 
-Run it with ``python -m netdesign.examples.one_net``; it writes ``one_net.svg``.
+The picture shows the net from the side, downslope to the right. The arrows are its
+pulls on the foot anchors and on the post heads. The snow of 20 m of slope hangs on this
+one net, since the ground holds none of it.
+
+Run ``python -m netdesign.examples.one_net``. It writes ``one_net.png``, or the file
+that you name: ``python -m netdesign.examples.one_net net.svg``.
 """
 
 from __future__ import annotations
 
+import sys
 from math import cos, radians
 
 from netdesign import (
@@ -18,21 +24,19 @@ from netdesign import (
 )
 
 SLOPE_ANGLE = radians(40)
-SNOW_HEIGHT = 4.0  # vertical [m]
-PICTURE = "one_net.svg"
+THICKNESS = 4.0 * cos(SLOPE_ANGLE)  # of 4 m of snow, normal to the slope [m]
 
 
 def build_scene() -> Scene:
     """Scene of 20 m of snow that glides freely and hangs on one net."""
-    thickness = SNOW_HEIGHT * cos(SLOPE_ANGLE)  # normal to the slope [m]
     snow = Snowpack(
         slope_angle=SLOPE_ANGLE,
-        thickness=thickness,
+        thickness=THICKNESS,
         upslope_length=20.0,  # [m], to the next net row
         density=380.0,  # [kg/m3]
     )
     net = Net(
-        height_normal=thickness,
+        height_normal=THICKNESS,
         inclination=radians(30),  # from the slope normal, head downslope
         stiffness_per_m=2e7,  # [N/m] at unit strain
         slack=0.05,
@@ -41,40 +45,38 @@ def build_scene() -> Scene:
     return Scene(snowpack=snow, ground=GroundLaw(kind="free"), net=net)
 
 
-def describe(solution: Solution) -> str:
-    """Pulls of the net with their errors, and its sag."""
-    lines = [
-        f"{name} {pull.size / 1e3:6.1f} kN/m, error {pull.error / 1e3:.1f}"
-        for name, pull in (("foot", solution.foot), ("head", solution.head))
-    ]
-    return "\n".join([*lines, f"sag  {solution.sag:6.2f} m"])
-
-
 def draw(solution: Solution, path: str) -> None:
-    """Write a drawing of the net's shape and the forces of the snow on it."""
+    """Draw the net and its pulls on what holds it."""
     from matplotlib.figure import Figure
 
     x, y = solution.net_curve
-    force_x, force_y = solution.net_forces / abs(solution.net_forces).max()
-    figure = Figure(figsize=(5, 5), layout="constrained")
+    figure = Figure(figsize=(5, 3.4), layout="constrained")
     axes = figure.subplots()
-    axes.plot(x, y, marker=".", label="net")
-    axes.quiver(x, y, force_x, force_y, width=0.003, label="snow on the mesh's nodes")
-    axes.axhline(0.0, color="black", linewidth=1.0)
-    axes.set(xlabel="along the slope [m]", ylabel="normal to the slope [m]")
+    axes.plot(x, y, "k.-", label="net")
+    for end, pull in ((0, solution.foot), (-1, solution.head)):
+        tip = x[end] + pull.x / 1e5, y[end] + pull.y / 1e5
+        axes.annotate("", tip, (x[end], y[end]), arrowprops={"width": 1, "fc": "0.7"})
+        axes.text(*tip, f"  {pull.size / 1e3:.0f} kN/m", va="top")
+    axes.axhline(0.0, color="black", linewidth=2.0)
+    axes.set(xlabel="downslope [m]", ylabel="above the ground [m]")
     axes.axis("equal")
-    axes.legend()
+    axes.legend(loc="upper left")
     figure.savefig(path)
 
 
 def main() -> None:
     """Solve the scene, print its result and draw it."""
+    path = sys.argv[1] if sys.argv[1:] else "one_net.png"
     solution = solve_steady(build_scene())
     if isinstance(solution, FailedSolution):
         raise SystemExit(f"{solution.outcome.value}: {solution.reason}")
-    print(describe(solution))
-    draw(solution, PICTURE)
-    print(f"wrote {PICTURE}")
+    for name, pull in (("foot", solution.foot), ("head", solution.head)):
+        print(f"{name} {pull.size / 1e3:6.1f} kN/m, error {pull.error / 1e3:.1f}")
+    along = solution.foot.x + solution.head.x
+    print(f"downslope, foot and head together {along / 1e3:.1f} kN/m")
+    print(f"sag {solution.sag:.2f} m")
+    draw(solution, path)
+    print(f"wrote {path}")
 
 
 if __name__ == "__main__":

@@ -41,7 +41,7 @@ MODELS: dict[str, SettlingModel] = {
 
 def follow_heights(
     heights: Sequence[float],
-    model: SettlingModel,
+    model: SettlingModel = DELTA_SNOW_AGEING,
     first_density: float | None = None,
 ) -> tuple[DayPack, ...]:
     """Snowpack of each day of a series.
@@ -50,8 +50,8 @@ def follow_heights(
     ----------
     heights : sequence of float
         Observed snow height of each day [m], no gap, none below 0.
-    model : SettlingModel
-        Settling model with its constants.
+    model : SettlingModel, optional
+        Settling model with its constants; by default the first of ``MODELS``.
     first_density : float, optional
         Density of the snow that lies on the first day [kg/m3]; by default new snow.
     """

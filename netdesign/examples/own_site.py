@@ -1,0 +1,75 @@
+"""A site from Python: the utilisation of a row against the spacing of its posts.
+
+The picture shows the largest utilisation of row R1 of the built-in example, for four
+spacings of its posts. The checks pass below the broken line. At 6 m the utilisation is
+so close to 1 that its numerical interval crosses the line: the row is not proven.
+
+The workbook stays as it is. Each study reads another number in one of its cells.
+
+Run ``python -m netdesign.examples.own_site``. It writes ``own_site.png``, or the file
+that you name.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from netdesign import (
+    CheckRun,
+    SolverSettings,
+    check_site,
+    load_standard,
+    read_site,
+    write_site_workbook,
+)
+
+SPACINGS = (4.0, 5.0, 6.0, 7.0)  # [m]
+SPACING_CELL = "Nets!L2"
+RUN = CheckRun(settings=SolverSettings(accuracy=0.01))
+
+
+def find_utilisation(workbook: Path, spacing: float) -> tuple[float, str]:
+    """Largest utilisation of row R1 at a spacing, and the verdict of the row."""
+    site = read_site(workbook, instead={SPACING_CELL: str(spacing)})
+    alone = replace(site, rows=site.rows[:1])
+    (study,) = check_site(alone, [load_standard("nf-p-95-304-style")], RUN)
+    checks = study.rows[0].checks
+    return max(one.utilisation or 0.0 for one in checks), study.verdict.value
+
+
+def draw(found: list[tuple[float, str]], path: str) -> None:
+    """Draw the utilisation against the spacing, with the verdicts."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(5, 3.4), layout="constrained")
+    axes = figure.subplots()
+    axes.plot(SPACINGS, [utilisation for utilisation, _ in found], "ko-")
+    for spacing, (utilisation, verdict) in zip(SPACINGS, found, strict=True):
+        name = verdict.replace("_", " ").upper()
+        axes.text(spacing + 0.1, utilisation - 0.03, name, va="top")
+    axes.axhline(1.0, color="black", linestyle="--")
+    axes.set(xlabel="spacing of the posts [m]", ylabel="largest utilisation")
+    axes.set(xlim=(3.5, 8.0), ylim=(0.0, 1.3))
+    figure.savefig(path)
+
+
+def main() -> None:
+    """Check the row at each spacing, print the verdicts and draw the utilisations."""
+    path = sys.argv[1] if sys.argv[1:] else "own_site.png"
+    found = []
+    with TemporaryDirectory() as folder:
+        workbook = Path(folder) / "site.xlsx"
+        write_site_workbook(workbook, example=True)
+        for spacing in SPACINGS:
+            utilisation, verdict = find_utilisation(workbook, spacing)
+            print(f"{spacing:.1f} m  {utilisation:.3f}  {verdict}")
+            found.append((utilisation, verdict))
+    draw(found, path)
+    print(f"wrote {path}")
+
+
+if __name__ == "__main__":
+    main()
