@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from netdesign import __version__
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
@@ -36,7 +36,12 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
+from netdesign.evidence.table import print_document, print_rows
+from netdesign.report.words import Words
 from netdesign.snow.mesh import MeshSize
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 BENCH_SCHEMA = "netdesign.bench/1"
 HISTORY_ACCURACY = 0.01  # of the steps
@@ -172,3 +177,9 @@ def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
         "rows": [asdict(row) for row in rows],
         "summary": asdict(summarise(rows)),
     }
+
+
+def print_bench(document: dict[str, Any], console: Console, words: Words) -> None:
+    """Print a line for each row, then what they say together."""
+    print_rows(document["rows"], console, words)
+    print_document(document["summary"], console, words)
