@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from netdesign.evidence.benchmark.rows import Row
+    from netdesign.evidence.benchmark.summary import Row
     from netdesign.report.words import Words
 
 Show = Callable[[dict[str, Any], "Console", "Words"], None]

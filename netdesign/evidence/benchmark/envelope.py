@@ -26,8 +26,8 @@ from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.clock import Clock, read_peak
 from netdesign.evidence.benchmark.peaks import measure_peaks
+from netdesign.evidence.benchmark.runner import Clock, read_peak
 from netdesign.evidence.benchmark.versions.inputs import write_site
 from netdesign.evidence.benchmark.versions.measures import Bench, Size, time_site
 from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings

@@ -35,9 +35,8 @@ from netdesign.evidence.benchmark.random_scenes import (
     Tables,
     draw_scene,
 )
+from netdesign.evidence.benchmark.runner import share, spread
 from netdesign.evidence.benchmark.scenes import build_tables
-from netdesign.evidence.benchmark.spread import spread
-from netdesign.evidence.benchmark.statistics import share
 from netdesign.evidence.benchmark.truth import solve_fine
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize

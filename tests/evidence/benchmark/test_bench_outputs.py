@@ -10,8 +10,8 @@ from netdesign.evidence.benchmark.bench_figure import draw_work_precision
 from netdesign.evidence.benchmark.honesty import Finding, write_errors
 from netdesign.evidence.benchmark.lines import Line, write_lines
 from netdesign.evidence.benchmark.precision import print_bench, write_bench
-from netdesign.evidence.benchmark.rows import Row
 from netdesign.evidence.benchmark.stress import Attempt, write_stress
+from netdesign.evidence.benchmark.summary import Row
 from netdesign.evidence.table import print_document, print_figure
 from netdesign.report.words import Words
 from netdesign.words.catalogue import load_texts

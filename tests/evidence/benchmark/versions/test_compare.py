@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from netdesign.evidence.benchmark.runner import Time
 from netdesign.evidence.benchmark.versions import compare
 from netdesign.evidence.benchmark.versions.compare import (
     Figure,
@@ -13,7 +14,7 @@ from netdesign.evidence.benchmark.versions.compare import (
     compare_versions,
     count_runs,
 )
-from netdesign.evidence.benchmark.versions.measures import RunFailure, Size, Time
+from netdesign.evidence.benchmark.versions.measures import RunFailure, Size
 from netdesign.evidence.benchmark.versions.table import print_versions
 from netdesign.report.words import Words
 from tests.words.english import list_vocabulary, list_words
