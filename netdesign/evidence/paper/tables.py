@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from netdesign.coupling.history.settings import Start
+from netdesign.evidence.page_table import (
+    CHANGES,
+    ERRORS,
+    FORCE,
+    FORCES,
+    FRICTIONS,
+    GIVEN,
+    INCLINATIONS,
+    TEXTS,
+    TIMES,
+    Field,
+    Kind,
+    kilo,
+    tabulate,
+)
 from netdesign.evidence.paper.cases import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,
@@ -23,39 +37,12 @@ from netdesign.evidence.paper.findings import judge_growth, last_swing
 from netdesign.evidence.paper.runs import PaperRun
 from netdesign.evidence.paper.study import PaperStudy
 from netdesign.report.page.csv_text import write_csv
-from netdesign.report.view.table import (
-    Cell,
-    Column,
-    Table,
-    given_cell,
-    number_cell,
-    text_cell,
-)
+from netdesign.report.view.table import Table, text_cell
 from netdesign.report.words import MISSING, Words
 from netdesign.units import day_from_second
 
-_FORCE, _ERROR, _CHANGE = "foot_size_kN_per_m", "error_kN_per_m", "change_percent"
-_ANGLE = "inclination_deg"
 _NETS = (NORMAL_NET_DEG, DESIGN_NET_DEG)
 _STARTS: tuple[Start, ...] = ("sagged", "straight")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Kind:
-    """Kind of a column: how a value becomes a cell, and the quantity of its numbers."""
-
-    show: Callable[[Words, Any], Cell]
-    quantity: str = ""
-    is_number: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class Field:
-    """One column: its key in the CSV file, its heading, its kind."""
-
-    key: str
-    heading: str  # of ``paper_table``, or a symbol
-    kind: Kind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,40 +65,10 @@ class Listed:
         return write_csv(self.keys, rows)
 
 
-def _show_force(words: Words, value: float | None) -> Cell:
-    return number_cell(words, _FORCE, _kilo(value))
-
-
-def _show_error(words: Words, value: float | None) -> Cell:
-    return number_cell(words, _ERROR, _kilo(value))
-
-
-def _show_change(words: Words, share: float | None) -> Cell:
-    return number_cell(words, _CHANGE, None if share is None else 100.0 * share)
-
-
-def _show_time(words: Words, value: float | None) -> Cell:
-    """Three significant digits on the page, all of them in the CSV."""
-    if value is None:
-        return Cell(text=MISSING)
-    shown = float(f"{value:.3g}")
-    return Cell(text=words.write(f"{shown:.10g}"), number=value)
-
-
-def _show_word(words: Words, key: str) -> Cell:
-    return text_cell(words(f"paper_value.{key}"))
-
-
-_FORCES = Kind(show=_show_force, quantity=_FORCE)
-_ERRORS = Kind(show=_show_error, quantity=_ERROR)
-_CHANGES = Kind(show=_show_change, quantity=_CHANGE)
-_ANGLES = Kind(show=given_cell, quantity=_ANGLE)
-_FRICTIONS = Kind(show=given_cell, quantity="friction_deg")
-_GIVEN = Kind(show=given_cell)
-_TIMES = Kind(show=_show_time)
-_WORDS = Kind(show=_show_word, is_number=False)
-_TEXTS = Kind(show=lambda _, text: text_cell(text), is_number=False)
-_NET = Field("inclination_deg", "θ [°]", _ANGLES)
+_WORDS = Kind(
+    show=lambda words, key: text_cell(words(f"paper_value.{key}")), is_number=False
+)
+_NET = Field("inclination_deg", "θ [°]", INCLINATIONS)
 
 
 def list_tables(study: PaperStudy, words: Words) -> list[Listed]:
@@ -126,55 +83,30 @@ def list_tables(study: PaperStudy, words: Words) -> list[Listed]:
     ]
 
 
-def _tabulate(
+def _list(
     name: str,
     caption: str,
     fields: Sequence[Field],
     rows: Iterable[Sequence[object]],
     words: Words,
 ) -> Listed:
-    """Table of plain values, each shown as its column says."""
-    return Listed(
-        name=name,
-        keys=tuple(field.key for field in fields),
-        table=Table(
-            caption=caption,
-            columns=tuple(
-                Column(
-                    heading=_name_heading(field.heading, words),
-                    quantity=field.kind.quantity,
-                    is_number=field.kind.is_number,
-                )
-                for field in fields
-            ),
-            rows=tuple(
-                tuple(
-                    field.kind.show(words, value)
-                    for field, value in zip(fields, row, strict=True)
-                )
-                for row in rows
-            ),
-        ),
-    )
-
-
-def _name_heading(heading: str, words: Words) -> str:
-    """Text of a heading; a symbol stays as it is."""
-    is_key = heading.replace("_", "").isalpha() and heading.isascii()
-    return words(f"paper_table.{heading}") if is_key else heading
+    keys = tuple(field.key for field in fields)
+    return Listed(name=name, keys=keys, table=tabulate(caption, fields, rows, words))
 
 
 def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
     fields = (
         _NET,
-        Field("method", "method", _WORDS),
-        Field("foot_kN_per_m", "foot", _FORCES),
-        Field("foot_error_kN_per_m", "± ", _ERRORS),
-        Field("head_kN_per_m", "head", _FORCES),
-        Field("head_error_kN_per_m", "± ", _ERRORS),
-        Field("foot_against_steady_percent", "foot_against_steady", _CHANGES),
-        Field("largest_foot_kN_per_m", "largest_foot", _FORCES),
-        Field("plateau_from_s", "plateau_from", _TIMES),
+        Field("method", "paper_table.method", _WORDS),
+        Field("foot_kN_per_m", "paper_table.foot", FORCES),
+        Field("foot_error_kN_per_m", "± ", ERRORS),
+        Field("head_kN_per_m", "paper_table.head", FORCES),
+        Field("head_error_kN_per_m", "± ", ERRORS),
+        Field(
+            "foot_against_steady_percent", "paper_table.foot_against_steady", CHANGES
+        ),
+        Field("largest_foot_kN_per_m", "paper_table.largest_foot", FORCES),
+        Field("plateau_from_s", "paper_table.plateau_from", TIMES),
     )
     rows = []
     for net in _NETS:
@@ -199,20 +131,20 @@ def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
                     _plateau_begin(run),
                 )
             )
-    return _tabulate("plateau", words("paper_table.plateau"), fields, rows, words)
+    return _list("plateau", words("paper_table.plateau"), fields, rows, words)
 
 
 def _tabulate_growth(study: PaperStudy, words: Words) -> Listed:
     fields = (
-        Field("method", "method", _WORDS),
+        Field("method", "paper_table.method", _WORDS),
         _NET,
-        Field("quantity", "force", _WORDS),
+        Field("quantity", "paper_table.force", _WORDS),
         *(
-            Field(f"friction_{phi:.0f}_deg_kN_per_m", f"{phi:.0f}°", _FORCES)
+            Field(f"friction_{phi:.0f}_deg_kN_per_m", f"{phi:.0f}°", FORCES)
             for phi in FRICTIONS_DEG
         ),
-        Field("change_percent", "change", _CHANGES),
-        Field("trend", "trend_heading", _WORDS),
+        Field("change_percent", "paper_table.change", CHANGES),
+        Field("trend", "paper_table.trend_heading", _WORDS),
     )
     rows = [
         (
@@ -222,17 +154,17 @@ def _tabulate_growth(study: PaperStudy, words: Words) -> Listed:
         )
         for one in judge_growth(study)
     ]
-    return _tabulate("friction", words("paper_table.friction"), fields, rows, words)
+    return _list("friction", words("paper_table.friction"), fields, rows, words)
 
 
 def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
     fields = (
         _NET,
-        Field("gravity", "gravity", _WORDS),
-        Field("history_foot_kN_per_m", "history_foot", _FORCES),
-        Field("history_head_kN_per_m", "history_head", _FORCES),
-        Field("steady_foot_kN_per_m", "steady_foot", _FORCES),
-        Field("steady_head_kN_per_m", "steady_head", _FORCES),
+        Field("gravity", "paper_table.gravity", _WORDS),
+        Field("history_foot_kN_per_m", "paper_table.history_foot", FORCES),
+        Field("history_head_kN_per_m", "paper_table.history_head", FORCES),
+        Field("steady_foot_kN_per_m", "paper_table.steady_foot", FORCES),
+        Field("steady_head_kN_per_m", "paper_table.steady_head", FORCES),
     )
     cases = [find_history(net) for net in (NORMAL_NET_DEG, *INCLINATIONS_DEG)]
     cases += [replace(find_history(net), gravity="parallel") for net in _NETS]
@@ -242,16 +174,16 @@ def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
         ends = (history.foot, history.head, steady.foot, steady.head)
         rows.append((case.inclination_deg, case.gravity, *ends))
     caption = words("paper_table.parameters")
-    return _tabulate("inclination-and-gravity", caption, fields, rows, words)
+    return _list("inclination-and-gravity", caption, fields, rows, words)
 
 
 def _tabulate_trend(study: PaperStudy, words: Words) -> Listed:
     fields = (
-        Field("base_drag", "base_drag", _GIVEN),
-        Field("step_s", "step", _TIMES),
-        Field("foot_kN_per_m", "foot", _FORCES),
-        Field("against_implicit_percent", "against_implicit", _CHANGES),
-        Field("oscillates_until_s", "oscillates", _TIMES),
+        Field("base_drag", "paper_table.base_drag", GIVEN),
+        Field("step_s", "paper_table.step", TIMES),
+        Field("foot_kN_per_m", "paper_table.foot", FORCES),
+        Field("against_implicit_percent", "paper_table.against_implicit", CHANGES),
+        Field("oscillates_until_s", "paper_table.oscillates", TIMES),
     )
     *staggered, history = (study[case] for case in find_trend(study.settings))
     end = study.settings.trend_time * history.case.scene.time_scale
@@ -262,21 +194,21 @@ def _tabulate_trend(study: PaperStudy, words: Words) -> Listed:
         step = None if run.track is None else float(run.track.times[0])
         change = _change(got, expected)
         rows.append((run.case.drag, step, got, change, last_swing(run)))
-    shown = words.show_number(_FORCE, _kilo(expected))
+    shown = words.show_number(FORCE, kilo(expected))
     caption = words("paper_table.trend", end=end, expected=shown)
-    return _tabulate("staggered-trend", caption, fields, rows, words)
+    return _list("staggered-trend", caption, fields, rows, words)
 
 
 def _tabulate_drift(study: PaperStudy, words: Words) -> Listed:
     fields = (
         _NET,
-        Field("start", "start", _WORDS),
-        Field("densification", "densification", _WORDS),
-        Field("foot_at_plateau_kN_per_m", "at_plateau", _FORCES),
-        Field("plateau_from_s", "from", _TIMES),
-        Field("foot_at_end_kN_per_m", "at_end", _FORCES),
-        Field("end_d", "after", _TIMES),
-        Field("drift_percent_per_efold", "drift_rate", _CHANGES),
+        Field("start", "paper_table.start", _WORDS),
+        Field("densification", "paper_table.densification", _WORDS),
+        Field("foot_at_plateau_kN_per_m", "paper_table.at_plateau", FORCES),
+        Field("plateau_from_s", "paper_table.from", TIMES),
+        Field("foot_at_end_kN_per_m", "paper_table.at_end", FORCES),
+        Field("end_d", "paper_table.after", TIMES),
+        Field("drift_percent_per_efold", "paper_table.drift_rate", CHANGES),
     )
     rows = [
         _list_drift(study[replace(find_history(net), start=start, densifies=densifies)])
@@ -284,7 +216,7 @@ def _tabulate_drift(study: PaperStudy, words: Words) -> Listed:
         for start in _STARTS
         for densifies in (True, False)
     ]
-    return _tabulate("drift", words("paper_table.drift"), fields, rows, words)
+    return _list("drift", words("paper_table.drift"), fields, rows, words)
 
 
 def _list_drift(run: PaperRun) -> tuple[object, ...]:
@@ -304,14 +236,14 @@ def _list_drift(run: PaperRun) -> tuple[object, ...]:
 
 def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
     fields = (
-        Field("method", "method", _TEXTS),
+        Field("method", "paper_table.method", TEXTS),
         _NET,
-        Field("friction_deg", "φ [°]", _FRICTIONS),
-        Field("gravity", "gravity", _WORDS),
-        Field("start", "start", _TEXTS),
-        Field("densification", "densification", _WORDS),
-        Field("steps", "steps", _GIVEN),
-        Field("result", "result", _TEXTS),
+        Field("friction_deg", "φ [°]", FRICTIONS),
+        Field("gravity", "paper_table.gravity", _WORDS),
+        Field("start", "paper_table.start", TEXTS),
+        Field("densification", "paper_table.densification", _WORDS),
+        Field("steps", "paper_table.steps", GIVEN),
+        Field("result", "paper_table.result", TEXTS),
     )
     rows = []
     for run in study.runs.values():
@@ -327,7 +259,7 @@ def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
                 _tell_result(run, words),
             )
         )
-    return _tabulate("runs", words("paper_table.runs"), fields, rows, words)
+    return _list("runs", words("paper_table.runs"), fields, rows, words)
 
 
 def _plateau_begin(run: PaperRun) -> float | None:
@@ -363,7 +295,3 @@ def _tell_result(run: PaperRun, words: Words) -> str:
     if run.track is not None and run.track.ended:
         return words("paper_value.ended", reason=run.track.ended)
     return words("paper_value.complete")
-
-
-def _kilo(value: float | None) -> float | None:
-    return None if value is None else value / 1e3
