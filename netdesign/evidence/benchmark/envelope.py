@@ -26,9 +26,9 @@ from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.peaks import measure_peaks
-from netdesign.evidence.benchmark.runner import Clock, read_peak
 from netdesign.evidence.benchmark.versions.inputs import write_site
 from netdesign.evidence.benchmark.versions.measures import Bench, Size, time_site
+from netdesign.evidence.runner import Clock, read_peak
 from netdesign.evidence.scene import build_scene
 from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
 from netdesign.search.surrogate import Point

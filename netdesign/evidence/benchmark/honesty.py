@@ -19,18 +19,18 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import find_end_pulls, solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.runner import (
-    Clock,
-    share,
-    spread,
-    summarise_times,
-)
 from netdesign.evidence.benchmark.scenes import build_tables
 from netdesign.evidence.benchmark.truth import (
     Truth,
     find_level,
     solve_truth,
     state_error,
+)
+from netdesign.evidence.runner import (
+    Clock,
+    share,
+    spread,
+    summarise_times,
 )
 from netdesign.outcome import Outcome
 from netdesign.words.catalogue import Language, render

@@ -34,9 +34,9 @@ from netdesign.evidence.benchmark.random_scenes import (
     Tables,
     draw_scene,
 )
-from netdesign.evidence.benchmark.runner import share, spread
 from netdesign.evidence.benchmark.scenes import build_tables
 from netdesign.evidence.benchmark.truth import solve_fine
+from netdesign.evidence.runner import share, spread
 from netdesign.evidence.scene import solve
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize

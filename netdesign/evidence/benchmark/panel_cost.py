@@ -14,7 +14,7 @@ from typing import Any
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.rows import RowEnvelope
-from netdesign.evidence.benchmark.runner import measure, run_in_turns
+from netdesign.evidence.runner import measure, run_in_turns
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.site.model import BorderRope, NetRow, RowPanel, Site
 from netdesign.site.reader import read_site

@@ -26,7 +26,6 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import reference_path
-from netdesign.evidence.benchmark.runner import measure, run_in_turns
 from netdesign.evidence.benchmark.summary import Method, Path, Row, summarise
 from netdesign.evidence.benchmark.truth import (
     Truth,
@@ -35,6 +34,7 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
+from netdesign.evidence.runner import measure, run_in_turns
 from netdesign.evidence.table import print_document, print_rows
 from netdesign.report.words import Words
 from netdesign.snow.mesh import MeshSize

@@ -20,8 +20,8 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import Tables, draw_scene
-from netdesign.evidence.benchmark.runner import Clock, spread, summarise_times
 from netdesign.evidence.benchmark.truth import state_error
+from netdesign.evidence.runner import Clock, spread, summarise_times
 from netdesign.files.scene import SceneFile, build_scene
 from netdesign.outcome import Outcome
 from netdesign.words.catalogue import Language, render

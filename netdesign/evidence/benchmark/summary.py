@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from statistics import median
 from typing import Literal
 
-from netdesign.evidence.benchmark.runner import fit_order
+from netdesign.evidence.runner import fit_order
 
 Path = Literal["fast", "reference", "plain"]
 Method = Literal["steady", "transient"]

@@ -14,7 +14,6 @@ from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
 from netdesign.core.library import name_core
-from netdesign.evidence.benchmark.runner import Time, describe_times, run_in_turns
 from netdesign.evidence.benchmark.versions import measures
 from netdesign.evidence.benchmark.versions.measures import (
     Bench,
@@ -23,6 +22,7 @@ from netdesign.evidence.benchmark.versions.measures import (
     Size,
 )
 from netdesign.evidence.benchmark.versions.other import read_version
+from netdesign.evidence.runner import Time, describe_times, run_in_turns
 
 SCHEMA = "netdesign.bench-against/1"
 _AS_SLOW = 0.9  # ratios repeat to a tenth: what is less is slower

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from netdesign.core.sources import SWITCH, SWITCHED_OFF
-from netdesign.evidence.benchmark.runner import SINGLE_THREADED, Clock, Time
 from netdesign.evidence.benchmark.versions.inputs import (
     NAMES,
     ROW,
@@ -23,6 +22,7 @@ from netdesign.evidence.benchmark.versions.inputs import (
     write_scenes,
     write_site,
 )
+from netdesign.evidence.runner import SINGLE_THREADED, Clock, Time
 
 _PROBE = Path(__file__).with_name("probe.py")
 _LONGEST_S = 900.0

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.evidence.benchmark.runner import Time
 from netdesign.evidence.benchmark.versions import compare
 from netdesign.evidence.benchmark.versions.compare import (
     Figure,
@@ -16,6 +15,7 @@ from netdesign.evidence.benchmark.versions.compare import (
 )
 from netdesign.evidence.benchmark.versions.measures import RunFailure, Size
 from netdesign.evidence.benchmark.versions.table import print_versions
+from netdesign.evidence.runner import Time
 from netdesign.report.words import Words
 from tests.words.english import list_vocabulary, list_words
 

@@ -21,7 +21,7 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 _MEGABYTE = 2**20
-_CHUNK = 4  # items that a process takes at once
+_CHUNK = 4  # items that a process takes at once, where they are short
 # Of a process's environment: one BLAS thread.
 SINGLE_THREADED = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"
@@ -118,15 +118,16 @@ def spread(
     items: Sequence[Item],
     *,
     jobs: int = 1,
-    on_done: Callable[[Result], None] | None = None,
+    chunk: int = _CHUNK,
+    on_done: Callable[[Result], object] | None = None,
 ) -> list[Result]:
     """Results in the order of the items, whatever the processes did.
 
-    Unlike ``envelope.run`` it does not go on after a process has died, but raises:
-    a benchmark is to show that none dies.
+    A process takes so many items at once. Unlike ``envelope.run`` it does not go on
+    after a process has died, but raises: a benchmark is to show that none dies.
     """
     results = []
-    for result in _work_through(work, items, jobs):
+    for result in _work_through(work, items, jobs, chunk):
         results.append(result)
         if on_done is not None:
             on_done(result)
@@ -134,7 +135,7 @@ def spread(
 
 
 def _work_through(
-    work: Callable[[Item], Result], items: Sequence[Item], jobs: int
+    work: Callable[[Item], Result], items: Sequence[Item], jobs: int, chunk: int
 ) -> Iterator[Result]:
     if jobs == 1:
         yield from map(work, items)
@@ -144,7 +145,7 @@ def _work_through(
         ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool,
     ):
         try:
-            yield from pool.map(work, items, chunksize=_CHUNK)
+            yield from pool.map(work, items, chunksize=chunk)
         except BaseException:
             pool.shutdown(wait=True, cancel_futures=True)
             raise

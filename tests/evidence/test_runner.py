@@ -1,6 +1,6 @@
 """The runner: turns, and what a piece of work takes."""
 
-from netdesign.evidence.benchmark.runner import describe_times, measure, run_in_turns
+from netdesign.evidence.runner import describe_times, measure, run_in_turns
 
 
 def test_the_last_begins_in_every_second_repeat():
