@@ -17,7 +17,7 @@ from netdesign.snow.snowpack import (
     build_layered_snowpack,
 )
 
-FREE, NO_SLIP = GroundLaw(kind="free"), GroundLaw(kind="no-slip")
+FREE = GroundLaw(kind="free")
 
 
 def build_scene(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 AREA = "bench_value"
-_WIDTH = 42  # of a name before its value
+_WIDTH = 58  # of a name before its value
 _DIGITS = {"expected": 5, "got": 5, "error": 2}  # of the others four
 # Words of yes and no, and keys of which a no is bad news.
 _ANSWERS = ("bench.yes", "bench.no")
