@@ -122,7 +122,7 @@ CATCH_ALL = {
     "cli.py": "_run",
     "edge/output.py": "_exchange",  # undoes, and raises again
     # stops its processes, and raises again
-    "evidence/benchmark/spread.py": "_work_through",
+    "evidence/runner.py": "_work_through",
     # counts bugs: that is what it is for
     "evidence/benchmark/stress.py": "attempt_scene",
     "commands/doctor.py": "_try",  # so is this

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -22,33 +23,43 @@ from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
-    from netdesign.evidence.benchmark.rows import Row
+    from rich.console import Console
 
+    from netdesign.evidence.benchmark.summary import Row
+    from netdesign.report.words import Words
+
+Show = Callable[[dict[str, Any], "Console", "Words"], None]
 Kind = Literal["stress", "errors", "lines"]
 
 _EXIT_FAIL = 1
+_MESSAGES = ("what", "reach")  # of a figure; in JSON they are English
 _RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
 
 
 @dataclass(frozen=True, slots=True)
-class _Telling:
-    """Form of a result: a table in a language, or JSON."""
+class _Output:
+    """Form of a result: tables in a language, or JSON."""
 
     language: Language
     as_json: bool
 
-    def tell(self, document: dict[str, Any], show: Callable[..., None]) -> None:
-        """Print a document, or what a function shows of it."""
+    def write(self, document: dict[str, Any], show: Show | None = None) -> None:
+        """Print a document; on a terminal, by a function of its own if one is given."""
         if self.as_json:
             click.echo(json.dumps(document, indent=1, allow_nan=False))
-            return
+        else:
+            self.show(document, show)
+
+    def show(self, document: dict[str, Any], show: Show | None = None) -> None:
+        """Print a document for a reader."""
         from rich.console import Console
 
+        from netdesign.evidence.table import print_document
         from netdesign.report.words import Words
 
-        show(document, Console(), Words(self.language))
+        (show or print_document)(document, Console(), Words(self.language))
 
 
 @click.command()
@@ -155,19 +166,19 @@ def bench(
     given = [name for name, value in wanted.items() if value is not None]
     _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
     _refuse_idle(given, language)
-    telling = _Telling(language, as_json)
+    output = _Output(language, as_json)
     kinds: dict[Kind, int | None] = {"stress": stress, "errors": errors, "lines": lines}
     for kind, count in kinds.items():
         if count is not None:
-            sys.exit(_run_random(kind, count, seed, accuracy, jobs, telling))
+            sys.exit(_run_random(kind, count, seed, accuracy, jobs, output))
     if envelope:
-        sys.exit(_run_envelope(missed, telling, quick=quick))
+        sys.exit(_run_envelope(missed, output, quick=quick))
     if panel:
-        sys.exit(_run_panel(telling, quick=quick))
+        sys.exit(_run_panel(output, quick=quick))
     if against is not None:
-        sys.exit(_run_against(against, telling, quick=quick))
+        sys.exit(_run_against(against, output, quick=quick))
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
-    _run_named(names, plot, telling, quick=quick, force=force)
+    _run_named(names, plot, output, quick=quick, force=force)
 
 
 def _refuse_mixtures(given: Sequence[str], *, quick: bool, named: bool) -> None:
@@ -190,70 +201,64 @@ def _refuse_idle(given: Sequence[str], language: Language) -> None:
 
 
 def _run_random(
-    kind: Kind, count: int, seed: int, accuracy: float, jobs: int, telling: _Telling
+    kind: Kind, count: int, seed: int, accuracy: float, jobs: int, output: _Output
 ) -> int:
     """Exit code of a run over random scenes."""
     from netdesign.edge.progress import show_progress
-    from netdesign.evidence.benchmark.bench_table import (
-        print_errors,
-        print_lines,
-        print_stress,
-    )
     from netdesign.evidence.benchmark.honesty import study_errors, write_errors
     from netdesign.evidence.benchmark.lines import study_lines, write_lines
     from netdesign.evidence.benchmark.stress import run_stress, write_stress
 
-    known: dict[Kind, tuple[Any, Any, Any]] = {
-        "stress": (run_stress, write_stress, print_stress),
-        "errors": (study_errors, write_errors, print_errors),
-        "lines": (study_lines, write_lines, print_lines),
+    known: dict[Kind, tuple[Any, Any]] = {
+        "stress": (run_stress, write_stress),
+        "errors": (study_errors, write_errors),
+        "lines": (study_lines, write_lines),
     }
-    study, write, show = known[kind]
+    study, write = known[kind]
     what = "lines" if kind == "lines" else "scenes"
-    shown = telling.language
+    shown = output.language
     with show_progress(count, what, quiet=False, language=shown) as on_done:
         found = study(count, seed, accuracy=accuracy, jobs=jobs, on_done=on_done)
-    language: Language = "en" if telling.as_json else shown
+    language: Language = "en" if output.as_json else shown
     document = write(found, seed, accuracy, language)
-    telling.tell(document, show)
+    output.write(document)
     return 0 if document["pass"] else _EXIT_FAIL
 
 
-def _run_envelope(missed: int, telling: _Telling, *, quick: bool) -> int:
+def _run_envelope(missed: int, output: _Output, *, quick: bool) -> int:
     """Exit code: a quick look reaches nothing and so fails at nothing."""
     from netdesign.evidence.benchmark.envelope import (
         QUICK,
         BenchSize,
         run_envelope_bench,
     )
-    from netdesign.evidence.benchmark.figure_table import print_figure
-    from netdesign.report.words import Words
+    from netdesign.evidence.table import print_figure
 
     def show(row: dict[str, Any]) -> None:
-        if not telling.as_json:
-            print_figure(row, click.echo, Words(telling.language))
+        if not output.as_json:
+            output.show(row, print_figure)
 
     size = QUICK if quick else BenchSize(missed_scenes=missed)
     document = run_envelope_bench(size, show)
-    if telling.as_json:
-        telling.tell(document, show)
+    if output.as_json:
+        output.write(document)
     return 0 if quick or document["pass"] else _EXIT_FAIL
 
 
-def _run_panel(telling: _Telling, *, quick: bool) -> int:
+def _run_panel(output: _Output, *, quick: bool) -> int:
     """Exit code: a quick look reaches nothing and so fails at nothing."""
-    from netdesign.evidence.benchmark.figure_table import print_figure
     from netdesign.evidence.benchmark.panel_cost import ROWS, measure_panel_cost
+    from netdesign.evidence.table import print_figure
 
     found = measure_panel_cost(repeats=1 if quick else 7, rows=1 if quick else ROWS)
-    telling.tell(
-        {**found, **{name: str(found[name]) for name in ("what", "reach")}},
-        lambda _, __, words: print_figure(found, click.echo, words),
-    )
+    if output.as_json:
+        output.write({**found, **{name: str(found[name]) for name in _MESSAGES}})
+    else:
+        output.show(found, print_figure)
     return 0 if quick or found["reached"] else _EXIT_FAIL
 
 
-def _run_against(path: Path, telling: _Telling, *, quick: bool) -> int:
+def _run_against(path: Path, output: _Output, *, quick: bool) -> int:
     """Exit code: a quick look reaches nothing and so fails at nothing."""
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.benchmark.versions.compare import (
@@ -264,42 +269,39 @@ def _run_against(path: Path, telling: _Telling, *, quick: bool) -> int:
     from netdesign.evidence.benchmark.versions.other import open_version, read_version
     from netdesign.evidence.benchmark.versions.table import print_versions
 
-    size, shown = QUICK if quick else Size(), telling.language
+    size, shown = QUICK if quick else Size(), output.language
     with open_version(path) as python:
         read_version(python)  # refused before the first run
         runs = count_runs(size)
         with show_progress(runs, "runs", quiet=False, language=shown) as on_done:
             document = compare_versions(python, size, on_done)
-    telling.tell(document, print_versions)
+    output.write(document, print_versions)
     return 0 if quick or document["pass"] else _EXIT_FAIL
 
 
 def _run_named(
     names: tuple[str, ...],
     plot: Path | None,
-    telling: _Telling,
+    output: _Output,
     *,
     quick: bool,
     force: bool,
 ) -> None:
     from netdesign.commands.language import tell
     from netdesign.edge.output import require_free, write_files
-    from netdesign.evidence.benchmark.bench_table import print_rows
-    from netdesign.evidence.benchmark.precision import write_bench
+    from netdesign.evidence.benchmark.precision import print_bench, write_bench
 
     if plot is not None:
         require_free([plot], overwrite=force)
-    rows = _measure(names, telling.language, quick=quick)
+    rows = _measure(names, output.language, quick=quick)
     if plot is not None:
         from netdesign.evidence.benchmark.bench_figure import draw_work_precision
         from netdesign.report.words import Words
 
-        drawn = draw_work_precision(rows, Words(telling.language))
+        drawn = draw_work_precision(rows, Words(output.language))
         write_files({plot: drawn.encode()}, overwrite=force)
-        tell(say("cli.wrote", path=str(plot)), telling.language, err=True)
-    telling.tell(
-        write_bench(rows), lambda _, console, words: print_rows(rows, console, words)
-    )
+        tell(say("cli.wrote", path=str(plot)), output.language, err=True)
+    output.write(write_bench(rows), print_bench)
 
 
 def _measure(

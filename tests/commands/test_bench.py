@@ -48,7 +48,7 @@ def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
 
 
 ROW = {"what": "one row", "reach": "<= 1 s", "reached": False, "wall_s": 1.5,
-       "points": [{"rows": 2}, 7]}  # fmt: skip
+       "points": [{"rows": 2}, {"rows": 7}]}  # fmt: skip
 
 
 @pytest.fixture
@@ -73,8 +73,7 @@ def test_envelope_prints_every_figure_of_its_document(sizes):
         ["one", "row"],
         ["<=", "1", "s:", "NOT", "reached"],
         ["wall", "time", "[s]", "1.5"],
-        ["-", "rows", "2"],
-        ["-", "7"],
+        *(["points"], ["rows"], ["2"], ["7"]),
     ]
     assert (printed.exit_code, shown.exit_code) == (1, 1)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from statistics import median
 from typing import TYPE_CHECKING
 
-from netdesign.evidence.benchmark.rows import Path, Row
+from netdesign.evidence.benchmark.summary import Path, Row
 from netdesign.report.drawing.figures import (
     ACCENT,
     GREY,

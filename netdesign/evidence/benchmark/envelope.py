@@ -18,22 +18,21 @@ from typing import Any
 
 import numpy as np
 
-from netdesign.cable.net import Net
 from netdesign.core.library import find_core
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.clock import Clock, read_peak
 from netdesign.evidence.benchmark.peaks import measure_peaks
 from netdesign.evidence.benchmark.versions.inputs import write_site
 from netdesign.evidence.benchmark.versions.measures import Bench, Size, time_site
+from netdesign.evidence.runner import Clock, read_peak
+from netdesign.evidence.scene import build_scene
 from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
 from netdesign.search.surrogate import Point
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import Job, ProcessPool
@@ -126,21 +125,14 @@ def build_random_task(seed: int, settings: SolverSettings | None = None) -> RowT
     slip = draw.uniform(0.1, 4.0) * thickness if kind == "sliding" else 0.0
     solver = settings or SolverSettings(accuracy=ACCURACY)
     return RowTask(
-        scene=Scene(
-            snowpack=Snowpack(
-                slope_angle=math.radians(draw.uniform(30.0, 50.0)),
-                thickness=thickness,
-                upslope_length=draw.uniform(2.0, 8.0) * thickness,
-                density=350.0,
-            ),
+        scene=build_scene(
+            (thickness, 350.0),
+            slope=draw.uniform(30.0, 50.0),
+            length=draw.uniform(2.0, 8.0) * thickness,
             ground=GroundLaw(kind=kind, slip_length=slip),  # type: ignore[arg-type]
-            net=Net(
-                height_normal=thickness * draw.uniform(1.0, 1.2),
-                inclination=math.radians(30.0),
-                stiffness_per_m=10.0 ** draw.uniform(6.5, 7.7),
-                slack=draw.uniform(0.0, 0.1),
-                friction_angle=math.radians(30.0),
-            ),
+            height=thickness * draw.uniform(1.0, 1.2),
+            stiffness=10.0 ** draw.uniform(6.5, 7.7),
+            slack=draw.uniform(0.0, 0.1),
         ),
         ranges=_build_ranges(),
         layout=SupportLayout(
@@ -206,16 +198,11 @@ def _build_ranges() -> Ranges:
 def _example_task() -> RowTask:
     """Three metres of snow on sliding ground, the same for every machine."""
     task = build_random_task(0)
-    pack = replace(task.scene.snowpack, thickness=3.0, upslope_length=15.0)
-    net = Net(
-        height_normal=3.0,
-        inclination=math.radians(30.0),
-        stiffness_per_m=2e7,
-        slack=0.05,
-        friction_angle=math.radians(30.0),
-    )
+    slope = math.degrees(task.scene.snowpack.slope_angle)
     ground = GroundLaw(kind="sliding", slip_length=3.0)
-    scene = replace(task.scene, snowpack=pack, net=net, ground=ground)
+    scene = build_scene(
+        (3.0, 350.0), slope=slope, length=15.0, ground=ground, slack=0.05
+    )
     return replace(task, scene=scene)
 
 

@@ -7,7 +7,6 @@ the scene: a share of those that happened to converge would flatter it.
 from __future__ import annotations
 
 import itertools
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -21,13 +20,17 @@ from netdesign.coupling.steady.solve import find_end_pulls, solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
-from netdesign.evidence.benchmark.spread import spread
-from netdesign.evidence.benchmark.statistics import share, summarise_times
 from netdesign.evidence.benchmark.truth import (
     Truth,
     find_level,
     solve_truth,
     state_error,
+)
+from netdesign.evidence.runner import (
+    Clock,
+    share,
+    spread,
+    summarise_times,
 )
 from netdesign.outcome import Outcome
 from netdesign.words.catalogue import Language, render
@@ -118,9 +121,8 @@ def judge_scene(number: int, scene: Scene, settings: SolverSettings) -> Finding:
     SolveError
         If the finer mesh gives no converged solution.
     """
-    start = time.process_time()
-    solution = solve_steady(scene, settings)
-    elapsed = time.process_time() - start
+    with Clock() as clock:
+        solution = solve_steady(scene, settings)
     if isinstance(solution, FailedSolution):
         return Finding(
             number=number,
@@ -136,7 +138,7 @@ def judge_scene(number: int, scene: Scene, settings: SolverSettings) -> Finding:
         true_error=max(true),
         stated_error=state_error(solution),
         is_inside=all(t <= s for t, s in zip(true, stated, strict=True)),
-        cpu_s=elapsed,
+        cpu_s=clock.cpu_s,
         cpu_at_accuracy_s=_time_accurate_mesh(scene, truth, settings),
     )
 
@@ -148,9 +150,9 @@ def _time_accurate_mesh(
         with suppress(SolveError):
             pulls = find_end_pulls(scene, size, settings)
             if max(truth.compare_pulls(*pulls)) <= settings.accuracy:
-                start = time.process_time()
-                find_end_pulls(scene, size, settings)
-                return time.process_time() - start
+                with Clock() as clock:
+                    find_end_pulls(scene, size, settings)
+                return clock.cpu_s
     return None
 
 

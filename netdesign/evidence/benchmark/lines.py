@@ -20,7 +20,6 @@ import numpy as np
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import (
     DENSITY_KG_M3,
@@ -36,9 +35,9 @@ from netdesign.evidence.benchmark.random_scenes import (
     draw_scene,
 )
 from netdesign.evidence.benchmark.scenes import build_tables
-from netdesign.evidence.benchmark.spread import spread
-from netdesign.evidence.benchmark.statistics import share
 from netdesign.evidence.benchmark.truth import solve_fine
+from netdesign.evidence.runner import share, spread
+from netdesign.evidence.scene import solve
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize
 from netdesign.words.catalogue import Language, render
@@ -315,9 +314,7 @@ def close_in(
 def _solve(scene: Scene | ModelError, settings: SolverSettings) -> Solution:
     if isinstance(scene, ModelError):
         raise scene
-    solution = solve_steady(scene, settings, on_failure="raise")
-    assert isinstance(solution, Solution)
-    return solution
+    return solve(scene, settings)
 
 
 def _step_between(here: Point, there: Point, end: int) -> float:

@@ -5,17 +5,20 @@ Processor time, in turn with and without, so that a busy machine slows both.
 
 from __future__ import annotations
 
-import time
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+import tempfile
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from statistics import median
 from typing import Any
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.rows import RowEnvelope
-from netdesign.evidence.benchmark.whole_site import build_bench_site
+from netdesign.evidence.runner import measure, run_in_turns
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.site.model import BorderRope, NetRow, RowPanel, Site
+from netdesign.site.reader import read_site
+from netdesign.site.template.workbook import write_site_workbook
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
@@ -26,22 +29,6 @@ MOST = 1.5  # times the search without a panel
 ROWS = 7  # of the example
 _ROPE = Rope(stiffness=18e6, sag=0.05)
 _BEARS = BorderRope(type_id="18 MN", breaking=None, source="")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Pair:
-    """Searches of one row, without and with a panel: processor time and cases."""
-
-    plain_s: float
-    panel_s: float
-    plain_cases: int
-    panel_cases: int
-    is_closed: bool
-
-    @property
-    def times(self) -> float:
-        """With a panel over without [-]."""
-        return self.panel_s / self.plain_s
 
 
 def measure_panel_cost(
@@ -63,8 +50,8 @@ def measure_panel_cost(
     tests/evidence/benchmark/test_panel_cost.py
     """
     run = CheckRun(settings=settings or SolverSettings(accuracy=0.01))
-    site = build_bench_site(rows)
-    found = [_describe(row, _measure_row(site, row, run, repeats)) for row in site.rows]
+    site = _read_example()
+    found = [_measure_row(site, row, run, repeats) for row in site.rows[:rows]]
     times = [one["times"] for one in found]
     return {
         "schema": SCHEMA,
@@ -77,26 +64,39 @@ def measure_panel_cost(
     }
 
 
-def _measure_row(site: Site, row: NetRow, run: CheckRun, repeats: int) -> list[Pair]:
-    """Pairs of one row; the first searches warm up and do not count."""
-    plain = replace(site, rows=(replace(row, panel=None),))
-    panel = replace(site, rows=(replace(row, panel=_build_panel(row)),))
-    _search(plain, run)
-    pairs = []
-    for number in range(repeats):
-        order = (plain, panel) if number % 2 else (panel, plain)
-        timed = {id(one): _search(one, run) for one in order}
-        (plain_s, without), (panel_s, beside) = timed[id(plain)], timed[id(panel)]
-        pairs.append(
-            Pair(
-                plain_s=plain_s,
-                panel_s=panel_s,
-                plain_cases=len(without.results),
-                panel_cases=len(beside.results),
-                is_closed=without.gap is None and beside.gap is None,
-            )
-        )
-    return pairs
+def _read_example() -> Site:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "example.xlsx"
+        write_site_workbook(path, example=True)
+        return read_site(path)
+
+
+def _measure_row(
+    site: Site, row: NetRow, run: CheckRun, repeats: int
+) -> dict[str, Any]:
+    """Searches of one row, without and with a panel; the first warms up."""
+    plain, panel = (
+        partial(_search, replace(site, rows=(replace(row, panel=given),)), run)
+        for given in (None, _build_panel(row))
+    )
+    plain()
+    works = {"panel": partial(measure, panel), "plain": partial(measure, plain)}
+    found = run_in_turns(works, repeats)
+    without, beside = found["plain"], found["panel"]
+    searches = [search for search, _ in (without[0], beside[0])]
+    ratios = [
+        time.cpu_s / plain_time.cpu_s
+        for (_, plain_time), (_, time) in zip(without, beside, strict=True)
+    ]
+    return {
+        "row": row.id,
+        "times": median(ratios),
+        "plain_s": min(time.cpu_s for _, time in without),
+        "panel_s": min(time.cpu_s for _, time in beside),
+        "plain_cases": len(searches[0].results),
+        "panel_cases": len(searches[1].results),
+        "is_closed": all(search.gap is None for search in searches),
+    }
 
 
 def _build_panel(row: NetRow) -> RowPanel:
@@ -106,20 +106,6 @@ def _build_panel(row: NetRow) -> RowPanel:
     return RowPanel(panels=(panel,), lower=_BEARS, upper=_BEARS)
 
 
-def _search(site: Site, run: CheckRun) -> tuple[float, RowEnvelope]:
-    start = time.process_time()
+def _search(site: Site, run: CheckRun) -> RowEnvelope:
     (found,) = search_site(site, run, Runner())
-    return time.process_time() - start, found
-
-
-def _describe(row: NetRow, pairs: Sequence[Pair]) -> dict[str, Any]:
-    first = pairs[0]
-    return {
-        "row": row.id,
-        "times": median(one.times for one in pairs),
-        "plain_s": min(one.plain_s for one in pairs),
-        "panel_s": min(one.panel_s for one in pairs),
-        "plain_cases": first.plain_cases,
-        "panel_cases": first.panel_cases,
-        "is_closed": first.is_closed,
-    }
+    return found

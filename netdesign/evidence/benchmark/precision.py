@@ -10,14 +10,13 @@ from __future__ import annotations
 
 import os
 import platform
-import time
 import tracemalloc
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from netdesign import __version__
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
@@ -27,8 +26,7 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import reference_path
-from netdesign.evidence.benchmark.rows import Method, Path, Row
-from netdesign.evidence.benchmark.summary import summarise
+from netdesign.evidence.benchmark.summary import Method, Path, Row, summarise
 from netdesign.evidence.benchmark.truth import (
     Truth,
     build_truth,
@@ -36,7 +34,13 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
+from netdesign.evidence.runner import measure, run_in_turns
+from netdesign.evidence.table import print_document, print_rows
+from netdesign.report.words import Words
 from netdesign.snow.mesh import MeshSize
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 BENCH_SCHEMA = "netdesign.bench/1"
 HISTORY_ACCURACY = 0.01  # of the steps
@@ -120,12 +124,8 @@ def _measure(
 ) -> list[Row]:
     """Solve each path once for its result and memory, then all in turns for time."""
     found = {path: _observe(solve) for path, solve in solves.items()}
-    times: dict[Path, list[float]] = {path: [] for path in solves}
-    for _ in range(repeats):
-        for path, solve in solves.items():
-            start = time.perf_counter()
-            solve()
-            times[path].append(time.perf_counter() - start)
+    works = {path: partial(measure, solve) for path, solve in solves.items()}
+    timed = run_in_turns(works, repeats)
     return [
         Row(
             scene=name,
@@ -133,7 +133,7 @@ def _measure(
             path=path,
             elements=solution.cost.elements,
             degrees_of_freedom=solution.cost.degrees_of_freedom,
-            wall_s=min(times[path]),
+            wall_s=min(time.wall_s for _, time in timed[path]),
             error=truth.compare(solution),
             stated_error=state_error(solution),
             linear_solves=solution.cost.linear_solves,
@@ -172,3 +172,9 @@ def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
         "rows": [asdict(row) for row in rows],
         "summary": asdict(summarise(rows)),
     }
+
+
+def print_bench(document: dict[str, Any], console: Console, words: Words) -> None:
+    """Print a line for each row, then what they say together."""
+    print_rows(document["rows"], console, words)
+    print_document(document["summary"], console, words)

@@ -8,7 +8,6 @@ the scene. All else that does not converge fails.
 from __future__ import annotations
 
 import re
-import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -21,9 +20,8 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import Tables, draw_scene
-from netdesign.evidence.benchmark.spread import spread
-from netdesign.evidence.benchmark.statistics import summarise_times
 from netdesign.evidence.benchmark.truth import state_error
+from netdesign.evidence.runner import Clock, spread, summarise_times
 from netdesign.files.scene import SceneFile, build_scene
 from netdesign.outcome import Outcome
 from netdesign.words.catalogue import Language, render
@@ -116,9 +114,8 @@ def attempt_scene(
 def _solve(
     number: int, tables: Tables, scene: Scene, settings: SolverSettings
 ) -> Attempt:
-    start = time.process_time()
-    solution = solve_steady(scene, settings)
-    elapsed = time.process_time() - start
+    with Clock() as clock:
+        solution = solve_steady(scene, settings)
     if isinstance(solution, FailedSolution):
         return Attempt(
             number=number,
@@ -127,7 +124,7 @@ def _solve(
                 "bench.ended", outcome=solution.outcome.value, reason=solution.reason
             ),
             tables=tables,
-            cpu_s=elapsed,
+            cpu_s=clock.cpu_s,
         )
     balance = solution.balance.relative_residual
     return Attempt(
@@ -137,7 +134,7 @@ def _solve(
         if balance <= LARGEST_BALANCE
         else say("bench.balance", residual=balance),
         tables=tables,
-        cpu_s=elapsed,
+        cpu_s=clock.cpu_s,
         linear_solves=solution.cost.linear_solves,
         balance=balance,
         stated_error=state_error(solution),

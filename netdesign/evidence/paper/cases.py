@@ -6,15 +6,14 @@ import math
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from netdesign.cable.net import Net
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, Start
 from netdesign.coupling.scene import Scene
+from netdesign.evidence.scene import build_scene
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.snow.fluidity import PAPER_FLUIDITY
-from netdesign.snow.ground import GroundLaw
 from netdesign.snow.mesh import MeshSize
-from netdesign.snow.snowpack import GravityMode, Snowpack
-from netdesign.units import radian_from_degree, second_from_day
+from netdesign.snow.snowpack import GravityMode
+from netdesign.units import second_from_day
 
 Method = Literal["steady", "transient", "staggered"]
 
@@ -51,24 +50,16 @@ class PaperCase:
     @property
     def scene(self) -> Scene:
         """Scene of the run."""
-        return Scene(
-            snowpack=Snowpack(
-                slope_angle=radian_from_degree(ASSUMED_SLOPE_DEG),
-                thickness=THICKNESS,
-                upslope_length=LENGTH,
-                density=RELATIVE_DENSITY * ICE_DENSITY,
-                gravity=self.gravity,
-            ),
-            ground=GroundLaw(kind="free"),
-            net=Net(
-                height_normal=THICKNESS,
-                inclination=radian_from_degree(self.inclination_deg),
-                stiffness_per_m=ASSUMED_STIFFNESS,
-                slack=0.0,
-                friction_angle=radian_from_degree(self.friction_deg),
-            ),
-            fluidity=PAPER_FLUIDITY,
+        scene = build_scene(
+            (THICKNESS, RELATIVE_DENSITY * ICE_DENSITY),
+            slope=ASSUMED_SLOPE_DEG,
+            length=LENGTH,
+            lean=self.inclination_deg,
+            friction=self.friction_deg,
+            stiffness=ASSUMED_STIFFNESS,
+            gravity=self.gravity,
         )
+        return replace(scene, fluidity=PAPER_FLUIDITY)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

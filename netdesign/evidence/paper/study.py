@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import get_context
 
 from netdesign.evidence.paper.cases import PaperCase, PaperSettings, list_cases
 from netdesign.evidence.paper.runs import PaperRun, run_case
+from netdesign.evidence.runner import spread
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -48,26 +47,6 @@ def run_study(
     """
     settings = settings or PaperSettings()
     cases = list_cases(settings)
-    notify = on_done or (lambda _: None)
-    runs = _run_all(cases, partial(run_case, settings=settings), jobs, notify)
-    return PaperStudy(settings=settings, runs={case: runs[case] for case in cases})
-
-
-def _run_all(
-    cases: Sequence[PaperCase],
-    run: Callable[[PaperCase], PaperRun],
-    jobs: int,
-    notify: Callable[[PaperRun], object],
-) -> dict[PaperCase, PaperRun]:
-    runs: dict[PaperCase, PaperRun] = {}
-    if jobs == 1:
-        for case in cases:
-            runs[case] = run(case)
-            notify(runs[case])
-        return runs
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        places = {pool.submit(run, case): case for case in cases}
-        for future in as_completed(places):
-            runs[places[future]] = future.result()
-            notify(runs[places[future]])
-    return runs
+    work = partial(run_case, settings=settings)
+    runs = spread(work, cases, jobs=jobs, chunk=1, on_done=on_done)
+    return PaperStudy(settings=settings, runs=dict(zip(cases, runs, strict=True)))

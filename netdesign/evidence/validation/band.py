@@ -9,13 +9,13 @@ from typing import Literal
 
 import numpy as np
 
-from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.errors import ModelError
+from netdesign.evidence.scene import build_scene
 from netdesign.evidence.validation.structure import (
     ALONG_SLOPE,
     Measurement,
@@ -186,21 +186,15 @@ def _solve(structure: Structure, point: dict[str, float]) -> _Forces:
         return _Forces(values={}, reason=str(error))
 
 
-def _build_snow(point: dict[str, float]) -> tuple[Snowpack, float]:
-    thickness = point["net_height_m"] * point["filled"]
-    snow = Snowpack(
-        slope_angle=math.radians(point["slope_deg"]),
-        thickness=thickness,
-        upslope_length=point["upslope_length_m"],
-        density=point["density_kg_m3"],
-    )
-    return snow, thickness
-
-
 def _solve_wall(point: dict[str, float]) -> _Forces:
-    snow, thickness = _build_snow(point)
+    thickness = point["net_height_m"] * point["filled"]
     scene = Scene(
-        snowpack=snow,
+        snowpack=Snowpack(
+            slope_angle=math.radians(point["slope_deg"]),
+            thickness=thickness,
+            upslope_length=point["upslope_length_m"],
+            density=point["density_kg_m3"],
+        ),
         ground=build_ground_from_glide_factor(point["glide_factor"], thickness),
         net=Wall(
             height_normal=thickness,
@@ -248,17 +242,17 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> _Forces:
 
 
 def _build_net(point: dict[str, float]) -> Scene:
-    snow, thickness = _build_snow(point)
-    return Scene(
-        snowpack=snow,
+    thickness = point["net_height_m"] * point["filled"]
+    return build_scene(
+        (thickness, point["density_kg_m3"]),
+        slope=point["slope_deg"],
+        length=point["upslope_length_m"],
         ground=build_ground_from_glide_factor(point["glide_factor"], thickness),
-        net=Net(
-            height_normal=point["net_height_m"],
-            inclination=math.radians(point["inclination_deg"]),
-            stiffness_per_m=point["stiffness_kN_per_m"] * 1e3,
-            slack=point["slack"],
-            friction_angle=math.radians(point["friction_deg"]),
-        ),
+        height=point["net_height_m"],
+        lean=point["inclination_deg"],
+        friction=point["friction_deg"],
+        stiffness=point["stiffness_kN_per_m"] * 1e3,
+        slack=point["slack"],
     )
 
 

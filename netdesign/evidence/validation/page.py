@@ -8,14 +8,25 @@ from dataclasses import dataclass
 from typing import Any
 
 from netdesign import __version__
-from netdesign.evidence.validation.band import Comparison, Validation
+from netdesign.evidence.page_table import (
+    NUMBER_TEXTS,
+    PAIRS,
+    RANGES,
+    TEXTS,
+    Field,
+    Kind,
+    numbers,
+    tabulate,
+    tabulate_items,
+)
+from netdesign.evidence.validation.band import MemberBand, Validation
 from netdesign.evidence.validation.pictures import (
     draw_bands,
     draw_compaction,
     draw_errors,
     name_validated,
 )
-from netdesign.evidence.validation.structure import Structure
+from netdesign.evidence.validation.structure import Measurement, Span, Structure
 from netdesign.evidence.verification.another_code import load_results
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import (
@@ -30,8 +41,9 @@ from netdesign.evidence.verification.compaction import (
 from netdesign.evidence.verification.pack import write_pack
 from netdesign.evidence.verification.verification_table import name_kind
 from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.view.table import Cell, Table
 from netdesign.report.words import Words, show_own
-from netdesign.snow.creep_law import BOUTILLIER_2004, ZWINGER_2007
+from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, ZWINGER_2007
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
@@ -110,14 +122,14 @@ def _render_page(evidence: Evidence, words: Words) -> str:
             bands=mark_safe(draw_bands(evidence.validations, words))
             if is_measured
             else "",
-            cases=[_show_case(case, words) for case in evidence.cases],
+            cases=_tabulate_cases(evidence.cases, words),
             passed=sum(case.passes for case in evidence.cases),
             quoted=_quote(words),
             growth={key: f"{one:.0f}" for key, one in list_growth().items()},
             models=_list_models(words),
             layers=say("validation.layers", **_LAYERS),
-            softness=[_show_softness(place, words) for place in _pick(evidence.places)],
-            contrasts=[_show_contrast(one, words) for one in evidence.contrasts],
+            softness=_tabulate_softness(_pick(evidence.places), words),
+            contrasts=_tabulate_contrasts(evidence.contrasts, words),
             structures=[_show_structure(one, words) for one in evidence.validations],
             inside=sum(one.is_inside for one in compared),
             middle_of_five=sum(one.is_in_the_middle for one in compared),
@@ -143,43 +155,66 @@ def _quote(words: Words) -> dict[str, str]:
     }
 
 
-def _show_case(case: VerificationCase, words: Words) -> dict[str, str]:
-    order = "" if case.order is None else words.write(f"{case.order:.2f}")
-    return {
-        "id": case.id,
-        "kind": name_kind(case.kind, words),
-        "reference": show_own(words, case.reference),
-        "mark": words(f"validation_mark.{mark_expected(case)}"),
-        "expected": words.write(f"{case.expected:.5g}"),
-        "got": words.write(f"{case.got:.5g}"),
-        "error": words.write(f"{case.error:.1e}"),
-        "tolerance": words.write(f"{case.tolerance:.1e}"),
-        "order": order,
-        "result": "✓" if case.passes else words("validation.fails"),
+def _tabulate_cases(cases: Sequence[VerificationCase], words: Words) -> Table:
+    fails = words("validation.fails")
+    columns = {
+        "verify_table.id": (TEXTS, lambda one: one.id),
+        "verify_table.kind": (TEXTS, lambda one: name_kind(one.kind, words)),
+        "verify_table.reference": (TEXTS, lambda one: show_own(words, one.reference)),
+        "validation.reference_is": (
+            TEXTS,
+            lambda one: _mark(mark_expected(one), words),
+        ),
+        "verify_table.expected": (numbers(".5g"), lambda one: one.expected),
+        "validation.computed": (numbers(".5g"), lambda one: one.got),
+        "verify_table.error": (numbers(".1e"), lambda one: one.error),
+        "validation.tolerance": (numbers(".1e"), lambda one: one.tolerance),
+        "verify_table.order": (numbers(".2f"), lambda one: one.order),
+        "validation.passes": (TEXTS, lambda one: "✓" if one.passes else fails),
     }
+    return tabulate_items("", columns, cases, words)
+
+
+def _name_origin(case: VerificationCase, words: Words) -> str:
+    return _mark(mark_expected(case), words)
+
+
+def _mark(mark: str, words: Words) -> str:
+    return words(f"validation_mark.{mark}")
 
 
 def _pick(places: Sequence[Place]) -> list[Place]:
     return [place for place in places if place.density % 100.0 == 50.0]
 
 
-def _show_softness(place: Place, words: Words) -> dict[str, Any]:
-    return {
-        "density": words.write(f"{place.density:g}"),
-        "stress": words.write(f"{place.stress / 1e3:g}"),
-        "middle": words.write(f"{find_middle(place.density):.2g}"),
-        "laws": [
-            {
-                "viscosity": words.write(f"{value:.2g}"),
-                "softness": words.write(_show_ratio(place.softness[name])),
-            }
-            for name, value in place.laws.items()
-        ],
-    }
+def _tabulate_softness(places: Sequence[Place], words: Words) -> Table:
+    """Viscosity by each law, and over the middle of the models how soft that is."""
+    ratio = Kind(show=_show_ratio)
+    fields = [
+        Field("density", "validation.density", numbers("g")),
+        Field("stress", "validation.stress", numbers("g")),
+        Field("middle", "validation.models_middle", numbers(".2g")),
+    ]
+    for law in CREEP_LAWS:
+        fields.append(Field(law, law, numbers(".2g")))
+        fields.append(Field(f"{law}_softer", "validation.softer", ratio))
+    rows = [
+        (
+            *(place.density, place.stress / 1e3, find_middle(place.density)),
+            *(
+                value
+                for law in CREEP_LAWS
+                for value in (place.laws[law], place.softness[law])
+            ),
+        )
+        for place in places
+    ]
+    return tabulate(words("validation.softness_caption"), fields, rows, words)
 
 
-def _show_ratio(value: float) -> str:
-    return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
+def _show_ratio(words: Words, value: float) -> Cell:
+    text = f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
+    return Cell(text=words.write(text), number=value)
 
 
 def _list_models(words: Words) -> str:
@@ -206,17 +241,22 @@ def _list_codes(words: Words) -> list[str]:
     ]
 
 
-def _show_contrast(one: Contrast, words: Words) -> dict[str, str]:
-    (foot, head), (other_foot, other_head) = one.own, one.other
-    uniform_foot, uniform_head = one.uniform
-    return {
-        "ground": words(_GROUNDS[one.ground]),
-        "own": words.write(f"{foot / 1e3:.1f} / {head / 1e3:.1f}"),
-        "other": words.write(f"{other_foot / 1e3:.1f} / {other_head / 1e3:.1f}"),
-        "uniform": words.write(f"{uniform_foot / 1e3:.1f} / {uniform_head / 1e3:.1f}"),
-        "change": f"{100 * (other_foot / foot - 1):+.0f} / "
-        f"{100 * (other_head / head - 1):+.0f}",
+def _tabulate_contrasts(contrasts: Sequence[Contrast], words: Words) -> Table:
+    columns = {
+        "validation.ground": (TEXTS, lambda one: words(_GROUNDS[one.ground])),
+        "validation.own_law": (PAIRS, lambda one: one.own),
+        "validation.other_law": (PAIRS, lambda one: one.other),
+        "validation.change": (NUMBER_TEXTS, _show_change),
+        "validation.uniform": (PAIRS, lambda one: one.uniform),
     }
+    return tabulate_items(
+        words("validation.contrast_caption"), columns, contrasts, words
+    )
+
+
+def _show_change(one: Contrast) -> str:
+    pairs = zip(one.own, one.other, strict=True)
+    return " / ".join(f"{100 * (other / own - 1):+.0f}" for own, other in pairs)
 
 
 def _show_structure(one: Validation, words: Words) -> dict[str, Any]:
@@ -228,71 +268,66 @@ def _show_structure(one: Validation, words: Words) -> dict[str, Any]:
         "title": show_own(words, structure.title),
         "source": show_own(words, structure.source),
         "note": _tell(structure.note, words),
-        "is_known": structure.is_known,
         "told": words(
             "validation.cases_failed" if one.failed else "validation.cases", **counts
         ),
-        "rows": [
-            row
-            for comparison in one.comparisons
-            for row in _list_rows(comparison, one, words)
-        ],
-        "inputs": _list_inputs(structure, words),
+        "measured": _tabulate_measured(one, words),
+        "inputs": _tabulate_inputs(structure, words),
         "open": [show_own(words, text) for text in structure.open],
     }
 
 
-def _list_rows(
-    comparison: Comparison, one: Validation, words: Words
-) -> list[dict[str, str]]:
-    measured = comparison.measured
-    uncertain = (
-        words.write(f" ± {measured.uncertainty:g}") if measured.uncertainty else ""
-    )
-    rows = []
-    for band in comparison.bands:
-        if one.structure.is_known:
-            misfit = 100.0 * (band.low / measured.value - 1.0)
-            said = words("validation.misfit", misfit=misfit)
-        else:
-            share = 100.0 * band.share_below
-            said = words(f"validation.{band.place(measured)}", share=share)
-        rows.append(
-            {
-                "name": show_own(words, measured.name),
-                "measured": words.write(f"{measured.value:g}") + uncertain,
-                "mark": words(f"validation_mark.{measured.mark}"),
-                "member": name_validated(band.member, words),
-                "band": _show_range(band.low, band.high, words),
-                "middle": _show_range(*band.middle, words),
-                "error": words.write(f"{100 * band.errors:.1f}"),
-                "said": said,
-                "note": _tell(measured.note, words),
-            }
-        )
-    return rows
+def _tabulate_measured(one: Validation, words: Words) -> Table:
+    computed = "validation.computed" if one.structure.is_known else "validation.band"
+    columns = {
+        "validation.measured": (TEXTS, lambda at: _name_measured(at[0], words)),
+        "kN": (NUMBER_TEXTS, lambda at: _show_measured(at[0], words)),
+        "validation.mark": (TEXTS, lambda at: _mark(at[0].mark, words)),
+        "validation.member": (TEXTS, lambda at: name_validated(at[1].member, words)),
+        computed: (RANGES, lambda at: (at[1].low, at[1].high)),
+        "validation.middle": (RANGES, lambda at: at[1].middle),
+        "validation.numerical": (numbers(".1f"), lambda at: 100 * at[1].errors),
+        "validation.value": (TEXTS, lambda at: _judge_band(at[0], at[1], one, words)),
+    }
+    bands = [(pair.measured, band) for pair in one.comparisons for band in pair.bands]
+    return tabulate_items("", columns, bands, words)
 
 
-def _list_inputs(structure: Structure, words: Words) -> list[dict[str, str]]:
-    return [
-        {
-            "name": words(f"validation_input.{name}"),
-            "range": words.show_given(span.low)
-            if span.is_known
-            else words(
-                "show.band",
-                low=words.show_given(span.low),
-                high=words.show_given(span.high),
-            ),
-            "mark": words(f"validation_mark.{span.mark}"),
-            "reason": _tell(span.reason, words),
-        }
-        for name, span in structure.inputs.items()
-    ]
+def _name_measured(measured: Measurement, words: Words) -> str:
+    name = show_own(words, measured.name)
+    if not measured.note:
+        return name
+    return words("show.label", label=name, text=_tell(measured.note, words))
 
 
-def _show_range(low: float, high: float, words: Words) -> str:
-    return words("show.band", low=f"{low:.0f}", high=f"{high:.0f}")
+def _show_measured(measured: Measurement, words: Words) -> str:
+    uncertain = f" ± {measured.uncertainty:g}" if measured.uncertainty else ""
+    return words.write(f"{measured.value:g}{uncertain}")
+
+
+def _judge_band(
+    measured: Measurement, band: MemberBand, one: Validation, words: Words
+) -> str:
+    if one.structure.is_known:
+        misfit = 100.0 * (band.low / measured.value - 1.0)
+        return words("validation.misfit", misfit=misfit)
+    share = 100.0 * band.share_below
+    return words(f"validation.{band.place(measured)}", share=share)
+
+
+def _tabulate_inputs(structure: Structure, words: Words) -> Table:
+    columns = {
+        "validation.input": (TEXTS, lambda one: words(f"validation_input.{one[0]}")),
+        "validation.range": (TEXTS, lambda one: _show_span(one[1], words)),
+        "validation.mark": (TEXTS, lambda one: _mark(one[1].mark, words)),
+        "validation.reason": (TEXTS, lambda one: _tell(one[1].reason, words)),
+    }
+    return tabulate_items("", columns, structure.inputs.items(), words)
+
+
+def _show_span(span: Span, words: Words) -> str:
+    low, high = words.show_given(span.low), words.show_given(span.high)
+    return low if span.is_known else words("show.band", low=low, high=high)
 
 
 def _tell(text: str, words: Words) -> str:

@@ -10,11 +10,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
+from netdesign.coupling.scene import SolverSettings
+from netdesign.evidence.scene import build_scene, solve
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
@@ -26,11 +23,6 @@ from netdesign.snow.creep_law import (
 )
 from netdesign.snow.fluidity import PAPER_FLUIDITY
 from netdesign.snow.ground import GroundKind, GroundLaw
-from netdesign.snow.snowpack import (
-    Layer,
-    build_layered_snowpack,
-    compute_mean_density,
-)
 from netdesign.snowpack.hs2swe import Hs2swe
 
 DENSITIES = tuple(float(rho) for rho in range(150, 451, 25))  # [kg/m3]
@@ -225,27 +217,13 @@ def compare_contrasts() -> list[Contrast]:
 def _find_tensions(
     law: CreepLaw, ground: GroundKind, *, is_uniform: bool = False
 ) -> tuple[float, float]:
-    layers = tuple(Layer(thickness=d, density=rho) for d, rho in _LAYERS)
-    if is_uniform:
-        mean = compute_mean_density(layers)
-        layers = (Layer(thickness=sum(d for d, _ in _LAYERS), density=mean),)
-    scene = Scene(
-        snowpack=build_layered_snowpack(
-            layers, slope_angle=math.radians(38.0), upslope_length=20.0
-        ),
-        ground=GroundLaw(kind=ground),
-        net=Net(
-            height_normal=3.0,
-            inclination=math.radians(30.0),
-            stiffness_per_m=2e7,
-            slack=0.03,
-            friction_angle=math.radians(30.0),
-        ),
-        creep_law=law,
+    scene = build_scene(
+        *_LAYERS, slope=38.0, length=20.0, ground=GroundLaw(kind=ground), slack=0.03
     )
-    solution = solve_steady(scene, SolverSettings(accuracy=0.01))
-    if not isinstance(solution, Solution):
-        raise SolveError(solution.outcome, solution.reason)
+    if is_uniform:
+        scene = replace(scene, snowpack=replace(scene.snowpack, layers=()))
+    settings = SolverSettings(accuracy=0.01)
+    solution = solve(replace(scene, creep_law=law), settings)
     return solution.foot.size, solution.head.size
 
 

@@ -7,13 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from netdesign.cable.net import Net
 from netdesign.coupling.interface import compute_support_forces
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
+from netdesign.evidence.scene import build_scene, solve
 from netdesign.evidence.verification.case import (
     Kind,
     VerificationCase,
@@ -26,7 +25,6 @@ from netdesign.snow.kernel import assemble_stress
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
-from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snow.wall import Wall
 
 # Tight, without the coarsest level: verification looks at what the default
@@ -46,7 +44,7 @@ _LAYERED: dict[GroundKind, tuple[float, float]] = {
 _REFERENCE = {0.0: (309.67, 303.41, 0.3016), 30.0: (345.41, 269.45, 0.3476)}
 
 
-def build_scene(
+def build_paper_scene(
     *,
     inclination: float = 30.0,
     friction: float = 30.0,
@@ -56,21 +54,14 @@ def build_scene(
     density: float = 366.8,
 ) -> Scene:
     """Scene of the source paper, its lengths times ``size``; degrees, N/m, kg/m3."""
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(40.0),
-            thickness=4.0 * size,
-            upslope_length=20.0 * size,
-            density=density,
-        ),
+    return build_scene(
+        (4.0 * size, density),
+        slope=40.0,
+        length=20.0 * size,
         ground=GroundLaw(kind=ground),
-        net=Net(
-            height_normal=4.0 * size,
-            inclination=math.radians(inclination),
-            stiffness_per_m=stiffness,
-            slack=0.0,
-            friction_angle=math.radians(friction),
-        ),
+        lean=inclination,
+        friction=friction,
+        stiffness=stiffness,
     )
 
 
@@ -78,7 +69,7 @@ def list_reference() -> list[VerificationCase]:
     """Tensions and sag of the source paper's scene against two other codes."""
     cases = []
     for inclination, (foot, head, sag) in _REFERENCE.items():
-        solution = _solve(build_scene(inclination=inclination))
+        solution = _solve(build_paper_scene(inclination=inclination))
         for name, expected, got in (
             ("foot", foot, solution.foot.size / 1e3),
             ("head", head, solution.head.size / 1e3),
@@ -114,12 +105,12 @@ def list_layered() -> list[VerificationCase]:
 
 def list_invariants() -> list[VerificationCase]:
     """Invariants: they hold whatever the numbers are."""
-    base = build_scene()
+    base = build_paper_scene()
     reference = _solve(base)
     balance = max(
         _balance_along_slope(friction) for friction in (0.0, 10.0, 20.0, 45.0)
     )
-    scaled = _solve(build_scene(size=2.0, stiffness=8e7, density=366.8))
+    scaled = _solve(build_paper_scene(size=2.0, stiffness=8e7, density=366.8))
     warm = _solve(replace(base, fluidity=7.0 * base.creep_fluidity))
     return [
         _zero(
@@ -161,11 +152,11 @@ def list_invariants() -> list[VerificationCase]:
 
 def list_limits() -> list[VerificationCase]:
     """Ends of the parameter ranges."""
-    smooth = _solve(build_scene(friction=0.0))
-    stiff = _solve(build_scene(ground="no-slip", stiffness=1e13, inclination=0.0))
-    held = _solve_wall(build_scene(ground="no-slip", inclination=0.0))
+    smooth = _solve(build_paper_scene(friction=0.0))
+    stiff = _solve(build_paper_scene(ground="no-slip", stiffness=1e13, inclination=0.0))
+    held = _solve_wall(build_paper_scene(ground="no-slip", inclination=0.0))
     sticks = [
-        _solve(build_scene(inclination=0.0, friction=phi)) for phi in (15.0, 45.0)
+        _solve(build_paper_scene(inclination=0.0, friction=phi)) for phi in (15.0, 45.0)
     ]
     return [
         _case(
@@ -226,7 +217,7 @@ def list_orders() -> list[VerificationCase]:
         ("order-sticking", 45.0, 1.8, 5e-4),
         ("order-sliding", 10.0, 1.0, 1e-3),
     ):
-        scene = build_scene(friction=friction)
+        scene = build_paper_scene(friction=friction)
         tensions = [_tension_on_level(scene, size) for size in nested]
         errors = [abs(tension / tensions[-1] - 1.0) for tension in tensions[:-1]]
         sizes = [1.0, 0.5]
@@ -247,28 +238,12 @@ def list_orders() -> list[VerificationCase]:
 
 def _build_layered_scene(ground: GroundKind) -> Scene:
     """Scenes LA and LB: 3 m of three layers, 38 degrees."""
-    return Scene(
-        snowpack=build_layered_snowpack(
-            tuple(Layer(thickness=high, density=density) for high, density in _LAYERS),
-            slope_angle=math.radians(38.0),
-            upslope_length=20.0,
-        ),
-        ground=GroundLaw(kind=ground),
-        net=Net(
-            height_normal=3.0,
-            inclination=math.radians(30.0),
-            stiffness_per_m=2e7,
-            slack=0.03,
-            friction_angle=math.radians(30.0),
-        ),
-    )
+    law = GroundLaw(kind=ground)
+    return build_scene(*_LAYERS, slope=38.0, length=20.0, ground=law, slack=0.03)
 
 
 def _solve(scene: Scene, settings: SolverSettings = _SETTINGS) -> Solution:
-    solution = solve_steady(scene, settings)
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
-    return solution
+    return solve(scene, settings)
 
 
 def _solve_wall(scene: Scene) -> WallSolution:
@@ -280,7 +255,7 @@ def _solve_wall(scene: Scene) -> WallSolution:
 
 
 def _balance_along_slope(friction: float) -> float:
-    solution = _solve(build_scene(friction=friction))
+    solution = _solve(build_paper_scene(friction=friction))
     weight = solution.balance.weight_along_slope
     return abs(solution.foot.x + solution.head.x - weight) / weight
 
@@ -355,12 +330,12 @@ def _flow_resultant(law: FlowProblem) -> float:
 
 
 def _floor_forces(floor: float) -> float:
-    law = build_scene(ground="no-slip").flow_problem
+    law = build_paper_scene(ground="no-slip").flow_problem
     return _flow_resultant(replace(law, stress_floor=floor))
 
 
 def _mixed_over_velocity() -> float:
-    law = build_scene(ground="no-slip").flow_problem
+    law = build_paper_scene(ground="no-slip").flow_problem
     return _flow_resultant(replace(law, element="mixed")) / _flow_resultant(law)
 
 

@@ -14,10 +14,9 @@ from functools import lru_cache
 import numpy as np
 
 from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import Solution
+from netdesign.evidence.scene import build_scene, solve
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.creep_law import (
     ICE_DENSITY,
@@ -25,7 +24,7 @@ from netdesign.snow.creep_law import (
     compute_shear_factor,
 )
 from netdesign.snow.ground import GroundKind, GroundLaw
-from netdesign.snow.snowpack import GRAVITY, Layer, build_layered_snowpack
+from netdesign.snow.snowpack import GRAVITY
 
 _QUADRATIC_TRIANGLE, _QUADRATIC_EDGE = 22, 21  # cell types of VTK
 _GROUND, _NET, _SURFACE, _UPSLOPE = 1, 2, 3, 4  # boundaries
@@ -115,24 +114,16 @@ def _solve(
     ground: GroundKind,
     layers: Sequence[tuple[float, float]],
 ) -> ExportedScene:
-    scene = Scene(
-        snowpack=build_layered_snowpack(
-            tuple(Layer(thickness=d, density=rho) for d, rho in layers),
-            slope_angle=math.radians(slope),
-            upslope_length=16.0,
-        ),
+    scene = build_scene(
+        *layers,
+        slope=slope,
+        length=16.0,
         ground=GroundLaw(kind=ground),
-        net=Net(
-            height_normal=sum(d for d, _ in layers),
-            inclination=math.radians(lean),
-            stiffness_per_m=2e7,
-            slack=0.03,
-            friction_angle=math.radians(60.0),
-        ),
+        lean=lean,
+        friction=60.0,
+        slack=0.03,
     )
-    solution = solve_steady(scene, SolverSettings(accuracy=_ACCURACY))
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
+    solution = solve(scene, SolverSettings(accuracy=_ACCURACY))
     return ExportedScene(name=name, about=about, solution=solution)
 
 

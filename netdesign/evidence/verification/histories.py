@@ -19,7 +19,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.verification.case import VerificationCase, observe_order
-from netdesign.evidence.verification.coupled import build_scene
+from netdesign.evidence.verification.coupled import build_paper_scene
 from netdesign.numerics.arrays import Floats
 
 _HORIZON = 0.06  # creep time
@@ -31,7 +31,7 @@ def list_histories() -> list[VerificationCase]:
     """Steady state met, balance of all steps, smooth pulls, staggered trend."""
     cases = []
     for inclination in (0.0, 30.0):
-        scene = build_scene(inclination=inclination)
+        scene = build_paper_scene(inclination=inclination)
         run = _run(scene, start="sagged", densifies=False, level=1)
         cases += _compare_with_steady(scene, run, f"history-{inclination:g}")
         cases += _check_steps(run, f"history-{inclination:g}")
@@ -117,7 +117,7 @@ def _sizes(moments: list[HistoryPoint], end: str) -> Floats:
 
 def _compare_staggered() -> VerificationCase:
     """Foot pull of the exchange at one creep time, drag and step shrinking."""
-    scene = build_scene(inclination=0.0)
+    scene = build_paper_scene(inclination=0.0)
     history = _run(scene, start="straight", densifies=True, level=0)
     expected = float(np.hypot(*history.moments[-1].foot)) * scene.force_scale / 1e3
     settings = StaggeredSettings(horizon=_HORIZON)

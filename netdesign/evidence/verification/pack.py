@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from netdesign.evidence.verification.another_code import list_another_code
@@ -63,7 +63,7 @@ def run_pack(
     return cases
 
 
-def write_pack(cases: list[VerificationCase]) -> dict[str, Any]:
+def write_pack(cases: Sequence[VerificationCase]) -> dict[str, Any]:
     """Plain values in the form ``netdesign.verification/1``."""
     return {
         "schema": "netdesign.verification/1",

@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady.solve import solve_steady
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import Solution
 from netdesign.errors import SolveError
+from netdesign.evidence.scene import build_scene, solve
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.net_in_space import solve_net_in_space
 from netdesign.panel.inputs import Cut, Panel, Rope
@@ -19,7 +18,6 @@ from netdesign.panel.solution import FailedPanel, PanelSolution
 from netdesign.panel.solve import solve_panel
 from netdesign.panel.strips import take_strip
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Snowpack
 
 _HEIGHT = 3.0  # [m]
 _SLIP_RATIO = 2.4147  # N 1.8 as the prototype had it
@@ -89,26 +87,11 @@ def _hang_straight(section: Solution) -> VerificationCase:
 
 
 def _solve_section() -> Solution:
-    scene = Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(40.0),
-            thickness=_HEIGHT,
-            upslope_length=20.0,
-            density=400.0,
-        ),
-        ground=GroundLaw(kind="sliding", slip_length=_SLIP_RATIO * _HEIGHT),
-        net=Net(
-            height_normal=_HEIGHT,
-            inclination=math.radians(30.0),
-            stiffness_per_m=2e7,
-            slack=0.04,
-            friction_angle=math.radians(30.0),
-        ),
+    ground = GroundLaw(kind="sliding", slip_length=_SLIP_RATIO * _HEIGHT)
+    scene = build_scene(
+        (_HEIGHT, 400.0), slope=40.0, length=20.0, ground=ground, slack=0.04
     )
-    solution = solve_steady(scene, SolverSettings(accuracy=1e-3))
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
-    return solution
+    return solve(scene, SolverSettings(accuracy=1e-3))
 
 
 def _solve(section: Solution, cut: Cut) -> PanelSolution:

@@ -7,22 +7,21 @@ import math
 from dataclasses import replace
 from importlib.resources import files
 
-from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.evidence.scene import build_scene
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Layer, Snowpack
+from netdesign.snow.snowpack import Layer
 from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
 from netdesign.snowpack.pack import DayPack
-from netdesign.units import newton_from_kilonewton
 from netdesign.winter.day import DaySolver, RowDay, WinterRow
 from netdesign.winter.season import Season, follow_season
 
 _PROTOTYPE = (
     "prototype of the same chain on an earlier solver, made-up winter at 2000 m"
 )
-_SLOPE = math.radians(40.0)
+_SLOPE_DEG = 40.0
 _SLIP = 1.5  # [m]
 
 
@@ -34,18 +33,8 @@ def build_row_scene(ground: GroundLaw) -> Scene:
     ground : GroundLaw
         One of several.
     """
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=_SLOPE, thickness=3.0, upslope_length=20.0, density=300.0
-        ),
-        ground=ground,
-        net=Net(
-            height_normal=3.0,
-            inclination=math.radians(30.0),
-            stiffness_per_m=newton_from_kilonewton(2e4),
-            slack=0.03,
-            friction_angle=math.radians(30.0),
-        ),
+    return build_scene(
+        (3.0, 300.0), slope=_SLOPE_DEG, length=20.0, ground=ground, slack=0.03
     )
 
 

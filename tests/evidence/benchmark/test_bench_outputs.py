@@ -2,22 +2,17 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
-from functools import partial
 
 import pytest
 from rich.console import Console
 
 from netdesign.evidence.benchmark.bench_figure import draw_work_precision
-from netdesign.evidence.benchmark.bench_table import (
-    print_errors,
-    print_lines,
-    print_rows,
-    print_stress,
-)
-from netdesign.evidence.benchmark.figure_table import print_figure
 from netdesign.evidence.benchmark.honesty import Finding, write_errors
-from netdesign.evidence.benchmark.rows import Row
+from netdesign.evidence.benchmark.lines import Line, write_lines
+from netdesign.evidence.benchmark.precision import print_bench, write_bench
 from netdesign.evidence.benchmark.stress import Attempt, write_stress
+from netdesign.evidence.benchmark.summary import Row
+from netdesign.evidence.table import print_document, print_figure
 from netdesign.report.words import Words
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import say
@@ -43,23 +38,25 @@ ROWS = [
 ]
 
 
-def printed(show, *arguments) -> str:
-    console = Console(width=100, record=True, quiet=True)
-    console.quiet = False
+def printed(show, document, language="en") -> list[list[str]]:
+    """Words of every line that a function shows of a document."""
+    console = Console(width=200)
     with console.capture() as captured:
-        show(*arguments, console)
-    return captured.get()
+        show(document, console, Words(language))
+    return [re.split(r"  +", line.strip()) for line in captured.get().splitlines()]
 
 
 def test_rows_on_a_terminal():
-    text = printed(print_rows, ROWS)
-    first = next(line for line in text.splitlines() if line.startswith("paper-30"))
-    assert first.split() == [
-        *("paper-30", "steady", "fast", "100", "12.5", "1.000", "2.000", "20", "1.5")
+    lines = printed(print_bench, write_bench(ROWS))
+    first = next(line for line in lines if line[0] == "paper-30")
+    assert first == [
+        *("paper-30", "steady", "fast", "100", "500", "0.0125", "0.01", "0.02", "20"),
+        *("5", "1.5"),
     ]
-    assert "8.0 times faster than plain scikit-fem on the same mesh" in text
-    assert "time grows as unknowns^1.00" in text
-    assert "h^2.0" in text
+    assert len(first) == len(lines[0])
+    assert ["times faster", "8"] in lines
+    assert ["time grows as unknowns to the power of", "1"] in lines
+    assert ["error falls as h to the power of", "2"] in lines
 
 
 def test_a_stress_test_on_a_terminal():
@@ -68,11 +65,17 @@ def test_a_stress_test_on_a_terminal():
         Attempt(number=1, kind="failed", reason="[diverged] wholly"),
         Attempt(number=2, kind="refused before", reason="too low"),
     ]
-    text = printed(print_stress, write_stress(attempts, 4))
-    assert "3 scenes of seed 4: 1 converged, 1 failed" in text
-    assert "refused before, 1: too low" in text
-    assert "FAILED 1: [diverged] wholly" in text
-    assert "median - s" in text
+    lines = printed(print_document, write_stress(attempts, 4))
+    for line in (
+        ["scenes", "3"],
+        ["seed", "4"],
+        ["converged", "1"],
+        ["promise", "FAIL"],
+    ):
+        assert line in lines
+    assert ["too low", "before solving", "1"] in lines
+    assert ["1", "[diverged] wholly"] in lines
+    assert ["time, median [s]", "-"] in lines
 
 
 def test_honesty_on_a_terminal():
@@ -83,11 +86,39 @@ def test_honesty_on_a_terminal():
         Finding(number=1, true_error=0.02, stated_error=0.01, cpu_s=1),
         Finding(number=2, missing="finer mesh: diverged"),
     ]
-    text = printed(print_errors, write_errors(findings, 1, 0.005))
-    assert "2 of 3 scenes compared" in text
-    assert "inside the stated one: 33.3%; below the accuracy of 0.005: 33.3%" in text
-    assert "outside: scene 1, true 2.00%, stated 1.00%" in text
-    assert "not compared: scene 2, finer mesh: diverged" in text
+    lines = printed(print_document, write_errors(findings, 1, 0.005))
+    assert ["compared with a finer mesh", "2"] in lines
+    assert ["share inside the stated error [-]", "0.3333"] in lines
+    assert ["share below the accuracy [-]", "0.3333"] in lines
+    assert ["1", "0.02", "0.01"] in lines  # outside
+    assert ["2", "finer mesh: diverged"] in lines
+
+
+# Of use to programs alone: what made a document, a scene's file, each single ratio.
+FOR_PROGRAMS = {"schema", "tables", "ratios", "reasons"}
+
+
+def list_keys(value):
+    """Keys of a document and of all that is in it."""
+    if isinstance(value, list):
+        return set().union(*map(list_keys, value))
+    if isinstance(value, dict):
+        inner = {key: one for key, one in value.items() if key not in FOR_PROGRAMS}
+        return set(inner).union(*map(list_keys, inner.values()))
+    return set()
+
+
+def test_every_key_of_a_document_has_a_name():
+    """A key without one is not shown."""
+    documents = [
+        write_stress(ATTEMPTS, 4),
+        write_errors(FINDINGS, 1, 0.005),
+        write_lines(LINES, 1, 0.005),
+        *({"rows": [row]} for row in write_bench(ROWS)["rows"]),
+        write_bench(ROWS)["summary"],
+    ]
+    named = {key for key in load_texts("en") if key.startswith("bench_value.")}
+    assert {f"bench_value.{key}" for key in list_keys(documents)} <= named
 
 
 def test_plot():
@@ -135,16 +166,20 @@ FIGURE = {
 @pytest.mark.parametrize("language", ["fr", "de"])
 def test_every_table_in_a_language(language):
     """No word of English, and no decimal point, besides names and what others said."""
-    words = Words(language)
     documents = (
-        (print_rows, ROWS),
-        (print_stress, write_stress(ATTEMPTS, 4, 0.005, language)),
-        (print_errors, write_errors(FINDINGS, 1, 0.005, language)),
-        (print_lines, LINES),
+        (print_bench, write_bench(ROWS)),
+        (print_document, write_stress(ATTEMPTS, 4, 0.005, language)),
+        (print_document, write_errors(FINDINGS, 1, 0.005, language)),
+        (print_document, write_lines(LINES, 1, 0.005, language)),
+        (print_figure, FIGURE),
     )
-    told = [printed(partial(show, words=words), one) for show, one in documents]
-    print_figure(FIGURE, told.append, words)
-    told += ElementTree.fromstring(draw_work_precision(ROWS, words)).itertext()
+    told = [
+        "\n".join(map(" ".join, printed(show, one, language)))
+        for show, one in documents
+    ]
+    told += ElementTree.fromstring(
+        draw_work_precision(ROWS, Words(language))
+    ).itertext()
     english = list_vocabulary("en") - list_vocabulary(language)
     text = re.sub(r"scikit-fem|paper-\d+|layered", "", "\n".join(told))
     assert list_words(text) & english == set()
@@ -152,24 +187,25 @@ def test_every_table_in_a_language(language):
     assert len(re.findall(r"\d,\d", text)) > 60
 
 
-LINES = {
-    "lines": 2,
-    "points": 9,
-    "solved": 17,
-    "refused": 1,
-    "jumps": 1,
-    "bends": 0,
-    "largest_jump": 1.25,
-    "largest_true_over_stated": None,
-    "share_outside": 0.0312,
-    "compared": 4,
-    "without_truth": 1,
-    "of_lines": [
-        {
-            "number": 1,
-            "parameter": "N",
-            "jumps": [{"place": 3, "end": "T", "relative": 0.031, "over_stated": 1.25}],
-            "missing": ["..."],
-        }
-    ],
-}
+LINES = [
+    Line(
+        number=1,
+        parameter="friction angle",
+        solved=17,
+        refused=1,
+        jumps=[
+            {
+                "place": 3,
+                "end": "foot",
+                "relative": 0.031,
+                "over_stated": 1.25,
+                "elements": [100, 200],
+            }
+        ],
+        bends=0,
+        largest_jump=1.25,
+        ratios=[0.25],
+        missing=["..."],
+        reasons=[],
+    )
+]

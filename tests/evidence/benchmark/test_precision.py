@@ -9,10 +9,9 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark import precision
 from netdesign.evidence.benchmark.precision import Effort, measure_steady, write_bench
-from netdesign.evidence.benchmark.rows import Row
 from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, SCENES, load_scenes
-from netdesign.evidence.benchmark.statistics import fit_order, share, summarise_times
-from netdesign.evidence.benchmark.summary import compare_at_error, summarise
+from netdesign.evidence.benchmark.summary import Row, compare_at_error, summarise
+from netdesign.evidence.runner import fit_order, share, summarise_times
 from netdesign.outcome import Outcome
 
 LEAST = Effort(finest=2, repeats=1)

@@ -106,7 +106,8 @@ def test_known_structure_has_one_case_and_a_misfit():
 def render_rows(found):
     from netdesign.evidence.validation.page import _show_structure
 
-    return _show_structure(found, Words("en"))["rows"]
+    rows = _show_structure(found, Words("en"))["measured"].rows
+    return [{"name": row[0].text, "said": row[-1].text} for row in rows]
 
 
 def test_band_holds_every_case_and_places_the_measured_value():

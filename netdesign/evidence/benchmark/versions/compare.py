@@ -8,8 +8,8 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from pathlib import Path
-from statistics import median
 from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
@@ -20,9 +20,9 @@ from netdesign.evidence.benchmark.versions.measures import (
     Measure,
     RunFailure,
     Size,
-    Time,
 )
 from netdesign.evidence.benchmark.versions.other import read_version
+from netdesign.evidence.runner import Time, describe_times, run_in_turns
 
 SCHEMA = "netdesign.bench-against/1"
 _AS_SLOW = 0.9  # ratios repeat to a tenth: what is less is slower
@@ -138,17 +138,20 @@ def _run_in_turns(
     on_done: Callable[[object], None] | None,
 ) -> dict[Side, Runs]:
     """Runs of both; a version that failed once is not run again."""
-    times: dict[Side, list[tuple[Time, ...]]] = {side: [] for side in _SIDES}
     failures: dict[Side, str] = {}
-    for number in range(bench.size.long if timing.is_long else bench.size.short):
-        for side in _SIDES if number % 2 == 0 else reversed(_SIDES):
-            if side not in failures:
-                try:
-                    times[side].append(tuple(timing.measure(bench, pythons[side])))
-                except RunFailure as failure:
-                    failures[side] = str(failure)
-            if on_done is not None:
-                on_done(side)
+
+    def run(side: Side) -> tuple[Time, ...]:
+        if side in failures:
+            return ()
+        try:
+            return tuple(timing.measure(bench, pythons[side]))
+        except RunFailure as failure:
+            failures[side] = str(failure)
+            return ()
+
+    repeats = bench.size.long if timing.is_long else bench.size.short
+    works = {side: partial(run, side) for side in _SIDES}
+    times = run_in_turns(works, repeats, on_done)
     return {side: Runs(tuple(times[side]), failures.get(side)) for side in _SIDES}
 
 
@@ -194,11 +197,8 @@ def _sum_up(runs: Runs, place: int) -> dict[str, Any]:
     """Median, least and most of each clock [s]; None where the version failed."""
     described: dict[str, Any] = {"failure": runs.failure}
     for clock in ("cpu_s", "wall_s"):
-        values = [getattr(run[place], clock) for run in runs.times]
-        is_known = values and runs.failure is None
-        described[clock] = (
-            {"median": median(values), "least": min(values), "most": max(values)}
-            if is_known
-            else None
-        )
+        described[clock] = None
+        if runs.failure is None:
+            times = [getattr(run[place], clock) for run in runs.times]
+            described[clock] = describe_times(times)
     return described

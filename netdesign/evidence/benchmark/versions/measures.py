@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from netdesign.core.sources import SWITCH, SWITCHED_OFF
-from netdesign.evidence.benchmark.clock import Clock
 from netdesign.evidence.benchmark.versions.inputs import (
     NAMES,
     ROW,
@@ -23,20 +22,12 @@ from netdesign.evidence.benchmark.versions.inputs import (
     write_scenes,
     write_site,
 )
+from netdesign.evidence.runner import SINGLE_THREADED, Clock, Time
 
 _PROBE = Path(__file__).with_name("probe.py")
 _LONGEST_S = 900.0
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _JUDGED = (0, 1, 4, 6)  # exit codes of a check that ended with a verdict
 _PROCESSES = "2"
-
-
-@dataclass(frozen=True, slots=True)
-class Time:
-    """Processor and wall time of one run [s]."""
-
-    cpu_s: float
-    wall_s: float
 
 
 class RunFailure(Exception):  # noqa: N818 - of a version that is timed, not of ours
@@ -98,7 +89,7 @@ class Bench:
             for name, value in os.environ.items()
             if not name.startswith(("PYTHON", "NETDESIGN"))
         }
-        environment |= dict.fromkeys(_THREADS, "1")
+        environment |= SINGLE_THREADED
         place = store or self.folder / "no-store"
         environment["XDG_CACHE_HOME"] = str(place)  # of versions that knew only this
         environment["NETDESIGN_STORE"] = str(place / "cases.sqlite")
@@ -117,7 +108,7 @@ class Bench:
                 )
         except subprocess.TimeoutExpired:
             raise RunFailure(f"> {_LONGEST_S:g} s") from None
-        return Time(clock.cpu_s, clock.wall_s), done
+        return clock.time, done
 
 
 Measure = Callable[[Bench, Path], list[Time]]

@@ -1,0 +1,126 @@
+"""Measurements on a terminal: numbers under their names, rows as tables.
+
+A *document* is what ``--json`` prints: plain values by key. A key has its name, with
+unit, in an area of the catalogue; what has none there is for programs, and not shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from netdesign.report.words import MISSING, Words, show_own
+from netdesign.words.catalogue import load_texts, render
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.text import Text
+
+AREA = "bench_value"
+_WIDTH = 58  # of a name before its value
+_DIGITS = {"expected": 5, "got": 5, "error": 2}  # of the others four
+# Words of yes and no, and keys of which a no is bad news.
+_ANSWERS = ("bench.yes", "bench.no")
+_JUDGED = {
+    "pass": ("verify_table.passes", "verify_table.fails"),
+    "reached": ("against.reached", "against.not_reached"),
+}
+
+Row = Mapping[str, Any]
+
+
+def print_document(
+    document: Row, console: Console, words: Words, area: str = AREA
+) -> None:
+    """Print the numbers of a document, then each of its lists of rows as a table."""
+    from rich.text import Text
+
+    lists = {key: value for key, value in document.items() if _is_table(value)}
+    for key, value in document.items():
+        if key not in lists and _is_named(area, key):
+            line = Text(f"  {words(f'{area}.{key}'):{_WIDTH}} ")
+            console.print(line + _show(key, value, words, area), soft_wrap=True)
+    for key, rows in lists.items():
+        if rows and _is_named(area, key):
+            print_lines([words(f"{area}.{key}")], console)
+            print_rows(rows, console, words, area)
+
+
+def print_figure(figure: Row, console: Console, words: Words) -> None:
+    """Print what was measured, whether it is what was asked for, and every value."""
+    good, bad = _JUDGED["reached"]
+    state = words(good if figure["reached"] else bad)
+    reach = render(figure["reach"], words.language)
+    what = render(figure["what"], words.language)
+    print_lines([what, words("bench.reach", reach=reach, state=state)], console)
+    print_document(figure, console, words)
+
+
+def print_rows(
+    rows: Sequence[Row], console: Console, words: Words, area: str = AREA
+) -> None:
+    """Print rows of equal keys as a table, numbers to the right."""
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    keys = [key for key in rows[0] if _is_named(area, key)]
+    for key in keys:
+        is_text = any(isinstance(row[key], str) for row in rows)
+        table.add_column(
+            Text(words(f"{area}.{key}")),
+            justify="left" if is_text else "right",
+            overflow="fold",
+            no_wrap=key == keys[0],
+        )
+    for row in rows:
+        table.add_row(*(_show(key, row[key], words, area) for key in keys))
+    console.print(table)
+
+
+def print_lines(lines: Iterable[str], console: Console) -> None:
+    """Print lines as they are."""
+    for line in lines:
+        console.print(line, highlight=False, markup=False, soft_wrap=True)
+
+
+def _show(key: str, value: object, words: Words, area: str) -> Text:
+    from rich.text import Text
+
+    if isinstance(value, bool) and key in _JUDGED:
+        good, bad = _JUDGED[key]
+        return Text(words(good), "green") if value else Text(words(bad), "bold red")
+    return Text(_write(key, value, words, area))
+
+
+def _write(key: str, value: object, words: Words, area: str) -> str:
+    """Value on one line: a number to four digits, parts one after the other."""
+    if isinstance(value, Mapping):
+        named = [(name, one) for name, one in value.items() if _is_named(area, name)]
+        return words.join(
+            f"{words(f'{area}.{name}')} {_write(name, one, words, area)}"
+            for name, one in named
+        )
+    if isinstance(value, list):
+        return words.join(_write(key, one, words, area) for one in value) or MISSING
+    if isinstance(value, bool):
+        return words(_ANSWERS[not value])
+    if isinstance(value, float):
+        return words.write(f"{value:.{_DIGITS.get(key, 4)}g}")
+    if value is None:
+        return MISSING
+    return _name(value, words) if isinstance(value, str) else str(value)
+
+
+def _name(text: str, words: Words) -> str:
+    """Word of the program in the language; what others wrote, as it is."""
+    key = f"bench_word.{text.replace(' ', '_')}"
+    return words(key) if key in load_texts("en") else show_own(words, text)
+
+
+def _is_named(area: str, key: str) -> bool:
+    return f"{area}.{key}" in load_texts("en")
+
+
+def _is_table(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
