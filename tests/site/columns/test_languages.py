@@ -3,7 +3,7 @@ import re
 import pytest
 
 from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
-from netdesign.site.columns.fields import LANGUAGES, split_heading
+from netdesign.site.columns.fields import LANGUAGES, normalise, split_heading
 from netdesign.site.columns.languages import load_words
 from netdesign.site.template.notes_sheet import describe_accepted, describe_field
 
@@ -83,3 +83,10 @@ def test_a_text_that_a_language_lacks_is_english(monkeypatch):
     bare = replace(slope, wordings={"en": slope.wording("en")})
     assert bare.heading_for("fr") == "slope angle [deg]"
     assert describe_field(bare, "fr").startswith("against the horizontal\naccepté: ")
+
+
+def test_another_english_name_tells_no_language():
+    """Every language uses EA, HS or min."""
+    ropes = next(plan for plan in SHEETS if plan.name == "Ropes")
+    rupture = next(one for one in ropes.fields if one.key == "rope").wording("fr").label
+    assert ropes.find_language([normalise(rupture), normalise("EA")]) == "fr"
