@@ -246,7 +246,7 @@ class SheetPlan:
     def _names_in(self, language: Language) -> set[str]:
         wordings = [field.wording(language) for field in self.fields]
         names = {normalise(one.label) for one in wordings}
-        if language != "en":  # such as EA, HS or min, which every language uses
+        if language != "en":  # such as min or max, which every language uses
             names |= {normalise(name) for one in wordings for name in one.aliases}
         return names
 

@@ -86,7 +86,8 @@ def test_a_text_that_a_language_lacks_is_english(monkeypatch):
 
 
 def test_another_english_name_tells_no_language():
-    """Every language uses EA, HS or min."""
-    ropes = next(plan for plan in SHEETS if plan.name == "Ropes")
-    rupture = next(one for one in ropes.fields if one.key == "rope").wording("fr").label
-    assert ropes.find_language([normalise(rupture), normalise("EA")]) == "fr"
+    """Every language uses min or max."""
+    ranges = next(plan for plan in SHEETS if plan.name == "Ranges")
+    quantity = next(one for one in ranges.fields if one.key == "quantity")
+    label = quantity.wording("fr").label
+    assert ranges.find_language([normalise(label), normalise("min")]) == "fr"
