@@ -13,10 +13,15 @@ from netdesign.errors import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook
-from netdesign.site.columns.all_tables import ANCHORS, POSTS, ROPES, SHEETS
+from netdesign.site.columns.all_tables import (
+    ANCHORS,
+    NETS,
+    POSTS,
+    RANGES_AS_TYPED,
+    ROPES,
+    SHEETS,
+)
 from netdesign.site.columns.fields import Language, SheetPlan
-from netdesign.site.columns.net_columns import NETS
-from netdesign.site.columns.range_quantities import RANGES_AS_TYPED
 from netdesign.site.headings import count_known
 from netdesign.site.mapping import SCHEMA, is_meant
 from netdesign.site.reader import read_cells, read_site
@@ -200,7 +205,7 @@ def _name_field(table: Table, address: str) -> str:
         if place and table.cell(1, field.key):
             cell = table.sheet.cell(1, place.number)
             if re.sub(r"\d", "", cell.address) == column:
-                return field.wording(table.language).label or field.label
+                return field.wording(table.language).label
     return UNANSWERED
 
 

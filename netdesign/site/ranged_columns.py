@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, NETS
 from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.words.message import say
@@ -18,15 +19,21 @@ Ends = Mapping[str, tuple[Reading, Reading] | None]  # as `ranges.RangesSheet` h
 
 _SNOW = ("snow_thickness", "snow_height")
 _GLIDE = ("slip_length", "glide_factor")
+
+
+def _list_columns(own: str) -> tuple[str, ...]:
+    """Column of sheet Nets, then the one that gives the same otherwise, if any."""
+    beside = [
+        one.key if one.alternative_to == own else one.alternative_to
+        for one in NETS.fields
+        if one.alternative_to and own in (one.key, one.alternative_to)
+    ]
+    return (own, *beside)
+
+
 # Columns by the quantity that ranges, its own first; none of them may be filled in.
 _COLUMNS: Mapping[str, tuple[str, ...]] = {
-    "thickness": _SNOW,
-    "snow_height": _SNOW[::-1],
-    "upslope_length": ("upslope_length",),
-    "slack": ("slack",),
-    "net_stiffness": ("net_stiffness",),
-    "slip_length": _GLIDE,
-    "glide_factor": _GLIDE[::-1],
+    one.key: _list_columns(one.column) for one in FURTHER_QUANTITIES
 }
 _SEVERE_IS_LOW = ("slack",)
 

@@ -12,14 +12,9 @@ from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, quote
 from netdesign.site.cells.typed_units import find_typed_unit, split_range
+from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, USUAL_QUANTITIES
 from netdesign.site.columns.fields import Field, split_heading
 from netdesign.site.columns.heading_text import find_unit
-from netdesign.site.columns.range_quantities import (
-    DEFAULT_INCLINATION_DEG,
-    FURTHER_QUANTITIES,
-    SEARCHED,
-    USUAL_QUANTITIES,
-)
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
 from netdesign.site.headings import name_units, quote_title
 from netdesign.site.items import match_item, refuse_unused_answers
@@ -29,6 +24,8 @@ from netdesign.site.tables import Table, read_field
 from netdesign.site.titles import Meaning
 from netdesign.words.message import Message, say
 
+SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
+_DEFAULT_INCLINATION = (25.0, 35.0)  # [deg]
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 _Ends = tuple[Cell | None, Cell | None]
 
@@ -362,7 +359,7 @@ def _default_inclination(field: Field) -> _Range:
             state="default",
             value=value,
         )
-        for key, value in zip(("low", "high"), DEFAULT_INCLINATION_DEG, strict=True)
+        for key, value in zip(("low", "high"), _DEFAULT_INCLINATION, strict=True)
     )
     samples_field = Field(key="samples", kind="count", table="Ranges")
     samples = Reading(field=samples_field, state="default", value=SEARCHED)

@@ -15,18 +15,20 @@ from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
     DECLARED,
+    ENDS,
     MONITORING,
+    NETS,
     POSTS,
     PROJECT,
     QUIET_SHEETS,
+    RANGES,
+    RANGES_AS_TYPED,
     ROPES,
     SHEETS,
     SNOW,
+    WINTER,
 )
 from netdesign.site.columns.fields import split_heading
-from netdesign.site.columns.net_columns import ENDS, NETS
-from netdesign.site.columns.range_quantities import RANGES, RANGES_AS_TYPED
-from netdesign.site.columns.winter_columns import WINTER
 from netdesign.site.confirmed_values import read_confirmed
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends

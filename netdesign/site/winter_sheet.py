@@ -11,8 +11,8 @@ from netdesign.errors import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding, fold_findings
 from netdesign.site.cells.spreadsheet import read_workbook
+from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
-from netdesign.site.columns.winter_columns import WINTER
 from netdesign.site.model import StationWinter
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.row_factors import read_factors

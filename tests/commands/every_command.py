@@ -14,7 +14,7 @@ import pytest
 from netdesign import cli
 from netdesign.evidence.verification import pack
 from netdesign.evidence.verification.closed_forms import list_law
-from netdesign.site.columns.net_columns import NETS
+from netdesign.site.columns.all_tables import NETS
 from netdesign.site.template import workbook as template
 from tests.report.reading import read_workbook
 from tests.small_scene import SMALL_SCENE

@@ -9,7 +9,7 @@ import time
 import pytest
 import xlsxwriter
 
-from netdesign.site.columns.net_columns import NETS
+from netdesign.site.columns.all_tables import NETS
 from netdesign.site.reader import read_site
 from tests.site.cells.ods_files import write_ods
 

@@ -6,9 +6,8 @@ import string
 import pytest
 
 from netdesign.errors import SiteDataError
-from netdesign.site.columns.all_tables import PROJECT, PROJECT_ITEMS
+from netdesign.site.columns.all_tables import PROJECT, PROJECT_ITEMS, RANGE_QUANTITIES
 from netdesign.site.columns.fields import LANGUAGES, find_item
-from netdesign.site.columns.range_quantities import RANGE_QUANTITIES
 from netdesign.site.reader import read_site
 from tests.site.cells import ods_files
 from tests.site.conftest import SOUND

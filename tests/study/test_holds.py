@@ -10,7 +10,7 @@ from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
-from netdesign.site.columns.range_quantities import FURTHER_QUANTITIES
+from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor

@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 import netdesign
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, SHEETS
+from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
 from netdesign.site.columns.fields import normalise
-from netdesign.site.columns.range_quantities import RANGE_QUANTITIES
 from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import dump, restore, say
 from tests.words.english import find_words

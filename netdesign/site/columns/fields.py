@@ -25,24 +25,51 @@ _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 class Wording:
     """Words of one language for a field: its heading, other headings, its note."""
 
-    label: str
+    label: str = ""
     aliases: tuple[str, ...] = ()
     note: str = ""
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, slots=True)
+class Usual:
+    """Least and largest number that is built or measured, in the first unit.
+
+    ``source`` is the key of a text in area ``plausible``.
+    """
+
+    least: float
+    most: float
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """Least and largest number over the product of powers of other columns, in SI."""
+
+    least: float
+    most: float
+    powers: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Empty:
+    """What an empty cell means, and why that is never better than a filled one."""
+
+    means: str
+    why: str
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Field:
-    """One quantity of the workbook.
+    """One quantity of the workbook, as ``columns.toml`` has it.
 
     Attributes
     ----------
     key : str
         Name in the program.
-    label : str
-        Name in headings and reports, in English; that of ``words/en/columns.toml``.
-    aliases : tuple of str
-        Other accepted headings.
+    table : str
+        Sheet or list that it belongs to.
     kind : str
         ``number``, ``count`` (whole number), ``word``, ``id`` or ``text``.
     units : tuple of str
@@ -50,22 +77,36 @@ class Field:
         reports.
     bounds : tuple of float
         Least and largest accepted value, in the first unit.
+    usual : Usual or None
+        Numbers that are not asked for.
+    beside : tuple of Beside
+        The same beside other columns of the line.
+    zero_says_none : bool
+        Whether a zero is a statement, and no number to ask for.
+    scatters : bool
+        Whether its numbers are not compared from line to line.
+    of_product : tuple of str
+        Quantities of a product that its number must agree with.
     required : bool
         Whether the heading and every cell below it must be there.
     instead : tuple of str
         Keys of columns of which one says what a missing cell or heading would.
     default : float or None
         Value of an empty cell, in the first unit.
-    words : mapping of str to tuple of str
-        Accepted words, each with its aliases.
+    words : tuple of str
+        Accepted words.
     refers_to : str
         Sheet that defines the id, for ids of another sheet.
-    note : str
-        Advice to the engineer; shown on the heading of the template.
+    alternative_to : str
+        Key of the column in whose stead it stands, alone or with others.
+    column : str
+        Key of the column of sheet Nets in whose stead a quantity ranges.
+    empty : Empty or None
+        What an empty cell means.
+    is_offered : bool
+        Whether the template has it.
     wordings : mapping of str to Wording
-        Label, aliases, note and words in the other languages.
-    table : str
-        Sheet or list that it belongs to.
+        Label, aliases, note and words by language.
     named : Message or None
         Another name than the column's, of a part of it.
     synonyms, further_words : tuple of str, mapping of str to tuple of str
@@ -73,19 +114,25 @@ class Field:
     """
 
     key: str
-    label: str = ""
-    aliases: tuple[str, ...] = ()
+    table: str = ""
     kind: Kind = "number"
     units: tuple[str, ...] = ()
     bounds: tuple[float, float] = (0.0, 0.0)
+    usual: Usual | None = None
+    beside: tuple[Beside, ...] = ()
+    zero_says_none: bool = False
+    scatters: bool = False
+    of_product: tuple[str, ...] = ()
     required: bool = False
     instead: tuple[str, ...] = ()
     default: float | None = None
-    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    words: tuple[str, ...] = ()
     refers_to: str = ""
-    note: str = ""
+    alternative_to: str = ""
+    column: str = ""
+    empty: Empty | None = None
+    is_offered: bool = True
     wordings: Mapping[str, Wording] = field(default_factory=dict)
-    table: str = ""
     named: Message | None = None
     synonyms: tuple[str, ...] = ()
     further_words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
@@ -94,6 +141,11 @@ class Field:
     def name(self) -> Message:
         """Name, in the language of whoever reads it."""
         return self.named or say(f"column.{self.table}.{self.key}")
+
+    @property
+    def label(self) -> str:
+        """Name in English, as the example site has it."""
+        return self.wording("en").label
 
     @property
     def title(self) -> Message:
@@ -117,30 +169,23 @@ class Field:
     @property
     def raw_names(self) -> tuple[str, ...]:
         """Accepted headings without unit, as they are written."""
-        names = [self.label, *self.aliases, *self.synonyms]
-        for wording in self.wordings.values():
-            names += [wording.label, *wording.aliases]
-        return tuple(names)
+        wordings = self.wordings.values()
+        names = (name for one in wordings for name in (one.label, *one.aliases))
+        return (*names, *self.synonyms)
 
     @property
     def spellings(self) -> dict[str, str]:
         """Word of the table by each of its spellings in every language."""
-        found = {
-            spelling: word
-            for word, aliases in self.words.items()
-            for spelling in (word, *aliases)
-        }
-        for wording in self.wordings.values():
-            for word, names in wording.words.items():
+        lists = [one.words for one in self.wordings.values()]
+        found = {word: word for word in self.words}
+        for words in (*lists, self.further_words):
+            for word, names in words.items():
                 found |= dict.fromkeys(names, word)
-        for word, names in self.further_words.items():
-            found |= dict.fromkeys(names, word)
         return found
 
     def wording(self, language: Language) -> Wording:
         """Texts in a language; English where that language has none."""
-        english = Wording(label=self.label, note=self.note)
-        return self.wordings.get(language, english)
+        return self.wordings.get(language) or self.wordings["en"]
 
     @property
     def accepted(self) -> Message:
@@ -199,8 +244,11 @@ class SheetPlan:
         return max(LANGUAGES, key=lambda one: len(self._names_in(one) & set(names)))
 
     def _names_in(self, language: Language) -> set[str]:
-        wordings = (field.wording(language) for field in self.fields)
-        return {normalise(n) for one in wordings for n in (one.label, *one.aliases)}
+        wordings = [field.wording(language) for field in self.fields]
+        names = {normalise(one.label) for one in wordings}
+        if language != "en":  # such as min or max, which every language uses
+            names |= {normalise(name) for one in wordings for name in one.aliases}
+        return names
 
     def find_unclear(self, name: str) -> tuple[Field, ...]:
         """Fields that a normalised heading may mean, if it is an unclear one."""

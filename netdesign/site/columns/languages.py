@@ -8,22 +8,13 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from netdesign.site.columns.fields import Field, Language, SheetPlan, Wording
-from netdesign.site.columns.synonyms import (
-    find_headings_of,
-    find_sheet_names,
-    find_unclear_of,
-    find_words_of,
-)
+from netdesign.site.columns.fields import LANGUAGES, Language, Wording
 from netdesign.words.catalogue import render
-
-# English stands in all_tables.py, beside the fields
-_TRANSLATED: tuple[Language, ...] = ("fr", "de")
+from netdesign.words.message import Message
 
 
 @lru_cache(maxsize=3)
@@ -38,54 +29,20 @@ def load_text(language: Language) -> Mapping[str, str]:
     return {**load_words("en")["text"], **load_words(language)["text"]}
 
 
-def word_field(field: Field, table: str) -> Field:
-    """Field with its texts in the other languages; ``table`` names its sheet."""
-    own = replace(field, table=table)
-    found: dict[str, Wording] = {
-        language: _read_wording(load_words(language)[table][field.key], own, language)
-        for language in _TRANSLATED
-        if field.key in load_words(language).get(table, {})
-    }
-    return replace(
-        own,
-        label=render(own.name, "en"),
-        wordings=found,
-        synonyms=find_headings_of(table, field.key),
-        further_words=find_words_of(field.key) if field.words else {},
-    )
-
-
-def word_plan(plan: SheetPlan) -> SheetPlan:
-    """Sheet and its fields with their texts in the other languages."""
-    names: dict[str, str] = {
-        language: render(plan.title, language) for language in _TRANSLATED
-    }
-    return replace(
-        plan,
-        names=names,
-        aliases=(*plan.aliases, *find_sheet_names(plan.name)),
-        fields=tuple(word_field(field, plan.name) for field in plan.fields),
-        unclear=_join(plan.unclear, find_unclear_of(plan.name)),
-    )
-
-
-def _join(
-    one: Mapping[str, tuple[str, ...]], other: Mapping[str, tuple[str, ...]]
-) -> dict[str, tuple[str, ...]]:
-    """Unclear headings of two tables, with the fields that either gives."""
-    names = dict.fromkeys((*one, *other))
+def list_wordings(table: str, key: str, name: Message) -> Mapping[str, Wording]:
+    """Texts of a field of this name by language; ``table`` is its sheet or list."""
     return {
-        name: tuple(dict.fromkeys((*one.get(name, ()), *other.get(name, ()))))
-        for name in names
+        language: _read_wording(
+            load_words(language).get(table, {}).get(key, {}), render(name, language)
+        )
+        for language in LANGUAGES
     }
 
 
-def _read_wording(
-    texts: Mapping[str, Any], field: Field, language: Language
-) -> Wording:
+def _read_wording(texts: Mapping[str, Any], label: str) -> Wording:
     return Wording(
-        label=render(field.name, language),
+        label=label,
         aliases=tuple(texts.get("aliases", ())),
-        note=texts.get("note", field.note),
+        note=texts.get("note", ""),
         words={word: tuple(names) for word, names in texts.get("words", {}).items()},
     )

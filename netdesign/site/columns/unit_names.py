@@ -25,23 +25,6 @@ from netdesign.units import (
 )
 from netdesign.words.message import say
 
-# Units that a column may be given in; the first is that of bounds and reports.
-LENGTHS = ("m", "cm", "mm")
-DIAMETERS = ("mm", "cm", "m")
-AREAS = ("cm2", "mm2")
-SECOND_MOMENTS = ("cm4", "mm4")
-SECTION_MODULI = ("cm3", "mm3")
-STRENGTHS = ("MPa",)
-GROUND_STRESSES = ("kPa", "MPa")
-FORCES = ("kN", "N", "MN")
-FORCES_PER_LENGTH = ("kN/m", "N/m", "MN/m")
-ANGLES = ("deg", "rad", "gon")
-SLOPES = ("deg", "%", "rad", "gon")
-SHARES = ("-", "%")
-DENSITIES = ("kg/m3", "g/cm3", "t/m3")
-TEMPERATURES = ("degC",)
-TIMES = ("d", "h")
-
 # Spellings that are used for two units: never guessed.
 UNCLEAR_UNITS = {
     "grad": say("unclear_unit.grad"),  # German degrees, French and Swiss gons
@@ -137,11 +120,9 @@ _TO_SI = {
     "degC": kelvin_from_celsius,
 }
 
-# Every unit that some column may be given in, and what is refused as one.
+# Every unit that can be turned into another or into SI, and what is refused as one.
 KNOWN_UNITS: frozenset[str] = frozenset(UNCLEAR_UNITS).union(
-    *(LENGTHS, AREAS, SECOND_MOMENTS, SECTION_MODULI, STRENGTHS),
-    *(GROUND_STRESSES, FORCES),
-    *(FORCES_PER_LENGTH, ANGLES, SLOPES, SHARES, DENSITIES, TEMPERATURES, TIMES),
+    _TO_SI, *_FACTORS, *_CONVERSIONS
 )
 
 

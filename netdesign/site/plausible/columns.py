@@ -18,7 +18,6 @@ _FITS = (0.25, 1.3)
 _OTHERS = 2  # types, at least, whose names give a diameter
 _DIAMETERS = (10.0, 80.0)  # [mm]
 _BY_DIAMETER = {"Anchors": "tendon", "Ropes": "rope"}
-_SCATTERED = ("slip_length", "lever_arm", "test_count", "layer", "guy_count")
 
 
 def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
@@ -33,7 +32,7 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
     """
     keys = lines[0].keys() if lines else ()
     for key in keys:
-        if key not in _SCATTERED:
+        if not lines[0][key].field.scatters:
             yield from _list_outliers([one[key] for one in lines])
     if sheet in _BY_DIAMETER:
         yield from _list_misfits(lines, _BY_DIAMETER[sheet])

@@ -1,17 +1,15 @@
 """Numbers of one line that can hardly be meant, alone or beside others of the line.
 
-What is usual: usual.toml. A doubt is a reading and the sentence on it, in the form of
-the rule of a finding: it reads after the text in question.
+What is usual stands with the columns, in columns.toml. A doubt is a reading and the
+sentence on it, in the form of the rule of a finding: it reads after the text in
+question.
 """
 
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Container, Iterator, Mapping
-from functools import lru_cache
-from importlib.resources import files
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from netdesign.resistance.products import find_product
 from netdesign.site.columns.unit_names import from_si
@@ -25,58 +23,33 @@ _LOSS = 0.25  # what corrosion or a termination may take of a force of the catal
 _FORCES = ("tendon", "rope")
 _TESTED = ("pull_out", "test_mean")
 _MOST_TESTED = 1.12  # times the tendon, whose strength may be given as that of yield
-# Quantities of a product by the columns that give them; the first is what is asked for.
-_OF_PRODUCT: Mapping[str, Mapping[str, tuple[str, ...]]] = {
-    "Anchors": {
-        "tendon": ("yield_force", "ultimate_force"),
-        "bar_diameter": ("outer_diameter",),
-        "inner_diameter": ("inner_diameter",),
-        "bar_strength": ("yield_strength", "ultimate_strength"),
-    },
-    "Ropes": {"rope": ("breaking_force",), "rope_diameter": ("rope_diameter",)},
-    "Posts": {
-        "area": ("area",),
-        "second_moment": ("second_moment_weak",),
-        "section_modulus": ("section_modulus_strong", "section_modulus_weak"),
-        "post_width": ("width", "depth"),
-    },
-}
 
 
-@lru_cache(maxsize=1)
-def load_usual() -> dict[str, Any]:
-    """Load what is usual, as its file gives it."""
-    file = files(__package__).joinpath("usual.toml")
-    return tomllib.loads(file.read_text(encoding="utf-8"))
-
-
-def list_doubts(line: Row, sheet: str) -> Iterator[Doubt]:
+def list_doubts(line: Row) -> Iterator[Doubt]:
     """Doubts about the numbers of a line, each by itself and beside the others.
 
     Parameters
     ----------
     line : mapping of str to Reading
         Of any sheet.
-    sheet : str
-        Its name in English.
     """
-    typed = {key: one for key, one in line.items() if _is_meant(one, f"{sheet}.{key}")}
-    alone = dict(_list_unlike(typed, line, sheet))
+    typed = {key: one for key, one in line.items() if _is_meant(one)}
+    alone = dict(_list_unlike(typed, line))
     for key, reading in typed.items():
-        told = _doubt_alone(reading, f"{sheet}.{key}")
+        told = _doubt_alone(reading)
         if told and key not in alone:
             alone[key] = told
     for key, reading in typed.items():
-        told = alone.get(key) or _doubt_beside(reading, f"{sheet}.{key}", line, alone)
+        told = alone.get(key) or _doubt_beside(reading, line, alone)
         told = told or _doubt_tested(reading, key, line)
         if told:
             yield reading, told
 
 
-def _is_meant(reading: Reading, column: str) -> bool:
+def _is_meant(reading: Reading) -> bool:
     """A number is typed, and no zero that says that there is none."""
-    has_zero = column in load_usual()["zero"]["columns"]
-    return is_typed(reading) and not (has_zero and reading.number == 0.0)
+    says_none = reading.field.zero_says_none and reading.value == 0.0
+    return is_typed(reading) and not says_none
 
 
 def is_typed(reading: Reading) -> bool:
@@ -85,38 +58,39 @@ def is_typed(reading: Reading) -> bool:
     return is_given and isinstance(reading.value, float)
 
 
-def _doubt_alone(reading: Reading, column: str) -> Message | None:
-    least, most, source = load_usual()["alone"].get(column, (-math.inf, math.inf, ""))
-    if least <= reading.number <= most:
+def _doubt_alone(reading: Reading) -> Message | None:
+    usual = reading.field.usual
+    if usual is None or usual.least <= reading.number <= usual.most:
         return None
     return say(
         "plausible.alone",
         number=reading.number,
-        low=least,
-        high=most,
+        low=usual.least,
+        high=usual.most,
         unit=reading.field.unit,
-        source=say(f"plausible.source_{source}"),
+        source=say(f"plausible.source_{usual.source}"),
     )
 
 
 def _doubt_beside(
-    reading: Reading, column: str, line: Row, doubted: Container[str]
+    reading: Reading, line: Row, doubted: Container[str]
 ) -> Message | None:
     """Doubt by others of the line, none of which is in doubt itself."""
-    for least, most, powers in load_usual()["beside"].get(column, ()):
-        others = [line[key] for key in powers]
+    for usual in reading.field.beside:
+        others = [line[key] for key in usual.powers]
         if any(one.state != "given" or not one.number for one in others):
             continue
-        if any(key in doubted for key in powers):
+        if any(key in doubted for key in usual.powers):
             continue
-        scale = math.prod(line[key].si ** power for key, power in powers.items())
-        if not least * scale <= reading.si <= most * scale:
+        scale = math.prod(line[key].si ** power for key, power in usual.powers.items())
+        low, high = usual.least * scale, usual.most * scale
+        if not low <= reading.si <= high:
             unit = reading.field.unit
             return say(
                 "plausible.beside",
                 others=tuple(map(_name_with_value, others)),
-                low=from_si(least * scale, unit),
-                high=from_si(most * scale, unit),
+                low=from_si(low, unit),
+                high=from_si(high, unit),
                 unit=unit,
             )
     return None
@@ -144,16 +118,18 @@ def _name_with_value(reading: Reading) -> Message:
 
 
 def _list_unlike(
-    typed: Mapping[str, Reading], line: Row, sheet: str
+    typed: Mapping[str, Reading], line: Row
 ) -> Iterator[tuple[str, Message]]:
     """Numbers of a type that are not those of the product that it is named after."""
-    columns = _OF_PRODUCT.get(sheet, {})
+    columns = {
+        key: one.field.of_product for key, one in typed.items() if one.field.of_product
+    }
     product = find_product(line["id"].word) if columns else None
     if product is None:
         return
-    for key in (one for one in columns if one in typed):
+    for key, names in columns.items():
         reading = typed[key]
-        spans = [product.values[one] for one in columns[key] if one in product.values]
+        spans = [product.values[one] for one in names if one in product.values]
         if not spans:
             continue
         if key in _FORCES or key == "bar_strength":  # yield to ultimate

@@ -97,19 +97,19 @@ def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
     """Doubts, each with the net rows that rest on its number."""
     every = [line["id"].word for line in lines.nets]
     for line in lines.nets:
-        yield from _give([line["id"].word], list_doubts(line, "Nets"))
+        yield from _give([line["id"].word], list_doubts(line))
     place_of = {
         id(one): line["id"].word for line in lines.nets for one in line.values()
     }
     for doubt in list_column_doubts(lines.nets, "Nets"):
         yield [place_of[id(doubt[0])]], doubt
     for row, end in lines.ends.items():
-        yield from _give([row], list_doubts(end, "Ends"))
+        yield from _give([row], list_doubts(end))
     for row, layers in lines.snow.items():
         for layer in layers:
-            yield from _give([row], list_doubts(layer, "Snow"))
+            yield from _give([row], list_doubts(layer))
     for line in lines.ranges:
-        yield from _give(every, list_doubts(line, "Ranges"))
+        yield from _give(every, list_doubts(line))
     for sheet in _TYPE_SHEETS:
         yield from _list_of_types(lines, sheet)
 
@@ -130,6 +130,6 @@ def _list_of_types(lines: Lines, sheet: str) -> Iterator[tuple[list[str], Doubt]
         for one in list_references([line, *beside], sheet):
             users.setdefault(one.word, {})[row] = None
     owner = {id(one): name for name, line in types.items() for one in line.values()}
-    doubts = [one for line in types.values() for one in list_doubts(line, sheet)]
+    doubts = [one for line in types.values() for one in list_doubts(line)]
     for doubt in (*doubts, *list_column_doubts(list(types.values()), sheet)):
         yield list(users[owner[id(doubt[0])]]), doubt

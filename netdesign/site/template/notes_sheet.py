@@ -8,10 +8,9 @@ from io import BytesIO
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from netdesign.site.columns.all_tables import NETS, USUAL_QUANTITIES
 from netdesign.site.columns.fields import Field, Language
 from netdesign.site.columns.languages import load_text
-from netdesign.site.columns.net_columns import NETS
-from netdesign.site.columns.range_quantities import USUAL_QUANTITIES
 from netdesign.words.numerals import set_marks
 
 if TYPE_CHECKING:

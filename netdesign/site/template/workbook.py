@@ -13,14 +13,16 @@ from typing import TYPE_CHECKING, Any
 from netdesign.checks import list_standards
 from netdesign.edge.output import require_free, write_files
 from netdesign.edge.resources import find_resource
-from netdesign.site.columns.all_tables import PROJECT, PROJECT_ITEMS, SHEETS
-from netdesign.site.columns.fields import Field, Language, SheetPlan
-from netdesign.site.columns.languages import load_text
-from netdesign.site.columns.range_quantities import (
+from netdesign.site.columns.all_tables import (
+    PROJECT,
+    PROJECT_ITEMS,
     RANGE_QUANTITIES,
     RANGES,
+    SHEETS,
     USUAL_QUANTITIES,
 )
+from netdesign.site.columns.fields import Field, Language, SheetPlan
+from netdesign.site.columns.languages import load_text
 from netdesign.site.template.notes_sheet import (
     count_lines,
     describe_accepted,

@@ -9,8 +9,8 @@ from netdesign.report.view.tables import build_inputs, build_provenance
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import Words
 from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.columns.range_quantities import SEARCHED
 from netdesign.site.model import InputEcho
+from netdesign.site.ranges import SEARCHED
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.study.record_provenance import name_law
 from netdesign.words.catalogue import LANGUAGES

@@ -1,60 +1,49 @@
 """The table of USAGE.md on empty cells: every optional column, and what it promises."""
 
-import re
-from pathlib import Path
-
 import pytest
 
 from netdesign.errors import SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
+from tests.site.columns.empty_cells import (
+    USAGE,
+    build_table,
+    find_table,
+    list_columns,
+)
 from tests.study.knowing_less.drawn_site import draw_lines, empty, write_lines
 
-USAGE = Path(__file__).resolve().parents[3] / "netdesign" / "USAGE.md"
-LINE = re.compile(r"^\| (\w+) \| (.+?) \| (.+?) \| (.+?) \|$", re.MULTILINE)
 
-
-def read_table():
-    """Columns by sheet, and what each cell of the table says of them."""
-    text = USAGE.read_text(encoding="utf-8")
-    start = text.index("| sheet | columns | left empty |")
-    for sheet, columns, meaning, why in LINE.findall(text[start:]):
-        if sheet != "sheet":
-            yield sheet, re.split("[,;] ", columns), meaning, why
-
-
-def list_optional(plan):
-    names = [str(one.name) for one in plan.fields if not one.required or one.instead]
-    return sorted([*names, *(str(one.name) for one in plan.items)])
+def test_the_table_says_what_the_columns_say():
+    assert find_table(USAGE.read_text(encoding="utf-8")) == build_table()
 
 
 @pytest.mark.parametrize("plan", SHEETS, ids=[plan.name for plan in SHEETS])
 def test_every_optional_column_stands_in_the_table_once(plan):
-    told = [
-        name
-        for sheet, names, *_ in read_table()
-        if sheet == plan.name
-        for name in names
-    ]
-    assert sorted(told) == list_optional(plan)
+    optional = [one for one in plan.fields if not one.required or one.instead]
+    assert list_columns(plan) == [*optional, *plan.items]
+    lines = build_table().splitlines()
+    told = "; ".join(
+        one.split(" | ")[1] for one in lines if one[2:].startswith(f"{plan.name} |")
+    )
+    names = told.replace(", ", "; ").split("; ")
+    assert sorted(filter(None, names)) == sorted(
+        str(one.name) for one in list_columns(plan)
+    )
 
 
-def test_every_line_says_what_is_empty_and_why():
-    for sheet, names, meaning, why in read_table():
-        assert len(meaning) > 3 < len(why), (sheet, names)
-
-
-def find_key(sheet, name):
-    plan = next(one for one in SHEETS if one.name == sheet)
-    return next(one.key for one in plan.fields if str(one.name) == name)
+def test_every_statement_says_what_is_empty_and_why():
+    for plan in SHEETS:
+        for one in list_columns(plan):
+            assert len(one.empty.means) > 3 < len(one.empty.why), one.key
 
 
 def list_of(meaning):
     return [
-        (sheet, find_key(sheet, name))
-        for sheet, names, told, _ in read_table()
-        if told.startswith(meaning) and sheet not in ("Ranges", "Project")
-        for name in names
+        (plan.name, one.key)
+        for plan in SHEETS
+        for one in plan.fields
+        if one.empty and one.empty.means.startswith(meaning)
     ]
 
 

@@ -2,10 +2,9 @@ import re
 
 import pytest
 
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, SHEETS
-from netdesign.site.columns.fields import LANGUAGES, split_heading
+from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
+from netdesign.site.columns.fields import LANGUAGES, normalise, split_heading
 from netdesign.site.columns.languages import load_words
-from netdesign.site.columns.range_quantities import RANGE_QUANTITIES
 from netdesign.site.template.notes_sheet import describe_accepted, describe_field
 
 TABLES = {
@@ -22,7 +21,7 @@ SIGNS = {
 }
 
 
-@pytest.mark.parametrize("language", ["fr", "de"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_no_text_is_missing_and_none_is_left_over(language):
     words, english = load_words(language), load_words("en")
     for table in ("text", "drawing"):
@@ -33,14 +32,20 @@ def test_no_text_is_missing_and_none_is_left_over(language):
         idle += [key for key in words[table] if key not in keys]
         for field in fields:
             given = words[table].get(field.key, {})
-            wanted = {"note"} if field.note else set()
+            wanted = {"note"} & set(english[table].get(field.key, ()))
             missing += [f"{table}.{field.key}.{key}" for key in wanted - set(given)]
-            if field.words:
-                is_sign = (table, field.key) in SIGNS
-                wanted_words = set() if is_sign else set(field.words)
-                assert set(given.get("words", ())) == wanted_words, field.key
+            is_sign = (table, field.key) in SIGNS
+            wanted_words = set() if is_sign else set(field.words)
+            assert set(given.get("words", ())) == wanted_words, field.key
     assert (missing, idle) == ([], [])
     assert set(words) == {"text", "drawing", *TABLES}
+
+
+def test_an_english_word_is_its_own_first_spelling():
+    for fields in TABLES.values():
+        for field in fields:
+            for word, names in field.wording("en").words.items():
+                assert names[0] == word
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -74,6 +79,15 @@ def test_numbers_are_the_same_in_every_language(language):
 def test_a_text_that_a_language_lacks_is_english(monkeypatch):
     from dataclasses import replace
 
-    bare = replace(TABLES["Nets"][1], wordings={})
+    slope = TABLES["Nets"][1]
+    bare = replace(slope, wordings={"en": slope.wording("en")})
     assert bare.heading_for("fr") == "slope angle [deg]"
     assert describe_field(bare, "fr").startswith("against the horizontal\naccepté: ")
+
+
+def test_another_english_name_tells_no_language():
+    """Every language uses min or max."""
+    ranges = next(plan for plan in SHEETS if plan.name == "Ranges")
+    quantity = next(one for one in ranges.fields if one.key == "quantity")
+    label = quantity.wording("fr").label
+    assert ranges.find_language([normalise(label), normalise("min")]) == "fr"

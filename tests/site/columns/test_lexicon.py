@@ -6,11 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.all_tables import NETS, RANGES, SHEETS
 from netdesign.site.columns.heading_text import find_unit, fold, read_part
 from netdesign.site.columns.lexicon import Lexicon
-from netdesign.site.columns.net_columns import NETS
-from netdesign.site.columns.range_quantities import RANGES
 from netdesign.site.columns.synonyms import LANGUAGES, load_synonyms
 
 LISTS = [(plan, plan.fields) for plan in SHEETS]

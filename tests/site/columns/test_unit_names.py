@@ -2,8 +2,7 @@ import math
 
 import pytest
 
-from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.columns.range_quantities import RANGE_QUANTITIES
+from netdesign.site.columns.all_tables import RANGE_QUANTITIES, SHEETS
 from netdesign.site.columns.unit_names import (
     UNCLEAR_UNITS,
     convert_unit,

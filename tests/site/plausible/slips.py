@@ -8,9 +8,15 @@ import re
 from dataclasses import dataclass
 
 from netdesign.errors import SiteDataError
-from netdesign.site.columns.all_tables import ANCHORS, POSTS, ROPES, SNOW
-from netdesign.site.columns.net_columns import ENDS, NETS
-from netdesign.site.columns.range_quantities import RANGES_AS_TYPED
+from netdesign.site.columns.all_tables import (
+    ANCHORS,
+    ENDS,
+    NETS,
+    POSTS,
+    RANGES_AS_TYPED,
+    ROPES,
+    SNOW,
+)
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.tables import find_table, read_rows
 

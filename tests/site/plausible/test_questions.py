@@ -4,11 +4,11 @@ import openpyxl
 import pytest
 
 from netdesign.errors import SiteDataError
-from netdesign.site.plausible.doubts import load_usual
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.message import say
 from tests.site.plausible.slips import PLANS
 from tests.study.knowing_less.drawn_site import draw_lines, write_lines
 
@@ -124,24 +124,29 @@ def test_questions_are_marked_in_the_copy(example, language, tmp_path):
     assert "Posts!D2 = 3175" in render(site.questions[0], language)
 
 
-def test_every_column_with_usual_numbers_is_a_column_and_its_bounds_are_wider():
+FIELDS = {
+    (plan.name, field.key): field
+    for plan in PLANS
+    for field in (*plan.fields, *plan.items)
+}
+
+
+def test_bounds_are_wider_than_what_is_usual():
     """A number that is refused need not be asked for."""
-    fields = {
-        f"{plan.name}.{field.key}": field for plan in PLANS for field in plan.fields
-    }
-    usual = load_usual()
-    for column, (low, high, _) in usual["alone"].items():
-        if column.startswith("Ranges."):
-            continue
-        least, most = fields[column].bounds
-        assert least <= low < high <= most, column
-    for column, rules in usual["beside"].items():
-        sheet = column.partition(".")[0]
-        assert column in fields
-        for low, high, others in rules:
-            assert low < high
-            assert {f"{sheet}.{key}" for key in others} <= fields.keys()
-    assert set(usual["zero"]["columns"]) <= fields.keys() | {"Ranges.slack"}
+    usual = {place: field for place, field in FIELDS.items() if field.usual}
+    assert len(usual) > 50
+    for place, field in usual.items():
+        least, most = field.bounds
+        assert least <= field.usual.least < field.usual.most <= most, place
+        assert str(say(f"plausible.source_{field.usual.source}"))
+
+
+def test_what_is_usual_beside_other_columns_is_a_span_above_zero():
+    rules = [one for field in FIELDS.values() for one in field.beside]
+    assert len(rules) > 15
+    for one in rules:
+        assert 0.0 < one.least < one.most
+        assert one.powers
 
 
 SITES = 200

@@ -10,9 +10,8 @@ from PIL import Image
 
 from netdesign.checks import list_standards
 from netdesign.errors import OutputError, SiteDataError
-from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.all_tables import NETS, SHEETS
 from netdesign.site.columns.fields import LANGUAGES
-from netdesign.site.columns.net_columns import NETS
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
 from netdesign.site.template.notes_sheet import SYMBOLS, _read_picture

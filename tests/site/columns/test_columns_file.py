@@ -1,0 +1,157 @@
+"""columns.toml: what it says is known to the program, and slips in it are refused."""
+
+import copy
+import math
+import tomllib
+
+import pytest
+
+from netdesign.panel.inputs import CUTS, LARGEST_GUY_ANGLE, LARGEST_SAG
+from netdesign.resistance.catalogue import list_terminations, load_catalogue
+from netdesign.resistance.products import find_product
+from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.columns_file import load_data, read_fields, read_plan
+from netdesign.site.columns.languages import load_words
+from netdesign.site.columns.unit_names import KNOWN_UNITS
+from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
+from netdesign.structure.axis import LEAST_AXIS, MOST_AXIS
+from netdesign.structure.layout import DEFAULT_POST_TILT
+from netdesign.structure.splay import LEAST_SPLAY, MOST_SPLAY
+
+PLANS = {plan.name: plan for plan in SHEETS}
+CATALOGUE = load_catalogue()
+
+
+def find(table, key):
+    plan = PLANS[{"quantities": "Ranges", "items": "Project"}.get(table, table)]
+    return next(
+        one
+        for one in (*plan.fields, *plan.items)
+        if (one.table, one.key) == (table, key)
+    )
+
+
+def test_every_table_of_the_file_is_read():
+    lists = {
+        entry["items"] for entry in load_data()["sheets"].values() if "items" in entry
+    }
+    assert set(load_data()) == {"units", "empty", "sheets", *PLANS, *lists}
+    assert list(load_data()["sheets"]) == list(PLANS)
+
+
+def test_no_list_of_units_and_no_statement_is_left_over():
+    columns = [
+        entry
+        for table, entries in load_data().items()
+        if table not in ("units", "empty", "sheets")
+        for entry in entries.values()
+    ]
+    for key in ("units", "empty"):
+        assert {one[key] for one in columns if key in one} == set(load_data()[key])
+    for units in load_data()["units"].values():
+        assert set(units) <= set(KNOWN_UNITS)
+
+
+# Constants that the program goes by elsewhere
+@pytest.mark.parametrize(
+    ("table", "key", "low", "high"),
+    [
+        ("Nets", "glide_factor", 1.0, LARGEST_GLIDE_FACTOR),
+        ("quantities", "glide_factor", 1.01, LARGEST_GLIDE_FACTOR),
+        ("Nets", "ridge_sag", 0.0, LARGEST_SAG),
+        ("Nets", "lower_sag", 0.0, LARGEST_SAG),
+        *(
+            ("Nets", key, math.degrees(LEAST_AXIS), math.degrees(MOST_AXIS))
+            for key in ("foot_axis", "uphill_axis", "downhill_axis")
+        ),
+        ("Nets", "guy_splay", math.degrees(LEAST_SPLAY), math.degrees(MOST_SPLAY)),
+        ("Ends", "end_guy_angle", 0.0, math.degrees(LARGEST_GUY_ANGLE)),
+    ],
+)
+def test_bounds_are_those_of_the_calculation(table, key, low, high):
+    assert find(table, key).bounds == pytest.approx((low, high), rel=1e-12)
+
+
+def test_the_default_tilt_is_that_of_a_support():
+    default = find("Nets", "post_tilt").default
+    assert math.radians(default) == DEFAULT_POST_TILT
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "words"),
+    [
+        ("Nets", "net_cut", tuple(CUTS)),
+        (
+            *("Anchors", "ground"),
+            (*CATALOGUE["bond"]["ground"], "scree", "gneiss", "rock"),
+        ),
+        ("Ropes", "construction", tuple(CATALOGUE["rope"]["construction"])),
+        ("Ropes", "termination", tuple(list_terminations())),
+        ("Posts", "buckling_curve", tuple(CATALOGUE["buckling"]["curve"])),
+    ],
+)
+def test_words_are_those_of_the_catalogue(table, key, words):
+    assert find(table, key).words == words
+
+
+def test_the_note_on_the_ground_tells_every_ground_of_the_catalogue():
+    note = load_words("en")["Anchors"]["ground"]["note"]
+    told = (
+        f"{name}: {one['text']}" for name, one in CATALOGUE["bond"]["ground"].items()
+    )
+    assert note.endswith("; ".join(told))
+
+
+def test_a_product_has_what_its_columns_must_agree_with():
+    names = ("HEB120", "CHS 76.1x3.6", "GEWI 28", "IBO R32", "6x19 18 mm")
+    known = {value for name in names for value in find_product(name).values}
+    for plan in SHEETS:
+        for field in plan.fields:
+            assert set(field.of_product) <= known
+
+
+def test_a_range_has_the_units_bounds_and_usual_numbers_of_its_column():
+    for one in PLANS["Ranges"].items:
+        if one.column:
+            column = find("Nets", one.column)
+            assert (one.units, one.usual) == (column.units, column.usual)
+            assert one.zero_says_none == column.zero_says_none
+            assert one.bounds[1] == column.bounds[1]
+            assert not one.beside
+
+
+# A slip in the file: what is set, and what the refusal names
+@pytest.mark.parametrize(
+    ("table", "key", "slip", "told"),
+    [
+        ("Nets", "slack", {"bonds": [0, 1]}, "Nets.slack: unknown bonds"),
+        ("Nets", "slack", {"label": "slack"}, "Nets.slack: unknown label"),
+        ("Nets", "slack", {"units": "shares"}, "Nets.slack: no shares among length"),
+        ("Nets", "slack", {"kind": "real"}, "Nets.slack: no kind real"),
+        ("Nets", "slack", {"empty": "nothing"}, "Nets.slack: no nothing among"),
+        ("Nets", "slack", {"instead": ["tautness"]}, "Nets.slack: no tautness among"),
+        ("Nets", "slack", {"alternative_to": "tautness"}, "no tautness among"),
+        ("Nets", "slack", {"beside": [[1, 2, {"sag": 1}]]}, "no sag among"),
+        (
+            "Nets",
+            "slack",
+            {"bounds": [0.3, 0.0]},
+            "Nets.slack: bounds from 0.3 down to 0.0",
+        ),
+        ("Nets", "slack", {"bounds": [0.3]}, "Nets.slack: bounds "),
+        ("quantities", "slack", {"column": "sag"}, "quantities.slack: no sag among"),
+        ("Nets", "post", {"refers_to": "Masts"}, "Nets.post: no Masts among Project"),
+        ("sheets", "Nets", {"columns": []}, "sheets.Nets: unknown columns"),
+        ("sheets", "Nets", {"one_of": ["size"]}, "sheets.Nets: no size among id"),
+    ],
+)
+def test_a_slip_is_refused_by_its_place(table, key, slip, told):
+    data = copy.deepcopy(dict(load_data()))
+    data[table][key] |= slip
+    with pytest.raises(ValueError, match=told):
+        read_plan(data, key) if table == "sheets" else read_fields(data, table)
+
+
+def test_a_column_that_stands_twice_is_refused():
+    with pytest.raises(tomllib.TOMLDecodeError):
+        tomllib.loads("[Nets.slack]\nbounds = [0, 1]\n[Nets.slack]\nbounds = [0, 2]\n")
