@@ -87,6 +87,7 @@ THIRD_PARTY = {
     ),
     "platformdirs": ("solving.store",),
     "distributed": ("solving.workers",),
+    "hatchling": ("core.build",),  # it runs before the package is installed
     "skfem": (
         "snow.forms",
         "evidence.benchmark.reference_path",

@@ -1,4 +1,4 @@
-"""Files of the compiled core, and the digest by which a library knows its text.
+"""Files of the compiled core, what compiles them, and the digest of their text.
 
 It stands alone: the build hook reads it before the package is installed.
 """
@@ -7,6 +7,9 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
+import subprocess
+import tempfile
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +22,7 @@ SOURCES = (
 HEADERS = ("core.h", "element.h", "round.h")
 # No fused arithmetic, no freedom with sums: results are equal between processors.
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno")
+_SHARED = ("-fPIC", "-shared", "-fvisibility=hidden")
 
 # The environment's word on the core, in any case; without one it is taken.
 SWITCH = "NETDESIGN_CORE"
@@ -41,3 +45,36 @@ def digest_sources() -> str:
     for name in (*HEADERS, *SOURCES):
         digest.update((ROOM / name).read_bytes())
     return digest.hexdigest()[:12]
+
+
+def find_compiler() -> str | None:
+    """``CC``, or the first compiler found; None where the core is switched off."""
+    if read_switch() == SWITCHED_OFF:
+        return None
+    names = (os.environ.get("CC", ""), "cc", "gcc", "clang")
+    return next((path for name in names if name and (path := shutil.which(name))), None)
+
+
+def compile_core(compiler: str, library: Path, more: tuple[str, ...] = ()) -> str:
+    """Compile the core to a library; what went wrong, or nothing.
+
+    The library is there whole or not at all, whoever else compiles it at the same time;
+    a program that runs keeps the old one.
+    """
+    version = f'-DND_VERSION="{digest_sources()}"'
+    files = [str(ROOM / name) for name in SOURCES]
+    options = [*FLAGS, *_SHARED, *more, version]
+    try:
+        with tempfile.TemporaryDirectory(dir=library.parent, prefix="_core.") as folder:
+            made = Path(folder) / library.name
+            subprocess.run(
+                [compiler, *options, *files, "-o", str(made), "-lm"],
+                check=True,
+                capture_output=True,
+                text=True,
+                errors="replace",
+            )
+            made.replace(library)
+    except (OSError, subprocess.CalledProcessError) as error:
+        return str(getattr(error, "stderr", "") or error)
+    return ""
