@@ -15,6 +15,7 @@ from pathlib import Path
 
 ROOM = Path(__file__).resolve().parent
 LIBRARY = ROOM / "_core.so"  # the same name on every system
+CHECKOUT = ROOM.parents[1] / "pyproject.toml"  # there where nothing was installed
 SOURCES = (
     *("plan.c", "front.c", "element.c", "contact.c", "step.c", "flow.c"),
     *("place.c", "cable.c", "round.c", "panel.c"),
