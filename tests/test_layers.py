@@ -82,7 +82,7 @@ THIRD_PARTY = {
         "snow.*",
         "planview.special",
         "winter.table",
-        "solving.store",
+        "solving.identity",
         "evidence.*",
     ),
     "platformdirs": ("solving.store",),

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -23,6 +24,10 @@ SOURCES = (
 HEADERS = ("core.h", "element.h", "round.h")
 # No fused arithmetic, no freedom with sums: results are equal between processors.
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno")
+# Comments, and strings, whose slashes begin none.
+_STRINGS = re.compile(
+    r"""/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'""", re.DOTALL
+)
 _SHARED = ("-fPIC", "-shared", "-fvisibility=hidden")
 
 # The environment's word on the core, in any case; without one it is taken.
@@ -35,16 +40,22 @@ def read_switch() -> str:
     return os.environ.get(SWITCH, "").strip().lower()
 
 
+def take_code(text: str) -> str:
+    """C text without comments, blank lines and blanks at ends of lines."""
+    text = _STRINGS.sub(lambda one: " " if one[0].startswith("/") else one[0], text)
+    return "\n".join(line.rstrip() for line in text.split("\n") if line.strip())
+
+
 @lru_cache
 def digest_sources() -> str:
-    """First digits of the SHA-256 of the C sources and of the compiler's flags.
+    """First digits of the SHA-256 of the C code and of the compiler's flags.
 
-    The library has those of the text that it was built from; it is not taken where
-    text or flags have changed since.
+    The library has those of the code that it was built from; it is not taken where
+    code or flags have changed since.
     """
     digest = hashlib.sha256(" ".join(FLAGS).encode())
     for name in (*HEADERS, *SOURCES):
-        digest.update((ROOM / name).read_bytes())
+        digest.update(take_code((ROOM / name).read_text(encoding="utf-8")).encode())
     return digest.hexdigest()[:12]
 
 

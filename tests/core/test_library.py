@@ -44,6 +44,30 @@ def test_the_digest_has_the_flags(monkeypatch):
     sources.digest_sources.cache_clear()
 
 
+def test_the_digest_has_the_code_without_comments():
+    text = 'double a = 3.7; /* of b\n "c" */\n\n// d\nchar *e = "/* f */ // g";\n'
+    code = 'double a = 3.7;\nchar *e = "/* f */ // g";'
+    assert sources.take_code(text) == code
+    for old, new in (("3.7", "3.8"), ("f", "g"), ("//", "/")):
+        assert sources.take_code(text.replace(old, new)) != code
+
+
+def test_a_comment_makes_no_other_digest_and_a_constant_does(tmp_path, monkeypatch):
+    for path in sources.ROOM.glob("*.[ch]"):
+        shutil.copy(path, tmp_path)
+    before = sources.digest_sources()
+    monkeypatch.setattr(sources, "ROOM", tmp_path)
+    path, made = tmp_path / "step.c", []
+    text = path.read_text(encoding="utf-8")
+    for added in ("/* a remark */\n", "static const int SEVEN = 7;\n"):
+        path.write_text(text + added, encoding="utf-8")
+        sources.digest_sources.cache_clear()
+        made.append(sources.digest_sources())
+    sources.digest_sources.cache_clear()
+    assert made[0] == before
+    assert made[1] != before
+
+
 @pytest.mark.parametrize("content", [None, b"", b"not a library"])
 def test_a_file_that_is_no_library_is_not_taken(tmp_path, content):
     path = tmp_path / "_core.so"
