@@ -6,6 +6,7 @@ Imports of anything heavy stand inside the commands that need it: help is instan
 from __future__ import annotations
 
 import gc
+import logging
 import os
 import signal
 import sys
@@ -112,8 +113,18 @@ def main() -> NoReturn:
     sys.exit(code)
 
 
+class _LogTeller(logging.Handler):
+    """Tells what rooms below have logged, in the language of the run."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print a note."""
+        text = record.msg if isinstance(record.msg, Message) else record.getMessage()
+        tell(say("cli.note", text=text), _speak(), err=True)
+
+
 def _run() -> NoReturn:
     gc.set_threshold(_OBJECTS)
+    logging.getLogger("netdesign").handlers[:] = [_LogTeller()]
     if instruction := os.environ.get(COMPLETE_VARIABLE):
         sys.exit(answer_shell(cli, instruction))
     _unset_empty("SOURCE_DATE_EPOCH")

@@ -82,11 +82,12 @@ THIRD_PARTY = {
         "snow.*",
         "planview.special",
         "winter.table",
-        "solving.store",
+        "solving.identity",
         "evidence.*",
     ),
     "platformdirs": ("solving.store",),
     "distributed": ("solving.workers",),
+    "hatchling": ("core.build",),  # it runs before the package is installed
     "skfem": (
         "snow.forms",
         "evidence.benchmark.reference_path",

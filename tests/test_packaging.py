@@ -134,7 +134,8 @@ def test_source_archive_holds_what_a_wheel_is_built_from(tmp_path):
     with tarfile.open(archive) as source:
         paths = {name.partition("/")[2] for name in source.getnames()}
     assert {"LICENSE", "README.md", "pyproject.toml", "netdesign/py.typed"} <= paths
-    assert {"hatch_build.py", "netdesign/core/step.c", "netdesign/core/core.h"} <= paths
+    core = {"build.py", "sources.py", "step.c", "core.h"}
+    assert {f"netdesign/core/{name}" for name in core} <= paths
     assert not [path for path in paths if path.endswith(".so")]
     assert {f"standards/{name}" for name in files_below(ROOT / "standards")} <= paths
 

@@ -1,20 +1,28 @@
 """The compiled library: whether there is one, what made it, and its functions.
 
-``NETDESIGN_CORE=numpy`` switches it off. Theory: core/THEORY.md.
+``NETDESIGN_CORE=numpy`` switches it off. A source checkout compiles it again after a
+change of the C text. Theory: core/THEORY.md.
 """
 
 from __future__ import annotations
 
 import ctypes
+import logging
 from functools import lru_cache
 from pathlib import Path
 
 from netdesign.core.sources import (
+    CHECKOUT,
     LIBRARY,
     SWITCHED_OFF,
+    compile_core,
     digest_sources,
+    find_compiler,
     read_switch,
 )
+from netdesign.words.message import Message, say
+
+_LOG = logging.getLogger(__name__)
 
 _FUNCTIONS = (
     *("nd_plan", "nd_step", "nd_flow", "nd_residual"),
@@ -30,7 +38,7 @@ def find_core() -> ctypes.PyDLL | None:
 
     Functions of a ``PyDLL`` keep the interpreter's lock: they are short.
     """
-    return None if is_switched_off() else _load(LIBRARY)
+    return None if is_switched_off() else _find(LIBRARY)
 
 
 def is_switched_off() -> bool:
@@ -44,6 +52,39 @@ def name_core() -> str:
 
 
 @lru_cache
+def _find(path: Path) -> ctypes.PyDLL | None:
+    if CHECKOUT.exists() and path.exists() and not _knows_its_text(path):
+        from multiprocessing import parent_process
+
+        fault = _compile_again(path)
+        if fault and parent_process() is None:  # a worker does not say it, too
+            _LOG.warning(fault)
+    return _load(path)
+
+
+def _knows_its_text(path: Path) -> bool:
+    """True for a library that has the digest of the C text beside it.
+
+    It is read, not loaded: a process that has loaded it would get the same one again.
+    """
+    try:
+        return digest_sources().encode() in path.read_bytes()
+    except OSError:
+        return False
+
+
+def _compile_again(path: Path) -> Message | None:
+    """Compile a library that is out of date; why it still is."""
+    compiler = find_compiler()
+    if compiler is None:
+        return say("core.stale", reason=say("core.no_compiler"))
+    lines = compile_core(compiler, path).splitlines()
+    if not lines:
+        return None
+    first = next((line for line in lines if "error" in line), lines[0])
+    return say("core.stale", reason=first)
+
+
 def _load(path: Path) -> ctypes.PyDLL | None:
     try:
         library = ctypes.PyDLL(str(path))

@@ -23,9 +23,6 @@ if TYPE_CHECKING:
 
 # Above these half bandwidths SuperLU is faster (measured at 470 to 6800 unknowns).
 _WIDEST_CHOLESKY, _WIDEST_LU = 160, 90
-# Slipping nodes, over the half bandwidth, whose friction is cheaper beside a Cholesky
-# factor than in an LU one.
-_MOST_SLIPPING = 0.15
 # Right sides that SuperLU solves at once: more leave the processor's cache (measured
 # at 6,000 to 12,000 unknowns: 130 at once take 1.3 to 1.5 times as long).
 _COLUMNS = 32
@@ -77,17 +74,12 @@ def solve_blocks(
     if friction is not None:
         shares = friction[1::2] if load.ndim == 1 else friction[1::2, None]
         load[1::2] += shares * load[: len(load) - 1 : 2]
-    load[held] = 0.0
-    if is_definite and ordering.band <= _WIDEST_CHOLESKY:
-        if friction is None:
-            rhs = _in_order(ordering, load)
-            masked = [_mask(part, free) for part in parts]
-            return _solve_cholesky(ordering, masked, rhs, held)[ordering.place]
-        if np.count_nonzero(friction) <= _MOST_SLIPPING * ordering.band:
-            return _solve_slipping(ordering, parts, friction, load, free)
-    if friction is not None:
         parts = [_add_friction(part, friction) for part in parts]
+    load[held] = 0.0
     masked = [_mask(part, free) for part in parts]
+    is_symmetric = is_definite and friction is None
+    if is_symmetric and ordering.band <= _WIDEST_CHOLESKY:
+        return _solve_cholesky(ordering, masked, load, held)
     if ordering.band <= _WIDEST_LU:
         return _solve_lu(ordering, masked, load, held)
     return _solve_sparse(ordering, masked, load, held)
@@ -115,69 +107,18 @@ def _scale_of(values: Floats) -> float:
 
 
 def _solve_cholesky(
-    ordering: Ordering, parts: Sequence[Blocks], rhs: Floats, held: Mask
+    ordering: Ordering, parts: Sequence[Blocks], load: Floats, held: Mask
 ) -> Floats:
-    """Solutions of right sides that are in order already; they stay so."""
     from scipy.linalg import lapack
 
     matrix = ordering.fill(parts, lower=True)
     matrix[ordering.place[held], 0] = _scale_of(matrix[:, 0])
     _, solution, fault = lapack.dpbsv(
-        matrix.T, rhs, lower=1, overwrite_ab=1, overwrite_b=1
+        matrix.T, _in_order(ordering, load), lower=1, overwrite_ab=1, overwrite_b=1
     )
     if fault != 0:
         raise SingularError("not positive definite")
-    return np.asarray(solution)
-
-
-def _solve_slipping(
-    ordering: Ordering,
-    parts: Sequence[Blocks],
-    friction: Floats,
-    load: Floats,
-    free: Mask,
-) -> Floats:
-    """Solution with a few rows added to the symmetric matrix: Woodbury's (N24)."""
-    from scipy.linalg import lapack
-
-    slipping = np.flatnonzero(friction)
-    columns = load.size // len(load)
-    rhs = np.zeros((len(load), columns + slipping.size), order="F")
-    rhs[ordering.place, :columns] = load.reshape(-1, columns)
-    rhs[ordering.place[slipping], columns + np.arange(slipping.size)] = 1.0
-    masked = [_mask(part, free) for part in parts]
-    solutions = _solve_cholesky(ordering, masked, rhs, ~free)
-    plain, inverse = solutions[:, :columns], solutions[:, columns:]
-    rows = _collect_friction(ordering, parts, friction, free)
-    small = rows @ inverse
-    small.flat[:: slipping.size + 1] += 1.0
-    _, _, shared, fault = lapack.dgesv(small, rows @ plain)
-    if fault != 0:
-        raise SingularError("singular")
-    both = plain - inverse @ shared
-    return np.asarray(both[ordering.place].reshape(load.shape))
-
-
-def _collect_friction(
-    ordering: Ordering, parts: Sequence[Blocks], friction: Floats, free: Mask
-) -> Floats:
-    """Rows A of (N24), which friction adds at slipping nodes, (n_slipping, n_dofs).
-
-    The columns are in order.
-    """
-    slipping = np.flatnonzero(friction)
-    number = np.full(friction.size, -1)
-    number[slipping] = np.arange(slipping.size)
-    sums = np.zeros(slipping.size * friction.size)
-    for part in parts:
-        wanted = number[part.dofs[:, 1 : part.n_paired : 2]]
-        block, pair = np.nonzero(wanted >= 0)
-        row, dofs = wanted[block, pair, None], part.dofs[block]
-        share = friction[slipping[row]] * free[dofs]
-        at = row * friction.size + ordering.place[dofs]
-        normal = share * part.values[block, 2 * pair]
-        sums += gather(at, normal, sums.size)
-    return np.asarray(sums.reshape(slipping.size, friction.size))
+    return np.asarray(solution[ordering.place])
 
 
 def _in_order(ordering: Ordering, load: Floats) -> Floats:

@@ -19,7 +19,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from netdesign.edge.resources import find_resource
-from netdesign.solving.store import BUSY_S, identify_program, seal_entry, write_parts
+from netdesign.solving.identity import identify_program
+from netdesign.solving.store import BUSY_S, seal_entry, write_parts
 from netdesign.words.message import Message, say
 
 _MOST_RUNS = 10

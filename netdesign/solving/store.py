@@ -1,6 +1,6 @@
 """Finished cases and searches on disk: used by every later run.
 
-One SQLite file. A case is known by its scene, its settings and the solver's own text,
+One SQLite file. A case is known by its scene, its settings and the solver's own code,
 a search by its task and the text of the whole program, so that another version never
 answers for this one. Each is one transaction in a write-ahead log: a killed run loses
 what its workers had in hand, nothing else.
@@ -21,22 +21,18 @@ from pathlib import Path
 from types import MappingProxyType, TracebackType
 from typing import Any
 
-from netdesign import __version__
-from netdesign.core.library import name_core
 from netdesign.edge.causes import explain
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
 from netdesign.search.known_search import KnownSearch, decode_search, encode_search
+from netdesign.solving.identity import identify_program, identify_solver
 from netdesign.solving.state import CaseEnd, decode_end, encode_end
 from netdesign.words.message import Message, say
 
 _LAYOUT = 5  # of the tables
 BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
-_SOLVER_PARTS = ("numerics", "core", "snow", "cable", "coupling", "solving")
-_PACKAGE = Path(__file__).resolve().parent.parent
 _SQLITE, _SUFFIXES = b"SQLite format 3\0", (".sqlite", ".sqlite3", ".db")
-_WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 # They say nothing about the case itself.
 FORGOTTEN = (Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT)
 
@@ -55,32 +51,6 @@ def find_store() -> Path:
     # without an author's folder, or one named Cache, on Windows
     cache = user_cache_path("netdesign", appauthor=False, opinion=False)
     return cache / "cases.sqlite"
-
-
-def identify_solver() -> str:
-    """Version of the solver: its text, and libraries and core that decide digits."""
-    return _identify(_SOLVER_PARTS, _PACKAGE, name_core())
-
-
-def identify_program(package: Path = _PACKAGE) -> str:
-    """Version of the whole program, as ``identify_solver``."""
-    return _identify(_WHOLE_PROGRAM, package, name_core())
-
-
-@lru_cache
-def _identify(parts: tuple[str, ...], package: Path, core: str) -> str:
-    import numpy
-    import scipy
-
-    digest = hashlib.sha256()
-    for part in parts:
-        for path in sorted((package / part).rglob("*")):
-            if path.suffix in (".py", ".toml"):
-                digest.update(path.name.encode())
-                digest.update(path.read_bytes())
-    libraries = f"numpy {numpy.__version__}, scipy {scipy.__version__}, core {core}"
-    digest.update(libraries.encode())
-    return f"{__version__}+{digest.hexdigest()[:16]}"
 
 
 def name_case(scene: object, settings: Hashable) -> str:

@@ -1,7 +1,6 @@
 """The library of the compiled core: built, known by its text, switched off, refused."""
 
 import ctypes
-import importlib.util
 import re
 import shutil
 from pathlib import Path
@@ -13,22 +12,11 @@ from netdesign.core import library, plan, sources
 from netdesign.core.plan import build_plan
 
 ROOT = Path(library.__file__).resolve().parents[2]
-HOOK = ROOT / "hatch_build.py"
 
 needs_compiler = pytest.mark.skipif(
-    not HOOK.exists()
-    or importlib.util.find_spec("hatchling") is None
-    or not any(map(shutil.which, ("cc", "gcc", "clang"))),
-    reason="no checkout, no hatchling or no C compiler",
+    not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler"
 )
 needs_core = pytest.mark.skipif(library.find_core() is None, reason="no compiled core")
-
-
-def load_hook():
-    spec = importlib.util.spec_from_file_location("hatch_build", HOOK)
-    hook = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(hook)
-    return hook
 
 
 @pytest.mark.parametrize("word", ["numpy", "NumPy", " NUMPY "])
@@ -56,6 +44,30 @@ def test_the_digest_has_the_flags(monkeypatch):
     sources.digest_sources.cache_clear()
 
 
+def test_the_digest_has_the_code_without_comments():
+    text = 'double a = 3.7; /* of b\n "c" */\n\n// d\nchar *e = "/* f */ // g";\n'
+    code = 'double a = 3.7;\nchar *e = "/* f */ // g";'
+    assert sources.take_code(text) == code
+    for old, new in (("3.7", "3.8"), ("f", "g"), ("//", "/")):
+        assert sources.take_code(text.replace(old, new)) != code
+
+
+def test_a_comment_makes_no_other_digest_and_a_constant_does(tmp_path, monkeypatch):
+    for path in sources.ROOM.glob("*.[ch]"):
+        shutil.copy(path, tmp_path)
+    before = sources.digest_sources()
+    monkeypatch.setattr(sources, "ROOM", tmp_path)
+    path, made = tmp_path / "step.c", []
+    text = path.read_text(encoding="utf-8")
+    for added in ("/* a remark */\n", "static const int SEVEN = 7;\n"):
+        path.write_text(text + added, encoding="utf-8")
+        sources.digest_sources.cache_clear()
+        made.append(sources.digest_sources())
+    sources.digest_sources.cache_clear()
+    assert made[0] == before
+    assert made[1] != before
+
+
 @pytest.mark.parametrize("content", [None, b"", b"not a library"])
 def test_a_file_that_is_no_library_is_not_taken(tmp_path, content):
     path = tmp_path / "_core.so"
@@ -67,14 +79,11 @@ def test_a_file_that_is_no_library_is_not_taken(tmp_path, content):
 @needs_compiler
 def test_a_library_of_another_text_is_not_taken(tmp_path, monkeypatch):
     monkeypatch.delenv(sources.SWITCH, raising=False)
-    hook = load_hook()
     path = tmp_path / "_core.so"
-    assert hook.compile_core(ROOT, hook.find_compiler(sources), path, ("-O0",)) == ""
+    assert sources.compile_core(sources.find_compiler(), path, ("-O0",)) == ""
     assert isinstance(library._load(path), ctypes.PyDLL)
-    library._load.cache_clear()
     monkeypatch.setattr(library, "digest_sources", lambda: "of another")
     assert library._load(path) is None
-    library._load.cache_clear()
 
 
 @needs_compiler
@@ -85,23 +94,21 @@ def test_every_c_file_is_compiled():
 
 @needs_compiler
 def test_no_compiler_where_it_is_switched_off_or_missing(monkeypatch):
-    hook = load_hook()
     monkeypatch.delenv(sources.SWITCH, raising=False)
-    assert hook.find_compiler(sources)
+    assert sources.find_compiler()
     monkeypatch.setenv(sources.SWITCH, sources.SWITCHED_OFF)
-    assert hook.find_compiler(sources) is None
+    assert sources.find_compiler() is None
     monkeypatch.delenv(sources.SWITCH)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
-    assert hook.find_compiler(sources) is None
+    assert sources.find_compiler() is None
 
 
 @needs_compiler
 def test_a_compiler_that_fails_is_told(tmp_path, monkeypatch):
     monkeypatch.delenv(sources.SWITCH, raising=False)
-    hook = load_hook()
     path = tmp_path / "_core.so"
-    fault = hook.compile_core(ROOT, hook.find_compiler(sources), path, ("-DPOINTS=[",))
+    fault = sources.compile_core(sources.find_compiler(), path, ("-DPOINTS=[",))
     assert "error" in fault
     assert not path.exists()
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.core.test_library import ROOT, load_hook, needs_compiler
+from netdesign.core.sources import compile_core
+from tests.core.test_library import ROOT, needs_compiler
 
 CHECKED = (
     *("-fsanitize=address,undefined", "-fno-sanitize-recover=all"),
@@ -30,7 +31,7 @@ def test_nothing_is_found(tmp_path):
     if not Path(found).is_absolute():
         pytest.skip("gcc has no libasan here")
     library = tmp_path / "checked.so"
-    assert load_hook().compile_core(ROOT, "gcc", library, CHECKED) == ""
+    assert compile_core("gcc", library, CHECKED) == ""
     environment = {
         **os.environ,
         "LD_PRELOAD": found,

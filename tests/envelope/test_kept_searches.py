@@ -14,6 +14,7 @@ from netdesign.envelope.search import search_rows
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import MaximaSearch, SearchSettings
 from netdesign.solving import store as store_module
+from netdesign.solving.identity import identify_program
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore, name_search
 from netdesign.solving.workers import OwnProcess
@@ -82,7 +83,7 @@ def test_the_text_of_every_module_counts(tmp_path):
         for path in ("search/maxima.py", "structure/head.py", "guards.py"):
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text("#" if path == place else "")
-        names.add(store_module.identify_program(root))
+        names.add(identify_program(root))
     assert len(names) == 3
 
 

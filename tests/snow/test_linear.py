@@ -49,8 +49,8 @@ def solve_dense(mesh, blocks, force, free, friction):
 
 
 WAYS = {
-    "Cholesky and Woodbury": {},
-    "LU": {"_MOST_SLIPPING": 0},
+    "Cholesky, LU where it slips": {},
+    "LU": {"_WIDEST_CHOLESKY": 0},
     "SuperLU": {"_WIDEST_CHOLESKY": 0, "_WIDEST_LU": 0},
 }
 

@@ -1,28 +1,19 @@
-"""Compiles the core where there is a C compiler; else the wheel is pure Python."""
+"""Hook of the build: compiles the core where there is a C compiler.
+
+Else the wheel is pure Python. It runs before the package is installed.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import importlib.util
-import os
 import shutil
-import subprocess
 import sysconfig
 import tempfile
 from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
-
-SHARED = ("-fPIC", "-shared", "-fvisibility=hidden")
-
-
-def find_compiler(sources: Any) -> str | None:
-    """``CC``, or the first compiler found; None where ``NETDESIGN_CORE=numpy``."""
-    if sources.read_switch() == sources.SWITCHED_OFF:
-        return None
-    names = (os.environ.get("CC", ""), "cc", "gcc", "clang")
-    return next((path for name in names if name and (path := shutil.which(name))), None)
 
 
 def load_sources(root: Path) -> Any:
@@ -36,38 +27,6 @@ def load_sources(root: Path) -> Any:
     return module
 
 
-def compile_core(
-    root: Path, compiler: str, library: Path, more: tuple[str, ...] = ()
-) -> str:
-    """Compile the core to a library; what went wrong, or nothing."""
-    sources = load_sources(root)
-    version = f'-DND_VERSION="{sources.digest_sources()}"'
-    made = library.with_suffix(".tmp")
-    files = [str(sources.ROOM / name) for name in sources.SOURCES]
-    command = [
-        compiler,
-        *sources.FLAGS,
-        *SHARED,
-        *more,
-        version,
-        *files,
-        "-o",
-        str(made),
-    ]
-    try:
-        subprocess.run(
-            [*command, "-lm"],
-            check=True,
-            capture_output=True,
-            text=True,
-            errors="replace",
-        )
-        made.replace(library)  # a program that runs keeps the old one
-    except (OSError, subprocess.CalledProcessError) as error:
-        return str(getattr(error, "stderr", "") or error)
-    return ""
-
-
 class CoreBuildHook(BuildHookInterface):  # type: ignore[type-arg]
     """Library in the wheel, or beside its sources for an editable install."""
 
@@ -75,22 +34,21 @@ class CoreBuildHook(BuildHookInterface):  # type: ignore[type-arg]
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Compile; without a compiler, or where it fails, all works on NumPy."""
-        root = Path(self.root)
-        sources = load_sources(root)
+        sources = load_sources(Path(self.root))
         library: Path = sources.LIBRARY
         is_editable = version == "editable"
         if is_editable:
             # of another text, or another machine; one in use is told by its digest
             with contextlib.suppress(OSError):
                 library.unlink(missing_ok=True)
-        compiler = find_compiler(sources)
+        compiler = sources.find_compiler()
         if compiler is None:
             self.app.display_info("no C compiler: the program computes in NumPy")
             return
         if not is_editable:
             self._folder = tempfile.mkdtemp()
         target = Path(self._folder) / library.name if self._folder else library
-        fault = compile_core(root, compiler, target)
+        fault = sources.compile_core(compiler, target)
         if fault:
             self.app.display_warning(f"the core was not compiled: {fault}")
         elif not is_editable:

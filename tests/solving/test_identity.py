@@ -1,0 +1,122 @@
+"""The name of the solver: another one for other code, the same for other comments."""
+
+import ast
+import io
+import shutil
+import tokenize
+from pathlib import Path
+
+import pytest
+
+from netdesign.solving import identity
+from netdesign.solving.identity import identify_solver, take_code
+
+PACKAGE = Path(identity.__file__).parents[1]
+FILES = list(identity._list_files(identity._SOLVER_PARTS, PACKAGE))
+MODULES = [path for path in FILES if path.suffix == ".py"]
+KEPT = (tokenize.NAME, tokenize.NUMBER, tokenize.STRING, tokenize.OP)
+
+LAST = "    return value + KELVIN_AT_0_C"  # line of units.py
+
+# Of the package outside: they word, carry or keep what was found, and decide no number.
+DECIDE_NOTHING = ("edge", "errors", "fault", "search.known_search", "words")
+
+
+@pytest.fixture
+def package(tmp_path):
+    """A copy of the solver's text; names of it are found anew."""
+    for path in FILES:
+        place = tmp_path / path.relative_to(PACKAGE)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, place)
+    return tmp_path
+
+
+def rename(package, place, old, new):
+    """Name of the solver with another text at one place."""
+    path = package / place
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    identity._identify.cache_clear()
+    return identify_solver(package)
+
+
+def list_tokens(text):
+    """Tokens that compute, with their places."""
+    lines = io.StringIO(text).readline
+    return [one for one in tokenize.generate_tokens(lines) if one.type in KEPT]
+
+
+def find_docstrings(text):
+    """Places of the docstrings, as Python sees them."""
+    owners = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, owners) and ast.get_docstring(node) is not None:
+            yield node.body[0].lineno, node.body[0].col_offset
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.stem)
+def test_of_every_module_all_stays_but_docstrings_and_comments(path):
+    text = path.read_text(encoding="utf-8")
+    documented = set(find_docstrings(text))
+    before = [one.string for one in list_tokens(text) if one.start not in documented]
+    code = take_code(text)
+    assert [one.string for one in list_tokens(code)] == before
+    kinds = {one.type for one in tokenize.generate_tokens(io.StringIO(code).readline)}
+    assert tokenize.COMMENT not in kinds
+    assert "\n\n" not in code
+
+
+@pytest.mark.parametrize(
+    ("place", "old", "new"),
+    [
+        ("numerics/newton.py", '"""', '"""Another word. '),
+        ("numerics/newton.py", '    """', '    """Another word. '),
+        ("numerics/newton.py", "\n", "\n\n# a remark, with 3.7 and \"signs'\n"),
+        ("numerics/newton.py", ":\n", ":  # a remark\n"),
+        ("snow/glide_factors.toml", "\n", "\n# a remark\n\n"),
+    ],
+)
+def test_docstrings_comments_and_blank_lines_do_not_count(package, place, old, new):
+    assert rename(package, place, old, new) == identify_solver()
+
+
+@pytest.mark.parametrize(
+    ("place", "old", "new"),
+    [
+        ("core/plan.py", "LEAF = 6", "LEAF = 7"),
+        ("snow/glide_factors.toml", "[", "[ 0.1,"),
+        ("numerics/newton.py", "return ", "return -"),
+        ("units.py", "1e3", "1e4"),
+    ],
+)
+def test_a_changed_constant_is_another_solver(package, place, old, new):
+    assert rename(package, place, old, new) != identify_solver()
+
+
+def test_strings_and_their_signs_count(package):
+    names = {identify_solver(package)}
+    for text in ('A = "a"', 'A = "a # b"', 'A = "a # c"', 'A = """a\n# c"""'):
+        names.add(rename(package, "units.py", LAST, f"{LAST}\n{text}"))
+    assert len(names) == 5
+
+
+def test_another_core_is_another_solver(monkeypatch):
+    before = identify_solver()
+    monkeypatch.setattr(identity, "name_core", lambda: "C of another text")
+    assert identify_solver() != before
+
+
+def test_whatever_the_solver_imports_is_in_its_name_or_decides_nothing():
+    named = {path.relative_to(PACKAGE).with_suffix("").as_posix() for path in FILES}
+    outside = set()
+    for path in MODULES:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        froms = [one for one in ast.walk(tree) if isinstance(one, ast.ImportFrom)]
+        modules = {one.module for one in froms if one.module.startswith("netdesign.")}
+        outside |= {one.removeprefix("netdesign.") for one in modules}
+    outside = {one for one in outside if not one.startswith(DECIDE_NOTHING)}
+    assert len(outside) > 50
+    files = {one.replace(".", "/") for one in outside}
+    assert {one for one in files if not {one, f"{one}/__init__"} & named} == set()
