@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 AREA = "bench_value"
 _WIDTH = 58  # of a name before its value
+_GAP, _LEAST = 2, 24  # between columns; of the longest texts where there is no room
 _DIGITS = {"expected": 5, "got": 5, "error": 2}  # of the others four
 # Words of yes and no, and keys of which a no is bad news.
 _ANSWERS = ("bench.yes", "bench.no")
@@ -59,23 +60,37 @@ def print_figure(figure: Row, console: Console, words: Words) -> None:
 def print_rows(
     rows: Sequence[Row], console: Console, words: Words, area: str = AREA
 ) -> None:
-    """Print rows of equal keys as a table, numbers to the right."""
+    """Print rows of equal keys as a table, numbers to the right.
+
+    The longest texts alone are broken where there is no room.
+    """
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    table = Table(box=None, pad_edge=False, padding=(0, _GAP, 0, 0))
     keys = [key for key in rows[0] if _is_named(area, key)]
-    for key in keys:
+    heads = [Text(words(f"{area}.{key}")) for key in keys]
+    shown = [[_show(key, row[key], words, area) for key in keys] for row in rows]
+    widths = [
+        max(one.cell_len for one in column)
+        for column in zip(heads, *shown, strict=True)
+    ]
+    longest = max(range(len(keys)), key=widths.__getitem__)
+    for number, (key, head) in enumerate(zip(keys, heads, strict=True)):
         is_text = any(isinstance(row[key], str) for row in rows)
         table.add_column(
-            Text(words(f"{area}.{key}")),
+            head,
             justify="left" if is_text else "right",
             overflow="fold",
-            no_wrap=key == keys[0],
+            min_width=min(widths[number], _LEAST)
+            if number == longest
+            else widths[number],
         )
-    for row in rows:
-        table.add_row(*(_show(key, row[key], words, area) for key in keys))
-    console.print(table)
+    for row in shown:
+        table.add_row(*row)
+    # numbers are never cut: on a narrow terminal lines go on below
+    needed = sum(widths) - max(0, widths[longest] - _LEAST) + _GAP * len(keys)
+    console.print(table, width=max(console.width, needed), crop=False)
 
 
 def print_lines(lines: Iterable[str], console: Console) -> None:

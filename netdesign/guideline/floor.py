@@ -20,11 +20,7 @@ from netdesign.guideline.comparison import (
     place_head,
     solve_load_case,
 )
-from netdesign.guideline.load_model import (
-    LoadModel,
-    SnowLoad,
-    compute_altitude_factor,
-)
+from netdesign.guideline.load_model import LoadModel, SnowLoad
 from netdesign.guideline.net_pull import NetPull
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.climb import build_grid, find_largest
@@ -232,7 +228,7 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
     return Floor(
         forces=tuple(found[member] for member in CARRYING_MEMBERS),
         spans=tuple(found[key] for key in SPANS),
-        head=_measure_head(largest, _find_thinner(model, altitude)),
+        head=_measure_head(largest),
     )
 
 
@@ -294,16 +290,8 @@ def _measure(anchors: AnchorForces) -> dict[str, float]:
     return {**anchors.member_forces, **dict(zip(SPANS, sizes, strict=True))}
 
 
-def _find_thinner(model: LoadModel, altitude: float | None) -> float:
-    """Least load at an altitude over that which counts: 1 where it is known [-]."""
-    known = altitude is not None
-    return 1.0 if known else 1.0 / compute_altitude_factor(model, altitude)
-
-
-def _measure_head(largest: Floats, thinner: float) -> HeadSpan:
+def _measure_head(largest: Floats) -> HeadSpan:
     """Span at head and foot, of the largest of all that is sought.
-
-    Tensions are least under the least load.
 
     A tension with a sign is that of the uphill guy, or less that of the downhill one.
     Between nets with one sign and nets with the other lies one without tension.
@@ -316,7 +304,7 @@ def _measure_head(largest: Floats, thinner: float) -> HeadSpan:
     ]
     return HeadSpan(
         pull=pull,
-        least_tension=thinner * min(tensions),
+        least_tension=min(tensions),
         foot_least=-less_turn,
         foot_largest=turn,
     )

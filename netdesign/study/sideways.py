@@ -205,12 +205,14 @@ def find_sideways(
 def _find_least_tension(
     row: NetRow, heads: Sequence[_Head], hidden: float, floor: HeadSpan | None
 ) -> float:
-    """Least tension of the guys at work [N]; none where the panel is assumed.
+    """Least tension of the guys at work that is counted on [N].
 
-    Between two panels as they may be built, the guy of one side can give way to that
-    of the other: then neither has any.
+    None where the panel is assumed: between two panels as they may be built, the guy of
+    one side can give way to that of the other. None where the guideline's load is that
+    of an altitude that is not known: a lower row has less.
     """
-    if row.panel is not None and row.panel.assumed:
+    is_assumed = row.panel is not None and bool(row.panel.assumed)
+    if is_assumed or (floor is not None and row.altitude is None):
         return 0.0
     solved = max(0.0, min(head.tension for head in heads) - hidden)
     return min(solved, floor.least_tension) if floor else solved

@@ -384,6 +384,8 @@ class RowAgain:
                 self.same("T_g", held["Tg"], tension, 2e-5 * held["P"])
         found = max(held["Ts"] - held["ΔT"], 0.0)
         found = found if held["Tg"] is None else min(found, held["Tg"])
+        if held["Tg"] is not None and self.input("altitude") is None:
+            found = 0.0
         self.same("T_min", held["Tmin"], found)
         for key in ("cu", "cd", "w"):
             parts = self.weigh(held[f"θ({key})"])

@@ -54,7 +54,7 @@ class Beside:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Empty:
-    """What an empty cell means, and why that is never better than a filled one."""
+    """Meaning of an empty cell, and why it is never better than a filled one."""
 
     means: str
     why: str

@@ -14,6 +14,8 @@ from netdesign.study.support_records import StaticsRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
+_ALTITUDE = say("column.Nets.altitude")
+
 
 def audit_statics(row: RowStudy) -> Iterator[Message]:
     """Sentences on states whose forces do not follow, or are not those of the checks.
@@ -111,6 +113,11 @@ def _audit_largest(place: Message, row: RowStudy) -> Iterator[Message]:
             )
 
 
+def _lacks_altitude(row: RowStudy) -> bool:
+    """Absence of the row's altitude among its inputs."""
+    return all(one.value == "" for one in row.inputs if one.label == _ALTITUDE)
+
+
 def _audit_sideways(place: Message, row: RowStudy, spacing: float) -> Iterator[Message]:
     """The pull and the tension by which the load along the row is shared."""
     held = row.held_sideways
@@ -124,9 +131,8 @@ def _audit_sideways(place: Message, row: RowStudy, spacing: float) -> Iterator[M
     least = max(held.solved_tension_kN - held.hidden_tension_kN, 0.0)
     if held.floor_tension_kN is not None:
         least = min(least, held.floor_tension_kN)
-    if (
-        row.panel is not None and row.panel.assumed
-    ):  # any tension may be that of its guys
+    is_assumed = row.panel is not None and bool(row.panel.assumed)
+    if is_assumed or (held.floor_tension_kN is not None and _lacks_altitude(row)):
         least = 0.0
     yield from tell_unequal(
         place,
