@@ -114,8 +114,8 @@ def _audit_largest(place: Message, row: RowStudy) -> Iterator[Message]:
 
 
 def _lacks_altitude(row: RowStudy) -> bool:
-    """Absence of the row's altitude among its inputs."""
-    return all(one.value == "" for one in row.inputs if one.label == _ALTITUDE)
+    """Emptiness of the row's altitude among its inputs."""
+    return any(one.value == "" for one in row.inputs if one.label == _ALTITUDE)
 
 
 def _audit_sideways(place: Message, row: RowStudy, spacing: float) -> Iterator[Message]:
