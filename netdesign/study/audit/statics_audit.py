@@ -14,8 +14,6 @@ from netdesign.study.support_records import StaticsRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-_ALTITUDE = say("column.Nets.altitude")
-
 
 def audit_statics(row: RowStudy) -> Iterator[Message]:
     """Sentences on states whose forces do not follow, or are not those of the checks.
@@ -114,8 +112,9 @@ def _audit_largest(place: Message, row: RowStudy) -> Iterator[Message]:
 
 
 def _lacks_altitude(row: RowStudy) -> bool:
-    """Emptiness of the row's altitude among its inputs."""
-    return any(one.value == "" for one in row.inputs if one.label == _ALTITUDE)
+    """Note of the row that its altitude is not known."""
+    told = (one for one in row.notes if isinstance(one, Message))
+    return any(one.key == "row.altitude_assumed" for one in told)
 
 
 def _audit_sideways(place: Message, row: RowStudy, spacing: float) -> Iterator[Message]:
