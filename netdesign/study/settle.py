@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from netdesign.checks import (
@@ -55,14 +56,11 @@ def list_checked(
 def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
     """Checks of a row that no force enters."""
     geometry = check_geometry(read_geometry(row, site.ranges), standard)
-    beside = (
-        check_ends(find_effects(row, standard, site.ranges)),
-        _check_profile(standard),
-        _check_inputs(row),
-    )
+    ends = check_ends(find_effects(row, standard, site.ranges))
     results = [
         *(_leave_default_open(row, one) for one in geometry),
-        *(one for one in beside if one is not None),
+        *([ends] if ends else []),
+        *_list_open(row, standard),
     ]
     return [record_result(settle_check(site, row, one)) for one in results]
 
@@ -76,33 +74,25 @@ def _leave_default_open(row: NetRow, result: CheckResult) -> CheckResult:
     return withhold(result, say("check.unsaid", names=tuple(names)))
 
 
-def _check_profile(standard: Standard) -> CheckResult | None:
-    """Not proven where nobody has named the limit profile."""
-    if not standard.is_default:
-        return None
-    return CheckResult(
-        id="profile.named",
-        clause="-",
-        member=Member.NET,
-        mode="profile",
-        verdict=Verdict.NOT_PROVEN,
-        reason=not_proven(say("check.no_profile", profile=standard.id)),
-    )
+def _list_open(row: NetRow, standard: Standard) -> Iterator[CheckResult]:
+    """Checks that are there only while something is open."""
+    if standard.is_default:  # nobody has named the limit profile
+        lack = say("check.no_profile", profile=standard.id)
+        yield _leave_open("profile.named", "profile", not_proven(lack))
+    if row.questions:
+        sheet = say("sheet.Declared")
+        asked = say("check.questions", questions=row.questions, sheet=sheet)
+        yield _leave_open("inputs.plausible", "plausible", asked)
 
 
-def _check_inputs(row: NetRow) -> CheckResult | None:
-    """Not proven while a number that the row rests on is in question."""
-    if not row.questions:
-        return None
+def _leave_open(name: str, mode: str, reason: Message) -> CheckResult:
     return CheckResult(
-        id="inputs.plausible",
+        id=name,
         clause="-",
         member=Member.NET,
-        mode="plausible",
+        mode=mode,
         verdict=Verdict.NOT_PROVEN,
-        reason=say(
-            "check.questions", questions=row.questions, sheet=say("sheet.Declared")
-        ),
+        reason=reason,
     )
 
 
