@@ -46,7 +46,7 @@ from netdesign.site.support_types import (
     read_axes,
     read_guys,
 )
-from netdesign.site.tables import Table, read_rows
+from netdesign.site.tables import Table
 from netdesign.site.type_references import (
     TypeSheets,
     list_references,
@@ -84,6 +84,7 @@ _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = MappingProxyType(
 
 def build_net_rows(
     table: Table,
+    rows: list[Row],
     type_sheets: TypeSheets,
     snow: LayersByRow,
     findings: list[Finding],
@@ -97,6 +98,8 @@ def build_net_rows(
     ----------
     table : Table
         Sheet Nets.
+    rows : list of Row
+        Its lines.
     type_sheets : mapping of str to mapping of str to Row
         Types of anchors, ropes and posts by sheet name and id.
     snow : mapping of str to tuple of Row
@@ -115,7 +118,6 @@ def build_net_rows(
     tuple of NetRow
         In the order of the sheet.
     """
-    rows = list(read_rows(table, findings))
     if refusal := _judge_count(len(rows)):
         findings.append(table.sheet.finding(refusal))
     by_id = index_by_id(rows, findings)

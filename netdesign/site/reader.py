@@ -54,7 +54,6 @@ from netdesign.site.tables import (
     find_table,
     is_absent,
     is_near,
-    read_field,
     read_rows,
 )
 from netdesign.site.type_resistances import check_tests, fill_in_resistances
@@ -109,15 +108,16 @@ def read_site(
     nets, ranges = tables[NETS.name], tables[RANGES.name]
     absent = [plan.name for plan in _TYPE_SHEETS if is_absent(workbook, plan)]
     net_rows: tuple[NetRow, ...] = ()
+    lines = list(read_rows(nets, findings)) if nets else []
     if nets:
         net_rows = build_net_rows(
-            nets, type_sheets, snow, findings, absent, ends, ranged
+            nets, lines, type_sheets, snow, findings, absent, ends, ranged
         )
     built = _read_ranges(ranges, findings)
     if ranges and built.ranges:
         refuse_large_grid(ranges, built.ranges, len(net_rows), findings)
         check_layers(net_rows, snow, built.ranges, findings)
-    ids = _list_ids(nets)
+    ids = {line["id"].word for line in lines} - {""}
     monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
     winter = read_winter(tables[WINTER.name], ids, findings)
     declared = read_declared(tables[DECLARED.name], ids, findings)
@@ -125,15 +125,11 @@ def read_site(
     findings.extend(_note_unread(workbook, findings))
     if built.ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings, fold_findings(findings))
-    lines = Lines(
-        nets=list(read_rows(nets, [])) if nets else [],
-        ends=ends,
-        snow=snow,
-        types=type_sheets,
-        ranges=built.lines,
-    )
     notes = fold_findings([_shorten(one) for one in findings])
-    questions = ask(lines, confirmed, findings)
+    stated = Lines(
+        nets=lines, ends=ends, snow=snow, types=type_sheets, ranges=built.lines
+    )
+    questions = ask(stated, confirmed, findings)
     rows = (tell_replaced(row, replaced) for row in net_rows)
     return Site(
         project=project,
@@ -238,12 +234,6 @@ def _read_project(
 
 def _read_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     return build_ranges(table, findings) if table else RangesSheet()
-
-
-def _list_ids(nets: Table | None) -> set[str]:
-    """Ids of sheet Nets, also of lines with a fault: that is a finding of its own."""
-    ids = (read_field(nets, "id", row, []).word for row in nets.rows) if nets else ()
-    return {one for one in ids if one}
 
 
 def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] | None:

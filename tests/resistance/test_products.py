@@ -454,5 +454,6 @@ def test_a_thousand_names_that_are_none_give_none():
 )
 def test_no_text_takes_long_to_read(part):
     """Patterns that try every way of a repeated part would never end."""
-    find_product("GEWI " + part * 100 + "!")
-    find_product(part * 100 + "b500b ß²®½")
+    for name in ("GEWI " + part * 100 + "!", part * 100 + "b500b ß²®½"):
+        found = find_product(name)
+        assert found is None or found.family in ("solid bar", "rope")
