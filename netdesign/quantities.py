@@ -10,7 +10,7 @@ from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Quantity:
+class Form:
     """Name and form of one quantity in every output.
 
     Attributes
@@ -50,8 +50,8 @@ def _row(
     unit: str,
     decimals: int | None,
     most: int = 4,
-) -> Quantity:
-    return Quantity(key=key, symbol=symbol, unit=unit, decimals=decimals, most=most)
+) -> Form:
+    return Form(key=key, symbol=symbol, unit=unit, decimals=decimals, most=most)
 
 
 _ROWS = (
@@ -143,7 +143,7 @@ _ROWS = (
     _row("change_percent", "", "%", 1),
     # quality of a solution
     _row("error_percent", "", "%", 2),
-    Quantity(
+    Form(
         key="balance_residual",
         symbol="",
         unit="",
@@ -152,4 +152,4 @@ _ROWS = (
     ),
 )
 
-QUANTITIES: Mapping[str, Quantity] = MappingProxyType({row.key: row for row in _ROWS})
+QUANTITIES: Mapping[str, Form] = MappingProxyType({row.key: row for row in _ROWS})

@@ -24,7 +24,7 @@ ROWS = (
     {"words"},
     {ROOT},
     {"edge"},
-    {"numerics"},
+    {"numerics", "calculation"},
     {"resistance", "search", "snowpack", "core"},
     {"snow", "cable", "structure", "checks"},
     {"haefeli"},

@@ -3,7 +3,7 @@
 from netdesign.checks.check import (
     check_member,
     declare,
-    find_characteristic,
+    find_resistance,
     judge,
     withhold,
 )
@@ -30,7 +30,7 @@ __all__ = [
     "check_inclination",
     "check_member",
     "declare",
-    "find_characteristic",
+    "find_resistance",
     "judge",
     "list_standards",
     "load_standard",

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
+from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.checks.forces import rate, resist_by_tests
 from netdesign.checks.loader import Standard, StandardValue
-from netdesign.checks.result import Band, CheckResult, Declaration, GivenResistance
+from netdesign.checks.result import CheckResult, Declaration, GivenResistance
 from netdesign.checks.schema import (
     ACTION_FACTOR,
     CORRELATION_LEAST,
     CORRELATION_MEAN,
 )
 from netdesign.outcome import Verdict
-from netdesign.resistance.pull_out import compute_pull_out_from_tests
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_member, name_mode
+
+_CORRELATIONS = (CORRELATION_MEAN, CORRELATION_LEAST)
 
 
 def judge(
@@ -55,22 +60,23 @@ def judge(
 
 
 def check_member(
-    action: Band | None,
+    action: Quantity,
     resistance: GivenResistance,
     standard: Standard,
     *,
     gap: Message | None,
     doubt: Message | None = None,
+    strength: Quantity | None = None,
 ) -> CheckResult:
-    """Check one member in one mode: factored action against factored resistance.
+    """Check one member in one mode: design force against design resistance.
 
     Parameters
     ----------
-    action : Band or None
-        Largest characteristic force over the solved cases, per anchor [N]; None if
-        no case was solved.
+    action : Quantity
+        Largest characteristic force over the solved cases, per anchor [kN]; without a
+        value if no case was solved.
     resistance : GivenResistance
-        Names member and mode; its value [N] may be missing.
+        Names member and mode; its value may be missing.
     standard : Standard
         Profile that gives the partial factors.
     gap : Message or None
@@ -78,42 +84,79 @@ def check_member(
         does. With a gap nothing passes.
     doubt : Message, optional
         Why the model itself may not hold for the action. With a doubt nothing passes.
+    strength : Quantity, optional
+        R_k [kN]; that of ``resistance`` unless told otherwise.
 
     Returns
     -------
     CheckResult
         Never a pass where anything needed is missing.
     """
-    if action is None:
-        gap = gap or say("check.no_case_solved")
-    on_action = standard.find(ACTION_FACTOR)
-    on_resistance = standard.find_resistance_factor(resistance.mode, resistance.basis)
-    demand = action.times(on_action.value_si) if action and on_action else None
-    characteristic, lack = find_characteristic(resistance, standard)
-    strength = _design_resistance(characteristic, on_resistance)
-    utilisation = demand.over(strength) if demand and strength else None
-    open_points = [one for one in (gap, doubt) if one]
-    gaps = [*open_points, *([lack] if lack else [])]
-    gaps += _missing(resistance, standard, on_action, on_resistance)
-    is_slack = action is not None and action.high == 0.0
-    verdict = _judge_utilisation(utilisation, is_complete=not open_points)
+    strength = strength or find_resistance(resistance, standard)
+    on_action = find_action_factor(standard)
+    on_resistance, clause = _find_resistance_factor(resistance, standard, strength)
+    used = rate(action, on_action, strength, on_resistance)
+    open_points = tuple(one for one in (gap, doubt) if one)
+    gaps = tuple(dict.fromkeys((*open_points, *used.lacks)))
+    verdict = _judge_utilisation(used, is_complete=not open_points)
     return CheckResult(
         id=f"{resistance.member}.{resistance.mode}",
-        clause=on_resistance.clause if on_resistance else "-",
+        clause=clause,
         member=resistance.member,
         mode=resistance.mode,
         verdict=verdict,
-        reason=_explain(verdict, gaps, is_slack=is_slack),
-        action=action,
-        action_factor=on_action.value_si if on_action else None,
-        demand=demand,
-        resistance=characteristic,
-        resistance_factor=on_resistance.value_si if on_resistance else None,
-        design_resistance=strength,
-        utilisation=utilisation,
-        assumed=list_assumed(on_action, on_resistance),
-        correlation=find_correlation(resistance, standard),
+        reason=_explain(verdict, gaps, is_slack=action.high == 0.0),
+        used=used,
+        assumed=_list_assumed_factors(resistance, standard),
     )
+
+
+def find_action_factor(standard: Standard) -> Quantity:
+    """Factor on every action, gamma_E."""
+    found = standard.find(ACTION_FACTOR)
+    lack = None if found else lack_factor(ACTION_FACTOR)
+    return given(
+        *("γ_E", found.value_si if found else None, "-", ACTION_FACTOR),
+        kind=Kind.PROFILE,
+        lack=lack,
+    )
+
+
+def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
+    """Value of a profile under its symbol, in the profile's unit."""
+    found = standard.find(key)
+    return given(
+        symbol,
+        found.value if found else None,
+        found.unit if found else "-",
+        key,
+        kind=Kind.PROFILE,
+        lack=None if found else lack_factor(key),
+    )
+
+
+def find_missing_force(reason: Message) -> Quantity:
+    """Characteristic force that is not known."""
+    return given("E_k", None, "kN", "", kind=Kind.SOLVED, lack=reason)
+
+
+def _find_resistance_factor(
+    resistance: GivenResistance, standard: Standard, strength: Quantity
+) -> tuple[Quantity, str]:
+    """Factor of the mode on its basis, gamma_R, and its clause."""
+    found = standard.find_resistance_factor(resistance.mode, resistance.basis)
+    if found is not None:
+        factor = given(
+            *("γ_R", found.value_si, "-", found.id), kind=Kind.PROFILE, lack=None
+        )
+        return factor, found.clause
+    # without a resistance there is no basis yet, and no factor to miss
+    is_basis_open = _has_factor_of_some_basis(resistance, standard)
+    lack = _lack_resistance_factor(resistance, standard)
+    if is_basis_open and strength.lacks:
+        lack = strength.lacks[0]
+    source = f"resistance.{resistance.mode}"
+    return given("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
 
 
 def declare(result: CheckResult, declaration: Declaration | None) -> CheckResult:
@@ -141,54 +184,41 @@ def withhold(result: CheckResult, reason: Message) -> CheckResult:
     return replace(result, verdict=Verdict.NOT_PROVEN, reason=told, is_unbounded=False)
 
 
-def find_characteristic(
-    resistance: GivenResistance, standard: Standard
-) -> tuple[float | None, Message | None]:
-    """Characteristic resistance, and what is missing for it.
+def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity:
+    """Characteristic resistance, R_k [kN], as given or from tests.
 
-    Parameters
-    ----------
-    resistance : GivenResistance
-        A value, or tests from which it follows.
-    standard : Standard
-        Profile that gives the correlation factors of tests.
-
-    Returns
-    -------
-    float or None
-        [N]; None where it cannot be known.
-    Message or None
-        Why it cannot be known, or is not usable; None if it can.
+    Without a value, with the reason, where it cannot be known or used.
     """
-    what = _name_place(resistance)
-    if resistance.value is not None:
-        if _is_usable(resistance.value):
-            return resistance.value, None
-        value = resistance.value
-        return value, say("check.resistance_not_usable", value=value, what=what)
-    if resistance.tests is None:
-        return None, resistance.lack or say("check.no_resistance", what=what)
-    factors = find_correlation(resistance, standard)
-    if factors is None:
-        count = resistance.tests.count
-        return None, say("check.no_correlation", count=count, what=what)
-    on_mean, on_least = factors
-    value = compute_pull_out_from_tests(
-        resistance.tests, correlation_mean=on_mean, correlation_least=on_least
+    what, source = _name_place(resistance), resistance.source
+    value, tests = resistance.value, resistance.tests
+    if value is not None:
+        if not _is_usable(value):
+            lack = say("check.resistance_not_usable", value=value, what=what)
+            return given("R_k", None, "kN", source, lack=lack)
+        return given("R_k", kilonewton_from_newton(value), "kN", source)
+    if tests is None:
+        lack = resistance.lack or say("check.no_resistance", what=what)
+        return given("R_k", None, "kN", source, lack=lack)
+    factors = [_find_correlation(tests.count, standard, key) for key in _CORRELATIONS]
+    if None in factors:
+        lack = say("check.no_correlation", count=tests.count, what=what)
+        return given("R_k", None, "kN", source, lack=lack)
+    on_mean, on_least = (
+        given(symbol, factor, "-", key, kind=Kind.PROFILE)
+        for symbol, factor, key in zip(
+            ("ξ_m", "ξ_min"), factors, _CORRELATIONS, strict=True
+        )
     )
-    return value, None
+    mean, least = (
+        given(symbol, kilonewton_from_newton(force), "kN", source)
+        for symbol, force in (("R_m", tests.mean), ("R_min", tests.least))
+    )
+    return resist_by_tests(mean, on_mean, least, on_least)
 
 
-def find_correlation(
-    resistance: GivenResistance, standard: Standard
-) -> tuple[float, float] | None:
-    """Factors on mean and least of tests; None without tests, or without factors."""
-    if resistance.value is not None or resistance.tests is None:
-        return None
-    tables = map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))
-    factors = [one.find(resistance.tests.count) if one else None for one in tables]
-    on_mean, on_least = factors
-    return None if on_mean is None or on_least is None else (on_mean, on_least)
+def _find_correlation(count: int, standard: Standard, key: str) -> float | None:
+    table = standard.find_table(key)
+    return table.find(count) if table else None
 
 
 def _name_place(resistance: GivenResistance) -> Message:
@@ -201,39 +231,21 @@ def _name_place(resistance: GivenResistance) -> Message:
     return say("check.of_cell", what=kind, cell=resistance.source)
 
 
-def _judge_utilisation(utilisation: Band | None, *, is_complete: bool) -> Verdict:
-    if utilisation is None:
+def _judge_utilisation(used: Quantity, *, is_complete: bool) -> Verdict:
+    if used.low is None or used.high is None:
         return Verdict.NOT_PROVEN
-    return judge(
-        utilisation.low, utilisation.high, least=0.0, most=1.0, is_complete=is_complete
-    )
-
-
-def _design_resistance(
-    value: float | None, factor: StandardValue | None
-) -> float | None:
-    if factor is None or value is None or not _is_usable(value):
-        return None
-    return value / factor.value_si
+    return judge(used.low, used.high, least=0.0, most=1.0, is_complete=is_complete)
 
 
 def _is_usable(resistance: float) -> bool:
     return 0.0 < resistance < math.inf
 
 
-def _missing(
-    resistance: GivenResistance,
-    standard: Standard,
-    on_action: StandardValue | None,
-    on_resistance: StandardValue | None,
-) -> list[Message]:
-    """List the factors that a utilisation lacks, by their names."""
-    lacks = []
-    if on_action is None:
-        lacks.append(lack_factor(ACTION_FACTOR))
-    if on_resistance is None and not _has_factor_of_some_basis(resistance, standard):
-        lacks.append(_lack_resistance_factor(resistance, standard))
-    return lacks
+def _list_assumed_factors(
+    resistance: GivenResistance, standard: Standard
+) -> tuple[str, ...]:
+    factor = standard.find_resistance_factor(resistance.mode, resistance.basis)
+    return list_assumed(standard.find(ACTION_FACTOR), factor)
 
 
 def lack_factor(factor: str) -> Message:
@@ -268,12 +280,11 @@ def _has_factor_of_some_basis(resistance: GivenResistance, standard: Standard) -
     )
 
 
-def _explain(verdict: Verdict, gaps: list[Message], *, is_slack: bool) -> Message:
+def _explain(verdict: Verdict, also: Sequence[Message], *, is_slack: bool) -> Message:
     """One sentence without digits, so that rounding cannot contradict it."""
-    also = tuple(gaps)
     if verdict is Verdict.FAIL:
         if also:
-            return say("check.fails_besides", gaps=also)
+            return say("check.fails_besides", gaps=tuple(also))
         return say("check.fails")
     if verdict is Verdict.NOT_PROVEN:
         return not_proven(*also or (say("check.band_spans_resistance"),))

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Protocol
 
+from netdesign.calculation.quantity import Quantity
+from netdesign.calculation.steps import list_named
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import PullOutTests
@@ -129,16 +131,8 @@ class CheckResult:
         From ``check.judge`` alone.
     reason : Message
         Why, in one sentence.
-    action : Band or None
-        Characteristic force [N].
-    action_factor : float or None
-        Partial factor on the action [-].
-    demand : Band or None
-        Design force, action times factor [N].
-    resistance, resistance_factor, design_resistance : float or None
-        Characteristic [N], partial factor [-], and their quotient [N].
-    utilisation : Band or None
-        Demand over design resistance [-].
+    used : Quantity or None
+        Utilisation with all that it follows from: of a check of a force.
     assumed : tuple of str
         Ids of the profile's values in this check that are only assumed.
     declaration : Declaration or None
@@ -146,8 +140,6 @@ class CheckResult:
     is_unbounded : bool
         Nothing is left to resist the demand: its utilisation is infinite, and no
         number.
-    correlation : tuple of float or None
-        Factors on mean and least of the tests that gave the resistance [-].
     """
 
     id: str
@@ -156,14 +148,17 @@ class CheckResult:
     mode: str
     verdict: Verdict
     reason: Message
-    action: Band | None = None
-    action_factor: float | None = None
-    demand: Band | None = None
-    resistance: float | None = None
-    resistance_factor: float | None = None
-    design_resistance: float | None = None
-    utilisation: Band | None = None
+    used: Quantity | None = None
     assumed: tuple[str, ...] = ()
     declaration: Declaration | None = None
     is_unbounded: bool = False
-    correlation: tuple[float, float] | None = None
+
+    def find(self, symbol: str) -> Quantity | None:
+        """Quantity of the calculation under a symbol; None if it has no value."""
+        named = [] if self.used is None else list_named(self.used)
+        return next((q for q in named if q.symbol == symbol and q.is_known), None)
+
+    def find_value(self, symbol: str) -> float | None:
+        """Value of a quantity of the calculation, in its unit."""
+        found = self.find(symbol)
+        return found.value if found else None

@@ -8,8 +8,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from netdesign.calculation.quantity import Quantity
+from netdesign.calculation.quantity import given as quantity
 from netdesign.checks import Standard
-from netdesign.checks.check import lack_factor
+from netdesign.checks.check import (
+    find_action_factor,
+    find_resistance,
+    lack_factor,
+)
+from netdesign.checks.forces import resist_by_friction
 from netdesign.checks.schema import ACTION_FACTOR, POST_EFFICIENCY
 from netdesign.envelope.ranges import Ranges
 from netdesign.errors import ModelError
@@ -24,7 +31,6 @@ from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,
     compute_post_moment,
-    compute_sliding_resistance,
 )
 from netdesign.resistance.steel import (
     BentBar,
@@ -35,6 +41,7 @@ from netdesign.site.model import AnchorType, BaseFriction, NetRow, Resistance
 from netdesign.structure.layout import place_support
 from netdesign.study.corners import list_corners
 from netdesign.study.effects import find_row_glide_factor, load_guideline
+from netdesign.study.member_force import MemberForce
 from netdesign.study.pulls import AnchorPull
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -54,15 +61,12 @@ class Circumstances:
         Net row, its envelope's ranges, the profile.
     pull : AnchorPull or None
         On the anchor.
-    pressing : float
-        Characteristic force across the base plate [N].
     """
 
     row: NetRow
     ranges: Ranges
     standard: Standard
     pull: AnchorPull | None
-    pressing: float
 
 
 def settle_resistance(given: Resistance, known: Circumstances) -> Resistance:
@@ -72,8 +76,6 @@ def settle_resistance(given: Resistance, known: Circumstances) -> Resistance:
             return _settle_bending(given, given.dimensions, known.pull)
         case PostSection():
             return _settle_post(given, given.dimensions, known)
-        case BaseFriction():
-            return _settle_base(given, given.dimensions, known)
         case _:
             return given
 
@@ -262,20 +264,10 @@ def _press(
     )
 
 
-def _settle_base(
-    given: Resistance, base: BaseFriction, known: Circumstances
-) -> Resistance:
-    on_action = known.standard.find(ACTION_FACTOR)
-    if on_action is None or known.pressing == 0.0:
-        return given
-    pressing = on_action.value * known.pressing
-    return replace(
-        given,
-        value=compute_sliding_resistance(pressing, base.coefficient),
-        derivation=say(
-            "derivation.sliding",
-            friction=base.coefficient,
-            factor=on_action.value,
-            pressing=kilonewton_from_newton(known.pressing),
-        ),
-    )
+def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantity:
+    """Characteristic resistance of a member, also one that its force brings [kN]."""
+    base, pressing = given.dimensions, force.pressing
+    if not isinstance(base, BaseFriction) or pressing is None or not pressing.value:
+        return find_resistance(given, standard)
+    friction = quantity("μ_b", base.coefficient, "-", given.source)
+    return resist_by_friction(friction, find_action_factor(standard), pressing)

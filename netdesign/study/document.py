@@ -24,7 +24,7 @@ from netdesign.errors import ContentError, StudyError
 from netdesign.study.records import SCHEMA, RowStudy, Study
 from netdesign.words.message import say
 
-_OLD_SCHEMA = "netdesign.study/1"
+_OLD_SCHEMAS = ("netdesign.study/1", "netdesign.study/2")
 # As a study without its digest has that line.
 _OPEN_LINE = '\n "digest": ""'
 _HOW_FAR = 200  # signs from the start, among which a document names its schema
@@ -76,8 +76,9 @@ def read_document(text: str) -> Study:
     """
     from pydantic import ValidationError
 
-    if _OLD_SCHEMA in text[:_HOW_FAR]:
-        raise StudyError(say("study_file.old_schema", old=_OLD_SCHEMA, new=SCHEMA))
+    for old in _OLD_SCHEMAS:
+        if f'"{old}"' in text[:_HOW_FAR]:
+            raise StudyError(say("study_file.old_schema", old=old, new=SCHEMA))
     try:
         study: Study = read_json(Study, text)
         _require_sense(study)

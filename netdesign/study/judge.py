@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import TypeVar
 
+from netdesign.calculation.steps import find_level
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Ranges
@@ -19,8 +20,8 @@ from netdesign.study.check_run import CheckRun
 from netdesign.study.end_note import record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.floor import bound_row_floor, find_row_floor, record_floor
-from netdesign.study.member_check import RowCheck
-from netdesign.study.member_loads import RowLoads, find_loads
+from netdesign.study.judgement import Basis, Known
+from netdesign.study.known_row import know_row
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_history_notes,
@@ -39,7 +40,7 @@ from netdesign.study.record_monitoring import record_monitoring
 from netdesign.study.record_panel import record_panel
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_slab import record_slab
-from netdesign.study.record_statics import record_held_sideways, record_statics
+from netdesign.study.record_statics import record_statics
 from netdesign.study.record_support import record_anchors, record_drawing, record_head
 from netdesign.study.records import (
     SCHEMA,
@@ -48,6 +49,7 @@ from netdesign.study.records import (
     Study,
     list_verdicts,
 )
+from netdesign.study.row_check import RowCheck
 from netdesign.study.row_checks import check_row, distrust
 from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message
@@ -122,11 +124,8 @@ def judge_row(
 ) -> RowStudy:
     """Study of one row of a site, as ``judge_site`` makes it."""
     task = RowCheck(
-        site=site,
-        row=row,
+        basis=Basis(site=site, row=row, standard=standard, law=run.creep_law),
         solved=solved,
-        standard=standard,
-        law=run.creep_law,
         find_floor=_remember(find_row_floor, row, standard),
         bound_floor=_remember(bound_row_floor, row, standard),
         probe=probe,
@@ -143,19 +142,17 @@ def _remember(
 
 
 def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
-    row, solved = task.row, task.solved
-    extremes = solved.extremes
-    floor = task.find_floor(task.site.ranges)
-    loads = find_loads(
-        row, task.site.ranges, solved.results, extremes, task.standard, floor
-    )
-    checks, model_form = _check_row(task, extremes, loads)
+    site, row, standard = task.basis.site, task.basis.row, task.basis.standard
+    solved, extremes = task.solved, task.solved.extremes
+    floor = task.find_floor(site.ranges)
+    known = know_row(task.basis, solved.results, extremes, solved.gap, floor)
+    checks, model_form = _check_row(task, extremes, known)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
-    worst = _find_worst(checks)
-    governing = _governing_result(worst, extremes)
+    governing = _governing_result(_find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
     head = record_head(row, governing)
     independent = record_independent(governing, head)
+    effects, held = known.forces.effects, known.held
     return RowStudy(
         id=row.id,
         verdict=merge_verdicts(list_verdicts(checks, independent)),
@@ -167,55 +164,54 @@ def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
         questions=list(row.questions),
-        monitoring=record_monitoring(task.site, row),
-        anchors=record_anchors(governing, loads.effects),
-        pulls=record_pulls(loads.pulls),
+        monitoring=record_monitoring(site, row),
+        anchors=record_anchors(governing, effects),
+        pulls=record_pulls(known.pulls),
         head=head,
         independent=independent,
+        forces=list(known.forces.largest.values()),
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor, row),
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
         model_form=model_form,
         panel=record_panel(row, solved.results, extremes, governing),
-        notes=_list_notes(task, loads, checks, cases),
+        notes=_list_notes(task, known, checks, cases),
         statics=record_statics(row, solved.results, extremes, floor),
-        end_effects=record_end_effects(
-            row, task.site.ranges, run.creep_law, task.standard
-        ),
-        held_sideways=record_held_sideways(
-            row, solved.results, extremes, loads.sideways, floor
-        ),
+        end_effects=record_end_effects(row, site.ranges, run.creep_law, standard),
+        held_sideways=None if isinstance(held, Message) else held,
+        tilt=known.forces.tilt,
         envelope=_record_search(solved, checks),
     )
 
 
 def _check_row(
-    task: RowCheck, extremes: Mapping[str, Extreme], loads: RowLoads
+    task: RowCheck, extremes: Mapping[str, Extreme], known: Known
 ) -> tuple[list[CheckRecord], ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
     Where the program fails in one of those, it is not trusted in the checks either.
     """
-    checks = check_row(task, extremes, loads)
+    checks = check_row(task, extremes, known)
     worst = _find_worst(checks)
-    before = task.probe.faults if task.probe else 0
+    before = task.count_faults()
     form = _find_model_form(task, worst, _governing_result(worst, extremes))
-    if task.probe and task.probe.faults > before:
+    if task.count_faults() > before:
         checks = [distrust(check) for check in checks]
     return checks, form
 
 
 def _list_notes(
     task: RowCheck,
-    loads: RowLoads,
+    known: Known,
     checks: Sequence[CheckRecord],
     cases: Sequence[CaseRecord],
 ) -> list[Message]:
+    basis = task.basis
     return [
         *list_judged_notes(
-            *(task.site, task.row, task.standard, task.law),
-            effects=loads.effects,
-            pulls=loads.pulls,
+            *(basis.site, basis.row, basis.standard, basis.law),
+            effects=known.forces.effects,
+            pulls=known.pulls,
             checks=checks,
             cases=cases,
         ),
@@ -244,23 +240,24 @@ def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, flo
     """Solved force at which each check is just met, by member [N]."""
     levels: dict[str, list[tuple[str, float]]] = {}
     for check in checks:
-        action = check.action
-        if check.resistance_kN is not None and check.action_factor and action:
-            is_other = action.governs == "panel" or check.member in ROPE_OF
-            if _fails_by_floor(check) or is_other:
-                continue  # no coupled force turns it
-            on_row = check.action_factor * action.lateral_factor
-            on_row *= action.loaded_width_m / action.post_spacing_m
-            met = (check.resistance_kN / on_row - action.added_kN) / action.share
-            level = newton_from_kilonewton(met)
-            levels.setdefault(check.member, []).append((check.id, level))
+        is_other = check.is_by_panel or check.member in ROPE_OF
+        if check.resistance_kN is None or is_other or _fails_by_floor(check):
+            continue  # no coupled force turns it
+        force = check.name_force("c")
+        factor = (check.read("γ_E") or 1.0) * (check.read("t") or 1.0)
+        wanted = check.resistance_kN / factor
+        level = find_level(check.steps, f"{force[0]}_s", force, wanted)
+        if check.is_of_force and level is not None:
+            levels.setdefault(check.member, []).append(
+                (check.id, newton_from_kilonewton(level))
+            )
     return levels
 
 
 def _fails_by_floor(check: CheckRecord) -> bool:
     """Failure by the guideline's load alone."""
-    least = check.action.guideline_kN if check.action else None
-    demand = (least or 0.0) * (check.action_factor or 0.0)
+    least = check.read(check.name_force("g")) or 0.0
+    demand = least * (check.read("t") or 1.0) * (check.read("γ_E") or 0.0)
     return check.resistance_kN is not None and demand > check.resistance_kN
 
 
@@ -268,8 +265,7 @@ def _name_largest(check: CheckRecord) -> str:
     """Force that a check follows: of section, panel, or a rope at the row's end."""
     if check.member in ROPE_OF:
         return ROPE_OF[check.member]
-    is_by_panel = check.action is not None and check.action.is_by_panel
-    return name_in_panel(check.member) if is_by_panel else check.member
+    return name_in_panel(check.member) if check.is_by_panel else check.member
 
 
 def _find_worst(checks: Sequence[CheckRecord]) -> CheckRecord | None:
@@ -294,4 +290,4 @@ def _find_model_form(
     if task.probe is None or worst is None or governing is None:
         return None
     member = _name_largest(worst)
-    return record_model_form(task.probe, task.row, governing, member, worst)
+    return record_model_form(task.probe, task.basis.row, governing, member, worst)

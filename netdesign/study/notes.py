@@ -177,11 +177,11 @@ def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[M
         say(
             "row.acceptance_test",
             member=name_member(check.member),
-            load=factor.value * check.demand_high_kN,
+            load=factor.value * high,
             factor=factor.value,
         )
         for check in checks
-        if check.mode == "pull_out" and check.demand_high_kN
+        if check.mode == "pull_out" and (high := check.read_band("E_d")[1])
     ]
 
 
@@ -193,12 +193,11 @@ def list_one_anchor_notes(checks: Sequence[CheckRecord]) -> list[Message]:
     foot, along = (
         max(
             (
-                check.action_kN
+                force
                 for check in checks
                 if check.member == member
-                and check.action_kN is not None
-                and check.action is not None
-                and check.action.position == "edge"
+                and check.position == "edge"
+                and (force := check.read("E_k")) is not None
             ),
             default=None,
         )

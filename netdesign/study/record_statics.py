@@ -16,23 +16,18 @@ from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.axis import measure_pull
 from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member, RopeForce
-from netdesign.structure.splay import SplayWeights, weigh_splay
 from netdesign.study.case_records import CasePoint
 from netdesign.study.guideline_records import GuidelineLoadRecord
 from netdesign.study.record_cases import record_point
 from netdesign.study.sideways import (
     GUYS,
     GUYS_BY_PANEL,
-    Sideways,
-    find_hidden,
     place_row,
 )
-from netdesign.study.support_records import HeldSidewaysRecord, StaticsRecord
+from netdesign.study.support_records import StaticsRecord
 from netdesign.units import (
-    degree_from_radian,
     given_degree_from_radian,
     kilonewton_from_newton,
-    kilonewton_if_known,
 )
 
 
@@ -259,51 +254,3 @@ def _record_state(
         is_by_panel=pulls.is_by_panel,
         mid_foot_kN=kilonewton_from_newton(pulls.mid_foot),
     )
-
-
-def record_held_sideways(
-    row: NetRow,
-    results: Sequence[CaseResult],
-    extremes: Mapping[str, Extreme],
-    sideways: Sideways,
-    floor: Floor | None,
-) -> HeldSidewaysRecord | None:
-    """Numbers that the load along the row follows from; None where it is not held."""
-    solved = [one for one in results if one.is_converged and one.anchors is not None]
-    weights = [(one, weigh_splay(place_row(row, one))) for one in solved]
-    known = [(one, found) for one, found in weights if found is not None]
-    if sideways.gap is not None or not known:
-        return None
-    states = _list_states(solved)
-    tensions = [-_measure(one)["least_tension"] for one in states]
-    hidden = sum(find_hidden(guy, extremes) for guy in GUYS if guy in extremes)
-    head = floor.head if floor else None
-    uphill, uphill_at = _find_largest(known, "largest_uphill")
-    downhill, downhill_at = _find_largest(known, "largest_downhill")
-    post, post_at = _find_largest(known, "post")
-    return HeldSidewaysRecord(
-        share=sideways.share,
-        splay_deg=degree_from_radian(sideways.splay),
-        pull_low_kN=kilonewton_from_newton(sideways.pull.low),
-        pull_kN=kilonewton_from_newton(sideways.pull.value),
-        pull_high_kN=kilonewton_from_newton(sideways.pull.high),
-        solved_tension_kN=kilonewton_from_newton(min(tensions)),
-        hidden_tension_kN=kilonewton_from_newton(hidden),
-        floor_tension_kN=kilonewton_if_known(head.least_tension if head else None),
-        least_tension_kN=kilonewton_from_newton(sideways.least_tension),
-        uphill_part=uphill,
-        uphill_at_deg=uphill_at,
-        downhill_part=downhill,
-        downhill_at_deg=downhill_at,
-        post_part=post,
-        post_at_deg=post_at,
-    )
-
-
-def _find_largest(
-    known: Sequence[tuple[CaseResult, SplayWeights]], name: str
-) -> tuple[float, float]:
-    """Largest value over the cases [-], and the inclination that it has there [deg]."""
-    result, weights = max(known, key=lambda pair: getattr(pair[1], name))
-    at = given_degree_from_radian(result.case.inclination)
-    return float(getattr(weights, name)), at

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import ClassVar, Literal
 
+from netdesign.calculation.steps import Step
 from netdesign.edge.json_text import (
     JsonPart,
     join_items,
@@ -23,6 +24,7 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import EnvelopeRecord
+from netdesign.study.force_records import ForceRecord
 from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
 from netdesign.study.opinion_records import ModelFormRecord, SlabRecord
 from netdesign.study.support_records import (
@@ -38,90 +40,8 @@ from netdesign.study.support_records import (
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
-SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
+SCHEMA: Literal["netdesign.study/3"] = "netdesign.study/3"
 _DEPTH_OF_ROWS = 2  # in the document and in its list of rows
-
-
-@dataclass(frozen=True, kw_only=True)
-class SidewaysRecord:
-    """Load along the row at the head, as one member has it: (S17), (S18)."""
-
-    part: float  # c of a guy, w of the post [-]
-    share: float  # of the pull on the head, along the row [-]
-    pull_kN: float  # largest on a head, of a support inside a row
-    splay_deg: float
-    least_tension_kN: float | None  # of the guys at work; None in a guy
-
-
-@dataclass(frozen=True, kw_only=True)
-class ActionRecord:
-    """Steps from the solved force of a support to its characteristic force."""
-
-    solved_kN: float  # of a support inside a row, over the envelope
-    post_spacing_m: float
-    position: str  # "intermediate", or "edge": the first or last support
-    loaded_width_m: float
-    end_factor: float  # f_R, 0 inside a row
-    end_length_m: float
-    lateral_factor: float
-    coupled_kN: float  # on this support: upper end, with what may hide
-    other_width_m: float | None = None  # on the other side of a threshold close by
-    floor_kN: float | None = None  # the guideline's, inside a row; None: no floor
-    guideline_kN: float | None = None  # the same on this support
-    floor_case: str = ""  # "load_case_1" or "load_case_2"
-    floor_inclination_deg: float | None = None  # at which it is largest
-    governs: str = "coupled"  # or "panel", "guideline": the largest of the three
-    share: float = 1.0  # of the solved force, in this member or along the slope
-    added_kN: float = 0.0  # by the load along the row at the head
-    added_low_kN: float = 0.0
-    added_high_kN: float = 0.0
-    sideways: SidewaysRecord | None = None  # what ``added_kN`` follows from
-    solved_low_kN: float | None = None  # ends of the band of ``solved_kN``;
-    solved_high_kN: float | None = None  # the upper one with what may hide
-    foot_part_kN: float | None = None  # of an anchor that carries net and uphill guy
-    guy_part_kN: float | None = None
-    panel_kN: float | None = None  # by the panel between posts, as ``solved_kN``
-    panel_low_kN: float | None = None
-    panel_support_kN: float | None = None  # as ``coupled_kN``
-    along_kN: float = 0.0  # of it by the end guy, on the post at the row's end
-    along_low_kN: float = 0.0
-    along_high_kN: float = 0.0
-
-    @property
-    def on_row(self) -> float:
-        """Force on the support over that of a support inside a plain row [-]."""
-        return self.loaded_width_m / self.post_spacing_m * self.lateral_factor
-
-    @property
-    def section_force(self) -> float:
-        """Force on the support by the section, (V1) of checks/THEORY.md [kN]."""
-        return (self.share * self.solved_kN + self.added_kN) * self.on_row
-
-    @property
-    def panel_force(self) -> float | None:
-        """Force on the support by the panel between posts; None without one [kN]."""
-        if self.panel_kN is None:
-            return None
-        inside = self.share * self.panel_kN + self.added_kN
-        return inside * self.on_row + self.along_kN
-
-    @property
-    def governing(self) -> str:
-        """Largest one of the three by their numbers, as ``governs`` has it."""
-        largest = max(self.coupled_kN, self.panel_support_kN or 0.0)
-        if self.guideline_kN and self.guideline_kN >= largest:
-            return "guideline"
-        return "panel" if self.is_by_panel else "coupled"
-
-    @property
-    def is_by_panel(self) -> bool:
-        """The force by the panel between posts is larger than that of the section."""
-        return (self.panel_support_kN or 0.0) > self.coupled_kN
-
-    @property
-    def larger_force(self) -> float:
-        """Larger one of both inside the row, whose parts are told [kN]."""
-        return (self.panel_kN or 0.0) if self.is_by_panel else self.solved_kN
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,9 +101,9 @@ class HoldRecord:
 class CheckRecord:
     """One check. Demand and resistance are design values.
 
-    The six numbers are None where they do not exist: a geometry check has no
-    force; a missing resistance gives no utilisation (and never a pass).
-
+    The three numbers are None where they do not exist: a geometry check has no force; a
+    missing resistance gives no utilisation (and never a pass). ``steps`` is the whole
+    calculation, from what is given and solved to the utilisation.
     Where nothing is left to resist the demand, ``is_unbounded`` says so: JSON has no
     infinite number, so ``utilisation`` is None there, too.
     """
@@ -193,28 +113,62 @@ class CheckRecord:
     member: str
     mode: str
     demand_kN: float | None
-    demand_low_kN: float | None
-    demand_high_kN: float | None
     resistance_kN: float | None
     utilisation: float | None
     verdict: Verdict
     case: CasePoint | None
     reason: Text  # one sentence, always there
-    action_kN: float | None = None  # characteristic action
-    action_factor: float | None = None
-    resistance_characteristic_kN: float | None = None
-    resistance_factor: float | None = None
+    governs: str = ""  # "coupled", "panel", "guideline"; "" of a check without a force
+    load_case: str = ""  # of the guideline: "load_case_1" or "load_case_2"
+    load_inclination_deg: float | None = None  # at which it is largest
     resistance_basis: str = ""  # "tested", "computed", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
-    action: ActionRecord | None = None
+    steps: list[Step] = field(default_factory=list)
     declared: DeclarationRecord | None = None  # whatever the verdict
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
     holds: list[HoldRecord] = field(default_factory=list)
     position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
     is_unbounded: bool = False  # utilisation beyond any number; the check fails
+
+    @cached_property
+    def known(self) -> dict[str, Step]:
+        """Steps by their symbols."""
+        return {step.symbol: step for step in self.steps}
+
+    def read(self, symbol: str) -> float | None:
+        """Value of a step, in its unit; None where it is missing."""
+        step = self.known.get(symbol)
+        return step.value if step else None
+
+    def read_band(self, symbol: str) -> tuple[float | None, float | None]:
+        """Low and high end of a step."""
+        step = self.known.get(symbol)
+        return (step.ends[0], step.ends[2]) if step else (None, None)
+
+    @property
+    def is_of_force(self) -> bool:
+        """It compares a force that is known with a resistance."""
+        return bool(self.governs)
+
+    @property
+    def is_by_panel(self) -> bool:
+        """The force by the panel between posts is larger than that of the section."""
+        by_panel = self.read_band(self.name_force("p"))[1] or 0.0
+        return by_panel > (self.read_band(self.name_force("c"))[1] or 0.0)
+
+    def name_force(self, load: str) -> str:
+        """Symbol of a force on the support: of a base that slides, that across it.
+
+        ``load`` is "c", "p" or "g": of section, panel, guideline. Without another load
+        that of the section is E_k itself.
+        """
+        letter = "V" if "V_k" in self.known else "E"
+        name = f"{letter}_{load}"
+        is_alone = load == "c" and name not in self.known
+        return f"{letter}_k" if is_alone else name
 
     @property
     def used(self) -> float | None:
@@ -231,14 +185,7 @@ class CheckRecord:
     @property
     def utilisation_band(self) -> tuple[float | None, float | None]:
         """Utilisation at the low and at the high end of the demand [-]."""
-        low, high, resistance = (
-            self.demand_low_kN,
-            self.demand_high_kN,
-            self.resistance_kN,
-        )
-        if not resistance or low is None or high is None:
-            return None, None
-        return low / resistance, high / resistance
+        return self.read_band("μ")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -292,6 +239,7 @@ class RowStudy:
     anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
     pulls: list[PullRecord] = field(default_factory=list)  # over all solved cases
+    forces: list[ForceRecord] = field(default_factory=list)  # that checks rest on
     guideline: GuidelineRecord | None = None
     floor: FloorRecord | None = None  # None under a profile without a floor
     notes: list[Text] = field(default_factory=list)
@@ -300,6 +248,7 @@ class RowStudy:
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
+    tilt: float = 0.0  # largest force along the slope at a post's base over that across
     slab: SlabRecord | None = None  # closed form, for comparison
     model_form: ModelFormRecord | None = None  # None where nothing governs
     end_effects: list[EndEffectRecord] = field(default_factory=list)
@@ -364,7 +313,7 @@ class Study:
         "allow_inf_nan": False,
     }
 
-    schema: Literal["netdesign.study/2"]
+    schema: Literal["netdesign.study/3"]
     verdict: Verdict
     what_if: list[ReplacedCell] = field(default_factory=list)  # of no site as built
     project: Project

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from netdesign.calculation.steps import list_steps
 from netdesign.checks import (
-    Band,
     CheckResult,
     Declaration,
     RowGeometry,
@@ -16,22 +16,17 @@ from netdesign.checks import (
     declare,
     withhold,
 )
-from netdesign.checks.check import not_proven
+from netdesign.checks.check import find_missing_force, not_proven
 from netdesign.envelope.ranges import Ranges
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth, Position
+from netdesign.study.dependent import resist
 from netdesign.study.effects import RowEffects, check_ends, find_effects
-from netdesign.study.records import (
-    CheckRecord,
-    DeclarationRecord,
-)
-from netdesign.units import (
-    kilonewton_from_newton,
-    kilonewton_if_known,
-)
+from netdesign.study.member_force import MemberForce
+from netdesign.study.records import CheckRecord, DeclarationRecord
 from netdesign.words.message import Message, say
 
 INCLINATION = "column.quantities.inclination"  # name of the net's inclination
@@ -123,19 +118,27 @@ def settle_check(
     return declare(result, declaration)
 
 
-def judge_forces(
-    action: Band | None,
+def judge_force(
     given: Resistance,
+    force: MemberForce | None,
     standard: Standard,
     *,
     gap: Message | None,
     doubt: Message | None,
 ) -> CheckResult:
-    """Check of forces; it fails where a moment alone is too much for a post.
+    """Check of a force; it fails where a moment alone is too much for a post.
 
     Nothing of the post is left for its force then: the utilisation has no bound.
     """
-    result = check_member(action, given, standard, gap=gap, doubt=doubt)
+    missing = find_missing_force(gap or say("check.no_case_solved"))
+    result = check_member(
+        force.action if force else missing,
+        given,
+        standard,
+        gap=gap,
+        doubt=doubt,
+        strength=resist(given, standard, force) if force else None,
+    )
     lack = given.lack
     if lack is None or lack.key != "post_bending.too_much":
         return result
@@ -148,58 +151,39 @@ def place_check(check: CheckRecord, position: Position) -> CheckRecord:
     return replace(check, id=f"{check.id}{name_of_end}", position=position)
 
 
-def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
-    """Check in engineer's units, without what stands behind its action."""
-    demand, utilisation = result.demand, result.utilisation
+def record_result(
+    result: CheckResult,
+    given: Resistance | None = None,
+    force: MemberForce | None = None,
+) -> CheckRecord:
+    """Check as the study has it, without its case and what would change it."""
+    declared = result.declaration
     return CheckRecord(
         id=result.id,
         clause=result.clause,
         member=result.member,
         mode=result.mode,
-        demand_kN=kilonewton_if_known(demand.value if demand else None),
-        demand_low_kN=kilonewton_if_known(demand.low if demand else None),
-        demand_high_kN=kilonewton_if_known(demand.high if demand else None),
-        resistance_kN=kilonewton_if_known(result.design_resistance),
-        utilisation=utilisation.value if utilisation else None,
+        demand_kN=result.find_value("E_d"),
+        resistance_kN=result.find_value("R_d"),
+        utilisation=result.find_value("μ"),
         verdict=result.verdict,
         case=None,
         reason=result.reason,
-        action_kN=kilonewton_if_known(result.action.value if result.action else None),
-        action_factor=result.action_factor,
-        resistance_characteristic_kN=kilonewton_if_known(result.resistance),
-        resistance_factor=result.resistance_factor,
+        governs=force.governs if force else "",
         resistance_basis=given.basis if given else "",
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
-        resistance_derivation=_describe_derivation(given, result),
-        declared=_record_declaration(result.declaration),
+        resistance_derivation=given.derivation if given else None,
+        steps=[] if result.used is None else list_steps(result.used),
+        declared=_record_declaration(declared) if declared else None,
         is_unbounded=result.is_unbounded,
     )
 
 
-def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
-    if given is None:
-        return None
+def _record_declaration(given: Declaration) -> DeclarationRecord:
     return DeclarationRecord(
         document=given.document,
         author=given.author,
         date=given.date,
         cell=given.source,
-    )
-
-
-def _describe_derivation(
-    given: Resistance | None, result: CheckResult
-) -> Message | None:
-    factors = result.correlation
-    if given is None or given.tests is None or factors is None:
-        return given.derivation if given else None
-    tests = given.tests
-    return say(
-        "check.from_tests",
-        mean=kilonewton_from_newton(tests.mean),
-        least=kilonewton_from_newton(tests.least),
-        count=tests.count,
-        on_mean=factors[0],
-        on_least=factors[1],
     )

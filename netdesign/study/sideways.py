@@ -23,138 +23,27 @@ from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.splay import SplayWeights, compute_splayed_head, weigh_splay
-from netdesign.study.records import SidewaysRecord
+from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.units import (
     degree_from_radian,
+    given_degree_from_radian,
     kilonewton_from_newton,
     kilonewton_if_known,
 )
 from netdesign.words.message import Message, say
 
-_SIDES: Mapping[str, str] = {
-    Member.UPHILL_GUY: "uphill",
-    Member.UPHILL_ANCHOR: "uphill",
-    Member.DOWNHILL_GUY: "downhill",
-    Member.DOWNHILL_ANCHOR: "downhill",
-}
 GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
 GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
-_NOTHING = Band(low=0.0, value=0.0, high=0.0)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MemberLoad:
-    """Way from the force of the section to that of one member.
-
-    Attributes
-    ----------
-    share : float
-        Part of the section's force in this member [-].
-    added : Band
-        Force that the load along the row adds [N].
-    pull, rise : float
-        Largest pull on a head, which brings it, and what it grows by at most where
-        that pull is twice as large; also where nothing is added yet [N].
-    sideways : SidewaysRecord or None
-        Numbers that ``added`` follows from; None where nothing is added.
-    """
-
-    share: float = 1.0
-    added: Band = _NOTHING
-    pull: float = 0.0
-    rise: float = 0.0
-    sideways: SidewaysRecord | None = None
-
-    def apply(self, force: Band) -> Band:
-        """Force of the member, of a support inside the row [N]."""
-        return Band(
-            low=self.share * force.low + self.added.low,
-            value=self.share * force.value + self.added.value,
-            high=self.share * force.high + self.added.high,
-        )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sideways:
-    """Load along the row at the heads of a net row.
-
-    Attributes
-    ----------
-    share : float
-        Part of the net's pull on a head that acts along the row [-].
-    splay : float
-        beta [rad]; 0 where nothing holds the load.
-    pull : Band
-        Largest pull of the net on a head, of a support inside the row [N].
-    least_tension : float
-        Least in-plane tension of the guys at work, less what may hide [N].
-    uphill, downhill : float
-        c of (S17) [-].
-    post : float
-        w of (S18) [-].
-    gap : Message or None
-        Why the load is not held; None if it is.
-    """
-
-    share: float
-    splay: float = 0.0
-    pull: Band = _NOTHING
-    least_tension: float = 0.0
-    uphill: float = 0.0
-    downhill: float = 0.0
-    post: float = 0.0
-    gap: Message | None = None
-
-    def load(self, member: str) -> MemberLoad:
-        """Member's force under the load along the row."""
-        if self.gap is not None or member == Member.FOOT_ANCHOR:
-            return MemberLoad()
-        if member in _SIDES:
-            is_uphill = _SIDES[member] == "uphill"
-            return self._load_guy(self.uphill if is_uphill else self.downhill)
-        return self._load_post()
-
-    def _load_guy(self, part: float) -> MemberLoad:
-        across = part * self.share / math.sin(self.splay)
-        return MemberLoad(
-            share=0.5 / math.cos(self.splay),
-            added=self.pull.times(across),
-            pull=self.pull.value,
-            rise=self.pull.high * across,
-            sideways=self._record(part, None),
-        )
-
-    def _load_post(self) -> MemberLoad:
-        held = self.pull.times(self.share / math.tan(self.splay))
-        low, value, high = (
-            self.post * max(one - self.least_tension, 0.0)
-            for one in (held.low, held.value, held.high)
-        )
-        return MemberLoad(
-            added=Band(low=low, value=value, high=high),
-            pull=self.pull.value,
-            rise=self.post * held.high,  # the guys' least tension does not grow
-            sideways=self._record(self.post, self.least_tension) if high else None,
-        )
-
-    def _record(self, part: float, tension: float | None) -> SidewaysRecord:
-        return SidewaysRecord(
-            part=part,
-            share=self.share,
-            pull_kN=kilonewton_from_newton(self.pull.value),
-            splay_deg=degree_from_radian(self.splay),
-            least_tension_kN=kilonewton_if_known(tension),
-        )
-
-
-def find_sideways(
+def find_held_sideways(
     row: NetRow,
     results: Sequence[CaseResult],
     extremes: Mapping[str, Extreme],
     standard: Standard,
     floor: HeadSpan | None = None,
-) -> Sideways:
-    """Load along the row at the heads of a net row, over its solved cases.
+) -> HeldSidewaysRecord | Message:
+    """Load along the row at its heads over the solved cases, or why it is not held.
 
     Parameters
     ----------
@@ -171,40 +60,66 @@ def find_sideways(
     """
     value, splay = standard.find(LATERAL_SHARE), row.guys.splay
     if value is None:
-        lack = say("ends.no_lateral_load", value=LATERAL_SHARE)
-        return Sideways(share=0.0, gap=lack)
-    gap = find_lack(row)
-    if gap is not None or splay is None:
-        return Sideways(share=value.value, gap=gap)
+        return say("ends.no_lateral_load", value=LATERAL_SHARE)
+    lack = find_lack(row)
+    if lack is not None or splay is None:
+        return lack or say("sideways.no_splay")
     heads = [head for one in results for head in _list_heads(row, one)]
     if not heads:
-        lack = describe_gap(results) or say("check.no_case_solved")
-        return Sideways(share=value.value, gap=lack)
-    for head in heads:
-        failed = head.fail(value.value, splay)
-        if failed is not None:
-            return Sideways(share=value.value, gap=failed)
+        return describe_gap(results) or say("check.no_case_solved")
+    failed = (head.fail(value.value, splay) for head in heads)
+    reason = next((one for one in failed if one is not None), None)
+    return reason or _record(row, heads, extremes, floor, (value.value, splay))
+
+
+def _record(
+    row: NetRow,
+    heads: Sequence[_Head],
+    extremes: Mapping[str, Extreme],
+    floor: HeadSpan | None,
+    load: tuple[float, float],
+) -> HeldSidewaysRecord:
+    share, splay = load
     hidden = {
         member: find_hidden(member, extremes)
         for member in (*GUYS, Member.POST)
         if member in extremes
     }
-    weights = [head.weights for head in heads if head.weights is not None]
     in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
-    return Sideways(
-        share=value.value,
-        splay=splay,
-        pull=_widen(heads, sum(hidden.values()), floor.pull if floor else 0.0),
-        least_tension=_find_least_tension(row, heads, in_guys, floor),
-        uphill=max(one.largest_uphill for one in weights),
-        downhill=max(one.largest_downhill for one in weights),
-        post=max(one.post for one in weights),
+    solved = min(head.tension for head in heads)
+    pull = _widen(heads, sum(hidden.values()), floor.pull if floor else 0.0)
+    least = _find_least_tension(row, solved - in_guys, floor)
+    (uphill, uphill_at), (downhill, downhill_at), (post, post_at) = (
+        _find_largest(heads, name)
+        for name in ("largest_uphill", "largest_downhill", "post")
+    )
+    return HeldSidewaysRecord(
+        share=share,
+        splay_deg=degree_from_radian(splay),
+        pull_low_kN=kilonewton_from_newton(pull.low),
+        pull_kN=kilonewton_from_newton(pull.value),
+        pull_high_kN=kilonewton_from_newton(pull.high),
+        solved_tension_kN=kilonewton_from_newton(solved),
+        hidden_tension_kN=kilonewton_from_newton(in_guys),
+        floor_tension_kN=kilonewton_if_known(floor.least_tension if floor else None),
+        least_tension_kN=kilonewton_from_newton(least),
+        uphill_part=uphill,
+        uphill_at_deg=uphill_at,
+        downhill_part=downhill,
+        downhill_at_deg=downhill_at,
+        post_part=post,
+        post_at_deg=post_at,
     )
 
 
-def _find_least_tension(
-    row: NetRow, heads: Sequence[_Head], hidden: float, floor: HeadSpan | None
-) -> float:
+def _find_largest(heads: Sequence[_Head], name: str) -> tuple[float, float]:
+    """Largest weight over the heads [-], and the inclination that it has there [deg]."""
+    known = [(float(getattr(one.weights, name)), one) for one in heads if one.weights]
+    value, head = max(known, key=lambda pair: pair[0])
+    return value, given_degree_from_radian(head.inclination)
+
+
+def _find_least_tension(row: NetRow, solved: float, floor: HeadSpan | None) -> float:
     """Least tension of the guys at work that is counted on [N].
 
     None where the panel is assumed: between two panels as they may be built, the guy of
@@ -214,17 +129,21 @@ def _find_least_tension(
     is_assumed = row.panel is not None and bool(row.panel.assumed)
     if is_assumed or (floor is not None and row.altitude is None):
         return 0.0
-    solved = max(0.0, min(head.tension for head in heads) - hidden)
-    return min(solved, floor.least_tension) if floor else solved
+    return min(max(0.0, solved), floor.least_tension if floor else math.inf)
 
 
-def check_sideways(row: NetRow, sideways: Sideways, gap: Message | None) -> CheckResult:
+def check_sideways(
+    row: NetRow,
+    held: HeldSidewaysRecord | Message,
+    standard: Standard,
+    gap: Message | None,
+) -> CheckResult:
     """Check of the load along the row; ``gap`` is that of the cases."""
-    lack = sideways.gap or gap
-    verdict = Verdict.NOT_PROVEN if lack else Verdict.PASS
-    held = say(
+    lack = held if isinstance(held, Message) else gap
+    share = standard.find(LATERAL_SHARE)
+    told = say(
         "sideways.held",
-        share=100.0 * sideways.share,
+        share=100.0 * (share.value if share else 0.0),
         splay=degree_from_radian(row.guys.splay or 0.0),
     )
     return CheckResult(
@@ -232,8 +151,8 @@ def check_sideways(row: NetRow, sideways: Sideways, gap: Message | None) -> Chec
         clause="-",
         member=Member.POST,
         mode="lateral",
-        verdict=verdict,
-        reason=not_proven(lack) if lack else held,
+        verdict=Verdict.NOT_PROVEN if lack else Verdict.PASS,
+        reason=not_proven(lack) if lack else told,
     )
 
 
@@ -246,6 +165,7 @@ class _Head:
     tension: float
     points: SupportPoints
     weights: SplayWeights | None
+    inclination: float
 
     @property
     def size(self) -> float:
@@ -292,6 +212,7 @@ def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
             tension=tension,
             points=points,
             weights=weigh_splay(points),
+            inclination=result.case.inclination,
         )
         for pull, wrong, tension in pulls
     ]

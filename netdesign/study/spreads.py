@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from netdesign.checks import CheckResult
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CREEP_LAWS
-from netdesign.study.member_check import MemberCheck, RowCheck
+from netdesign.study.judgement import MemberCheck
 from netdesign.study.probe import Probe
-from netdesign.study.records import (
-    SpreadRecord,
-)
+from netdesign.study.records import SpreadRecord
+from netdesign.study.row_check import RowCheck
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -24,81 +22,66 @@ def list_spreads(
 
     A floor cuts off what lies below it.
     """
-    used, scale = one.result.utilisation, _find_scale(one)
-    if used is None or scale is None or used.value == 0.0:
+    force, use = one.force, one.use
+    if force is None or use is None or not one.result.find_value("μ"):
         return []
+    is_by_panel = force.is_by_panel
+
+    def rate(solved: float) -> float:
+        return use * force.find_high(solved / 1e3, is_by_panel=is_by_panel)
+
+    largest = 1e3 * force.largest.high_kN
+    scale = rate(largest) / largest if largest else use * force.share / 1e3
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)
-    numerical = max(used.value, _use_at_cases(one, extreme))
-    spreads = [
-        SpreadRecord(
-            source=say("spread.numerical_error"),
-            low=used.low,
-            high=numerical,
-            in_verdict=True,
-            note=_note_floor(one),
-        ),
-        SpreadRecord(
-            source=say("spread.between_cases"),
-            low=used.value,
-            high=used.value + used.high - numerical,
-            in_verdict=True,
-            note=say("spread.unknown_along", axes=unknown) if unknown else None,
-        ),
-    ]
+    is_floor = force.governs == "guideline"
+    spreads = _split(
+        one,
+        rate(extreme.force.high),
+        say("spread.floor_governs") if is_floor else None,
+        say("spread.unknown_along", axes=unknown) if unknown else None,
+    )
     if task.probe is not None and extreme.force.value > 0.0:
-        spreads += _list_creep_laws(task.probe, task.row, extreme, scale)
+        spreads += _list_creep_laws(task.probe, task.basis.row, extreme, scale)
     return spreads
 
 
-def list_end_spreads(result: CheckResult, extreme: Extreme) -> list[SpreadRecord]:
+def list_end_spreads(one: MemberCheck, extreme: Extreme) -> list[SpreadRecord]:
     """Parts of the interval of an end member, in proportion to its rope's force."""
-    used, largest = result.utilisation, extreme.widened.high
-    if used is None or used.value == 0.0:
+    used = one.result.find("μ")
+    if used is None or not used.value or used.high is None:
         return []
-    numerical = max(used.value, used.high * extreme.force.high / largest)
+    share = extreme.force.high / extreme.widened.high
+    return _split(one, used.high * share, None, None)
+
+
+def _split(
+    one: MemberCheck, at_cases: float, *notes: Message | None
+) -> list[SpreadRecord]:
+    """Interval of a utilisation: numerical error, and what may hide between the cases.
+
+    ``at_cases`` is its upper end at the solved cases.
+    """
+    used = one.result.find("μ")
+    if used is None or used.value is None or used.low is None or used.high is None:
+        return []
+    numerical = max(used.value, at_cases)
+    of_numbers, between = notes
     return [
         SpreadRecord(
             source=say("spread.numerical_error"),
             low=used.low,
             high=numerical,
             in_verdict=True,
+            note=of_numbers,
         ),
         SpreadRecord(
             source=say("spread.between_cases"),
             low=used.value,
             high=used.value + used.high - numerical,
             in_verdict=True,
+            note=between,
         ),
     ]
-
-
-def _use_at_cases(one: MemberCheck, extreme: Extreme) -> float:
-    """Utilisation by the coupled force without what may hide between the cases [-]."""
-    use, demand = one.use, one.demand
-    if demand is None or use is None:
-        return 0.0
-    along = demand.along.high / demand.on_support if one.is_by_panel else 0.0
-    return use * (demand.load.apply(extreme.force).high + along)
-
-
-def _find_scale(one: MemberCheck) -> float | None:
-    """Utilisation for each N of the solved force [1/N]; None without a resistance.
-
-    What the load along the row adds counts in proportion.
-    """
-    use, demand = one.use, one.demand
-    if demand is None or use is None:
-        return None
-    largest = demand.largest
-    if largest.high == 0.0:
-        return use * demand.load.share
-    along = demand.along.high / demand.on_support if one.is_by_panel else 0.0
-    return use * (demand.load.apply(largest).high + along) / largest.high
-
-
-def _note_floor(one: MemberCheck) -> Message | None:
-    is_floor = one.demand is not None and one.demand.governs == "guideline"
-    return say("spread.floor_governs") if is_floor else None
 
 
 def _list_creep_laws(

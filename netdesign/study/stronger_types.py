@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.checks import Standard, find_characteristic
+from netdesign.checks import Standard, find_resistance
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import compute_rope_resistance
 from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
@@ -28,14 +28,14 @@ class _Enough:
     """
 
     is_asked: bool
-    design: float  # [N]
-    characteristic: float  # [N]
+    design: float  # [kN]
+    characteristic: float  # [kN]
 
 
 def find_type_change(
     site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
 ) -> ChangeRecord | None:
-    """Type whose design resistance reaches the design ``demand`` [N].
+    """Type whose design resistance reaches the design ``demand`` [kN].
 
     First the weakest type of the workbook, whether a net row uses it or not; else, for
     ropes, a diameter of the catalogue. None where the type that is there does, where
@@ -64,7 +64,7 @@ def find_type_change(
 def _list_enough(
     site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
 ) -> dict[str, _Enough]:
-    """Types of the workbook that reach a demand [N]; none of another ground."""
+    """Types of the workbook that reach a demand [kN]; none of another ground."""
     found = {}
     for other in site.catalogue:
         fits = holds_in_ground(given.member, given.ground, other)
@@ -72,8 +72,8 @@ def _list_enough(
         if is_other or find_short_post(other, row, site.ranges):
             continue
         factor = standard.find_resistance_factor(other.mode, other.basis)
-        value, lack = find_characteristic(other, standard)
-        if value is None or lack or factor is None:
+        value = find_resistance(other, standard).value
+        if value is None or factor is None:
             continue
         if value / factor.value_si >= demand:
             found[other.type_id] = _Enough(
@@ -94,6 +94,7 @@ def _find_rope(needed: float, given: Resistance) -> ChangeRecord | None:
             breaking_factor=factor.value,
             termination=loss.value,
         )
+        value = kilonewton_from_newton(value)
         if value >= needed:
             rope = say(
                 "change.rope",
@@ -112,7 +113,7 @@ def _record(quantity: Message, value: float, given: Resistance) -> ChangeRecord:
         quantity=quantity,
         unit="kN",
         now=kilonewton_if_known(given.value),
-        bound=math.floor(kilonewton_from_newton(value) * 10.0) / 10.0,
+        bound=math.floor(value * 10.0) / 10.0,
         sense="has",
         solves=0,
     )

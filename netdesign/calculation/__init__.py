@@ -1,0 +1,1 @@
+"""Calculations from named quantities: computed, shown, stored and worked out again."""

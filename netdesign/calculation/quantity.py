@@ -1,0 +1,324 @@
+"""Numbers of a check that know their unit, their band and where they come from.
+
+A quantity is given, solved or worked out. Arithmetic makes the third kind by itself
+and keeps the way: what is computed is also what is shown, stored, put into a
+spreadsheet and evaluated again (`steps`, `formula`). Theory: THEORY.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import NamedTuple
+
+from netdesign.calculation.units import PURE, Dimension, find_dimension, name_dimension
+from netdesign.errors import ModelError
+from netdesign.words.message import Message, say
+
+
+class Kind(StrEnum):
+    """Origin of a quantity."""
+
+    GIVEN = "given"  # a cell of the workbook, or what follows from some of them
+    PROFILE = "profile"  # a value of the limit profile
+    SOLVED = "solved"  # a force of the solved cases, or of the guideline's load
+    WORKED = "worked"  # an operation on others
+
+
+class Operation(NamedTuple):
+    """A function of numbers, and how it goes with each of them.
+
+    ``ways`` has 1 where it grows with an operand, -1 where it falls, 0 where it takes
+    the operand's value alone; the last one counts for all further operands.
+    """
+
+    of: Callable[..., float]
+    ways: tuple[int, ...]
+    dimension: Callable[..., Dimension | None]
+
+    def way(self, place: int) -> int:
+        """Way of the operand at a place."""
+        return self.ways[min(place, len(self.ways) - 1)]
+
+
+def _multiply(one: Dimension, other: Dimension) -> Dimension:
+    return one.times(other, 1)
+
+
+def _divide(one: Dimension, other: Dimension) -> Dimension:
+    return one.times(other, -1)
+
+
+def _keep(*all_: Dimension) -> Dimension | None:
+    found = set(all_) or {PURE}
+    return found.pop() if len(found) == 1 else None
+
+
+def _turn(angle: Dimension) -> Dimension | None:
+    return PURE if angle == find_dimension("deg") else None
+
+
+def _of_degrees(function: Callable[[float], float]) -> Callable[[float], float]:
+    return lambda angle: function(math.radians(angle))
+
+
+# Angles are of a quarter turn; factors and divisors are not below zero.
+OPERATIONS: dict[str, Operation] = {
+    "=": Operation(float, (1,), _keep),
+    "+": Operation(lambda a, b: a + b, (1, 1), _keep),
+    "-": Operation(lambda a, b: a - b, (1, -1), _keep),
+    "*": Operation(lambda a, b: a * b, (1, 1), _multiply),
+    "/": Operation(lambda a, b: a / b, (1, -1), _divide),
+    "max": Operation(max, (1,), _keep),
+    "min": Operation(min, (1,), _keep),
+    "sqrt": Operation(math.sqrt, (1,), lambda one: one.root()),
+    "sin": Operation(_of_degrees(math.sin), (1,), _turn),
+    "cos": Operation(_of_degrees(math.cos), (-1,), _turn),
+    "tan": Operation(_of_degrees(math.tan), (1,), _turn),
+    "at_value": Operation(float, (0,), _keep),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Quantity:
+    """One quantity of a calculation.
+
+    Attributes
+    ----------
+    low, value, high : float or None
+        Band in which it lies and its value, low <= value <= high; None of a quantity
+        that is missing.
+    dimension : Dimension
+        Of its unit.
+    symbol, unit : str
+        As in the theory pages; "" of a part of a formula.
+    kind : Kind
+        Origin.
+    source : str
+        Cell, id of the profile's value, key of the solved force; of a quantity that is
+        worked out the clause. "" where there is none.
+    operation : str
+        Key of ``OPERATIONS``; "" of a leaf.
+    of : tuple of Quantity
+        Operands.
+    lacks : tuple of Message
+        Reasons why it is missing; empty if it is not.
+    """
+
+    low: float | None
+    value: float | None
+    high: float | None
+    dimension: Dimension = PURE
+    symbol: str = ""
+    unit: str = ""
+    kind: Kind = Kind.WORKED
+    source: str = ""
+    operation: str = ""
+    of: tuple[Quantity, ...] = ()
+    lacks: tuple[Message, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse a band in disorder, NaN and infinity."""
+        ends = (self.low, self.value, self.high)
+        if self.lacks and ends == (None, None, None):
+            return
+        numbers = [math.nan if end is None else end for end in ends]
+        low, value, high = numbers
+        if self.lacks or not -math.inf < low <= value <= high < math.inf:
+            raise ModelError(
+                say("calculation.disorder", symbol=self.symbol, ends=f"{ends}")
+            )
+
+    @property
+    def is_known(self) -> bool:
+        """It has a value."""
+        return self.value is not None
+
+    def __add__(self, other: Operand) -> Quantity:
+        return apply("+", self, other)
+
+    def __radd__(self, other: float) -> Quantity:
+        return apply("+", other, self)
+
+    def __sub__(self, other: Operand) -> Quantity:
+        return apply("-", self, other)
+
+    def __rsub__(self, other: float) -> Quantity:
+        return apply("-", other, self)
+
+    def __mul__(self, other: Operand) -> Quantity:
+        return apply("*", self, other)
+
+    def __rmul__(self, other: float) -> Quantity:
+        return apply("*", other, self)
+
+    def __truediv__(self, other: Operand) -> Quantity:
+        return apply("/", self, other)
+
+    def __rtruediv__(self, other: float) -> Quantity:
+        return apply("/", other, self)
+
+    def named(self, symbol: str, unit: str, clause: str = "") -> Quantity:
+        """The quantity under a symbol, its unit checked; it keeps its first one.
+
+        Raises
+        ------
+        ModelError
+            If its dimension is not that of the unit: a force times a length is no
+            force.
+        """
+        if find_dimension(unit) != self.dimension:
+            found = name_dimension(self.dimension)
+            raise ModelError(
+                say("calculation.unit", symbol=symbol, unit=unit, found=found)
+            )
+        made = apply("=", self) if self.symbol else self
+        return replace(made, symbol=symbol, unit=unit, source=clause)
+
+
+Operand = Quantity | float
+
+
+def given(
+    symbol: str,
+    value: float | None,
+    unit: str,
+    source: str,
+    *,
+    kind: Kind = Kind.GIVEN,
+    band: tuple[float, float] | None = None,
+    lack: Message | None = None,
+) -> Quantity:
+    """Leaf of a calculation: given, of the profile, or solved.
+
+    Parameters
+    ----------
+    symbol, unit, source
+        As those of a `Quantity`.
+    value : float or None
+        In ``unit``; None where it is missing.
+    kind : Kind
+        Origin.
+    band : (float, float), optional
+        Low and high end; the value itself unless told otherwise.
+    lack : Message, optional
+        Reason why it is missing; has to be there without a value, and not with one.
+    """
+    if value is None and lack is None:
+        lack = say("calculation.missing", symbol=symbol)
+    low, high = (None, None) if value is None else band or (value, value)
+    return Quantity(
+        low=low,
+        value=value,
+        high=high,
+        dimension=find_dimension(unit),
+        symbol=symbol,
+        unit=unit,
+        kind=kind,
+        source=source,
+        lacks=() if lack is None else (lack,),
+    )
+
+
+def constant(value: float) -> Quantity:
+    """Pure number of a formula."""
+    return Quantity(low=value, value=value, high=value)
+
+
+def apply(operation: str, *operands: Operand) -> Quantity:
+    """Quantity that an operation makes of others; of a missing one a missing one.
+
+    Each end takes the ends of the operands that make it so: a difference is largest
+    with the least of what is taken away.
+
+    Raises
+    ------
+    ModelError
+        If units do not fit.
+    """
+    known = OPERATIONS[operation]
+    of = tuple(one if isinstance(one, Quantity) else constant(one) for one in operands)
+    if known.dimension is _keep:  # zero has any unit
+        dimension = _keep(*(one.dimension for one in of if not _is_zero(one)))
+    else:
+        dimension = known.dimension(*(one.dimension for one in of))
+    if dimension is None:
+        units = ", ".join(name_dimension(one.dimension) for one in of)
+        raise ModelError(say("calculation.units", operation=operation, units=units))
+    made = Quantity(
+        low=0.0, value=0.0, high=0.0, dimension=dimension, operation=operation, of=of
+    )
+    lacks = tuple(dict.fromkeys(lack for one in of for lack in one.lacks))
+    if lacks:
+        return replace(made, low=None, value=None, high=None, lacks=lacks)
+    if operation == "/" and not (of[1].low or 0.0) > 0.0:
+        lack = say("calculation.over_nothing", symbol=of[1].symbol)
+        return replace(made, low=None, value=None, high=None, lacks=(lack,))
+    low, value, high = (_evaluate(known, of, end) for end in (-1, 0, 1))
+    return replace(made, low=low, value=value, high=high)
+
+
+def _is_zero(quantity: Quantity) -> bool:
+    is_constant = not (quantity.symbol or quantity.operation)
+    return is_constant and quantity.value == 0.0
+
+
+def _evaluate(operation: Operation, of: Sequence[Quantity], end: int) -> float:
+    return operation.of(
+        *(take_end(one, end * operation.way(place)) for place, one in enumerate(of))
+    )
+
+
+def take_end(quantity: Quantity, end: int) -> float:
+    """Low end (-1), value (0) or high end (1) of a known quantity."""
+    found = (quantity.value, quantity.high, quantity.low)[end]
+    if found is None:
+        raise ValueError(f"{quantity.symbol} is missing")
+    return found
+
+
+def largest(first: Quantity, *others: Operand) -> Quantity:
+    """Largest of several quantities; all of them stay in the calculation."""
+    return apply("max", first, *others)
+
+
+def smallest(first: Quantity, *others: Operand) -> Quantity:
+    """Smallest of several quantities."""
+    return apply("min", first, *others)
+
+
+def sqrt(quantity: Quantity) -> Quantity:
+    """Square root."""
+    return apply("sqrt", quantity)
+
+
+def sin(angle: Quantity) -> Quantity:
+    """Sine of an angle in degrees."""
+    return apply("sin", angle)
+
+
+def cos(angle: Quantity) -> Quantity:
+    """Cosine of an angle in degrees."""
+    return apply("cos", angle)
+
+
+def tan(angle: Quantity) -> Quantity:
+    """Tangent of an angle in degrees."""
+    return apply("tan", angle)
+
+
+def at_value(quantity: Quantity) -> Quantity:
+    """The value alone, without the band."""
+    return apply("at_value", quantity)
+
+
+def above_zero(quantity: Quantity) -> Quantity:
+    """The quantity where it is positive, else zero."""
+    return apply("max", quantity, 0.0)
+
+
+def find_governing(quantity: Quantity) -> Quantity:
+    """Operand of a ``max`` that its value takes: of equal ones the first."""
+    return next(one for one in quantity.of if one.value == quantity.value)

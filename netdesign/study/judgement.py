@@ -1,0 +1,326 @@
+"""Checks of a row's members, from what its study states of forces and inputs.
+
+The same functions judge after a solve and judge a stored study again: nothing here
+knows a solved case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from netdesign.checks import CheckResult, Standard, withhold
+from netdesign.outcome import Verdict
+from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.snow.creep_law import CreepLaw
+from netdesign.structure.members import Member, name_in_panel
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.calibration import find_doubt
+from netdesign.study.dependent import Circumstances, find_short_post, settle_resistance
+from netdesign.study.force_records import ForceRecord
+from netdesign.study.guideline_records import FloorForceRecord
+from netdesign.study.member_force import (
+    MemberForce,
+    RowForces,
+    find_end_force,
+    find_force,
+    tell_governing,
+)
+from netdesign.study.pulls import AnchorPull, check_directions, find_pull
+from netdesign.study.records import CheckRecord
+from netdesign.study.row_end import find_lack, find_other_panel, tell_unsaid
+from netdesign.study.settle import (
+    judge_force,
+    list_checked,
+    place_check,
+    record_geometry,
+    record_result,
+    settle_check,
+)
+from netdesign.study.sideways import check_sideways
+from netdesign.study.support_records import HeldSidewaysRecord
+from netdesign.words.message import Message, say
+from netdesign.words.names import name
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Basis:
+    """What the checks of a net row rest on, beside its forces."""
+
+    site: Site
+    row: NetRow
+    standard: Standard
+    law: CreepLaw
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Known:
+    """What the solved cases of a row, or its study, tell.
+
+    Attributes
+    ----------
+    forces : RowForces
+        Largest forces.
+    held : HeldSidewaysRecord or Message
+        Load along the row, or why it is not held.
+    pulls : tuple of AnchorPull
+        Directions at the anchors.
+    gap : Message or None
+        Why the forces do not cover every case.
+    floor_gap : Message or None
+        Why the guideline's load is not known.
+    panel_gap : Message or None
+        Why an assumed panel fails, so that nothing is known of the row.
+    """
+
+    forces: RowForces
+    held: HeldSidewaysRecord | Message
+    pulls: tuple[AnchorPull, ...]
+    gap: Message | None = None
+    floor_gap: Message | None = None
+    panel_gap: Message | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MemberCheck:
+    """One member of one support in one mode, judged.
+
+    ``force`` is None where it is not known at all; ``gap`` says why it is not known as
+    a whole, ``doubt`` why the creep law may not hold for the governing snow; both are
+    None if all is well.
+    """
+
+    given: Resistance
+    width: LoadedWidth
+    force: MemberForce | None
+    gap: Message | None
+    doubt: Message | None
+    result: CheckResult
+    is_of_end: bool = False  # of the ropes' pull along the row
+
+    @property
+    def name(self) -> tuple[str, str]:
+        """Member and mode."""
+        return self.given.member, self.given.mode
+
+    @property
+    def id(self) -> str:
+        """Name of its check, with its support."""
+        end = ".end" if self.width.position == "edge" else ""
+        return f"{self.result.id}{end}"
+
+    @property
+    def use(self) -> float | None:
+        """Utilisation for each kN on a member inside the row [1/kN].
+
+        None without a resistance.
+        """
+        factor, design = map(self.result.find_value, ("γ_E", "R_d"))
+        if self.force is None or not (factor and design):
+            return None
+        return self.force.on_support * factor / design
+
+    @property
+    def ratio(self) -> float:
+        """Upper end of the utilisation [-]; below 0 without one."""
+        used = self.result.used
+        return -1.0 if used is None or used.high is None else used.high
+
+
+def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
+    """No other support uses the member more."""
+    rivals = [other for other in judged if other.name == one.name]
+    return one is max(rivals, key=lambda other: other.ratio)
+
+
+def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
+    """Checks of the members of both supports, then of what holds the row's end."""
+    effects, end = known.forces.effects, basis.row.row_end
+    judged = [
+        _judge_member(basis, known, given, width)
+        for width, given in list_checked(basis.row, effects)
+    ]
+    at_end = effects.find_support("edge")
+    held = end.resistances if end else ()
+    return judged + [_judge_end(basis, known, given, at_end) for given in held]
+
+
+def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCheck:
+    """Check beside whose cases the program failed: it passes no more."""
+    if one.gap is not None or one.force is None:
+        return one
+    result = judge_force(
+        one.given, one.force, basis.standard, gap=fault, doubt=one.doubt
+    )
+    return replace(one, gap=fault, result=result)
+
+
+def _judge_member(
+    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
+) -> MemberCheck:
+    unsaid = _find_unsaid(basis.row, known, given, width)
+    if unsaid:
+        return _leave_open(basis, given, width, unsaid)
+    row, forces = basis.row, known.forces
+    force = find_force(forces, given, width)
+    doubt = None
+    if force is not None:
+        surroundings = Circumstances(
+            row=row,
+            ranges=basis.site.ranges,
+            standard=basis.standard,
+            pull=find_pull(known.pulls, given.member, width.position),
+        )
+        given = settle_resistance(given, surroundings)
+        doubt = _find_doubt(basis, list_bringing(forces, given.member, force))
+    found = [forces.largest.get(given.member), *_list_panel(forces, given.member)]
+    gap = known.gap or known.floor_gap or _find_unseen(found)
+    gap = gap or find_other_panel(row, given, width.position)
+    judge = {"gap": gap, "doubt": doubt}
+    result = judge_force(given, force, basis.standard, **judge)
+    short = find_short_post(given, row, basis.site.ranges)
+    if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
+        given = replace(given, value=None, lack=short)
+        result = judge_force(given, force, basis.standard, **judge)
+    return MemberCheck(given=given, width=width, force=force, result=result, **judge)
+
+
+def _judge_end(
+    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
+) -> MemberCheck:
+    """Check of a member that holds the row along itself."""
+    unsaid = _find_unsaid(basis.row, known, given, width)
+    if unsaid:
+        opened = _leave_open(basis, given, width, unsaid)
+        return replace(opened, is_of_end=True)
+    force = find_end_force(known.forces, given.member)
+    gap = known.gap or _find_unseen([force.largest] if force else [])
+    gap = gap or find_other_panel(basis.row, given, "edge")
+    doubt = _find_doubt(basis, [force.largest]) if force else None
+    result = judge_force(given, force, basis.standard, gap=gap, doubt=doubt)
+    return MemberCheck(
+        given=given,
+        width=width,
+        force=force,
+        gap=gap,
+        doubt=doubt,
+        result=result,
+        is_of_end=True,
+    )
+
+
+def _find_unsaid(
+    row: NetRow, known: Known, given: Resistance, width: LoadedWidth
+) -> Message | None:
+    """Lack of what a force depends on, so that nothing is known of it."""
+    if row.unsaid:
+        return tell_unsaid(row)
+    if known.panel_gap is not None:
+        return known.panel_gap
+    return find_lack(row, given) if width.position == "edge" else None
+
+
+def _leave_open(
+    basis: Basis, given: Resistance, width: LoadedWidth, unsaid: Message
+) -> MemberCheck:
+    """Check of a member whose force depends on what nobody gives."""
+    result = judge_force(given, None, basis.standard, gap=unsaid, doubt=None)
+    return MemberCheck(
+        given=given,
+        width=width,
+        force=None,
+        gap=unsaid,
+        doubt=None,
+        result=withhold(result, unsaid),  # whatever else is missing
+    )
+
+
+def _list_panel(forces: RowForces, member: str) -> list[ForceRecord]:
+    found = forces.largest.get(name_in_panel(member))
+    return [] if found is None else [found]
+
+
+def list_bringing(
+    forces: RowForces, member: str, force: MemberForce
+) -> list[ForceRecord]:
+    """Largest forces that a check rests on: its member's, and what adds to it.
+
+    The net's pull on the head brings what is added, as it does the post's force.
+    """
+    found = [forces.largest[member], *_list_panel(forces, member)]
+    if force.added_high > 0.0:
+        found.append(forces.largest[Member.POST])
+    return found
+
+
+def _find_doubt(basis: Basis, brings: Sequence[ForceRecord]) -> Message | None:
+    """Doubt that the creep law holds for the snow of a largest force."""
+    doubts = (
+        find_doubt(
+            *(basis.site, basis.row, basis.law),
+            density=one.case.density_kg_m3,
+            largest=one.high_kN,
+        )
+        for one in brings
+    )
+    return next((one for one in doubts if one is not None), None)
+
+
+def _find_unseen(forces: Sequence[ForceRecord | None]) -> Message | None:
+    """Quantities between whose samples nothing is known of some largest force."""
+    unknown = dict.fromkeys(axis for one in forces if one for axis in one.unknown)
+    if not unknown:
+        return None
+    return say("check.unseen_between", axes=tuple(name("axis", one) for one in unknown))
+
+
+def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
+    """Gap of the forces, else a doubt about any of them; None if all is well.
+
+    What is not known of the row's end alone leaves no other check open.
+    """
+    if row.unsaid:
+        return tell_unsaid(row)
+    members = [one for one in judged if not one.is_of_end]
+    found = (find_lack(row, one.given) or row.panel_lack for one in members)
+    of_end = [one for one in found if one is not None]
+    points = ((None if one.gap in of_end else one.gap) or one.doubt for one in members)
+    return next((one for one in points if one is not None), None)
+
+
+def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
+    """Check of a force as the study has it, without what a solve adds to it."""
+    position = one.width.position
+    settled = settle_check(basis.site, basis.row, one.result, position)
+    check = place_check(record_result(settled, one.given, one.force), position)
+    if one.force is None:
+        return check
+    check = replace(check, case=one.force.largest.case)
+    if one.is_of_end:
+        return replace(check, governs="panel")
+    least = _find_floor(known.forces, one.given.member)
+    return replace(
+        check,
+        load_case=least.load_case if least else "",
+        load_inclination_deg=least.inclination_deg if least else None,
+        reason=tell_governing(
+            settled.reason, one.force, least.load_case if least else ""
+        ),
+    )
+
+
+def _find_floor(forces: RowForces, member: str) -> FloorForceRecord | None:
+    return forces.floor.get(member) if forces.floor is not None else None
+
+
+def record_others(
+    basis: Basis, known: Known, judged: Sequence[MemberCheck]
+) -> Iterator[CheckRecord]:
+    """Checks that compare no force: load along the row, directions, geometry."""
+    site, row, standard = basis.site, basis.row, basis.standard
+    gap = find_open(row, judged)
+    lateral = check_sideways(row, known.held, standard, gap)
+    yield record_result(settle_check(site, row, lateral))
+    for place, one in check_directions(known.pulls, standard, gap):
+        yield place_check(record_result(settle_check(site, row, one, place)), place)
+    yield from record_geometry(site, row, standard)
