@@ -7,6 +7,16 @@ can state what it expects. Some texts attack the outputs.
 import math
 from itertools import pairwise, product
 
+from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.calculation.steps import list_steps
+from netdesign.checks.forces import (
+    MemberLoad,
+    bring_floor_to_support,
+    bring_to_support,
+    place_end_support,
+    rate,
+    take_largest,
+)
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
@@ -25,7 +35,6 @@ from netdesign.study.opinion_records import (
 )
 from netdesign.study.records import (
     SCHEMA,
-    ActionRecord,
     ChangeRecord,
     CheckRecord,
     HoldRecord,
@@ -542,16 +551,12 @@ def build_check(
     member: str, mode: str, extreme: ExtremeRecord, characteristic: float | None
 ) -> CheckRecord:
     """Force check; without ``characteristic`` resistance it is not proven."""
-    demand, low, high = (
-        ACTION_FACTOR * value
-        for value in (extreme.max_kN, extreme.low_kN, extreme.high_kN)
-    )
-    resistance = None if characteristic is None else characteristic / RESISTANCE_FACTOR
-    if resistance is None:
+    used = rate_force(extreme, characteristic)
+    if not used.is_known:
         verdict, reason = Verdict.NOT_PROVEN, "No resistance is given in Anchors!E7."
-    elif high / resistance <= 1:
+    elif used.high <= 1:
         verdict, reason = Verdict.PASS, "The demand stays within the resistance."
-    elif low / resistance > 1:
+    elif used.low > 1:
         verdict, reason = Verdict.FAIL, "The demand exceeds the resistance."
     else:
         verdict, reason = Verdict.NOT_PROVEN, "The band crosses the resistance."
@@ -560,38 +565,22 @@ def build_check(
         clause="6.3 (2)",
         member=member,
         mode=mode,
-        demand_kN=demand,
-        demand_low_kN=low,
-        demand_high_kN=high,
-        resistance_kN=resistance,
-        utilisation=None if resistance is None else demand / resistance,
+        demand_kN=ACTION_FACTOR * extreme.max_kN,
+        resistance_kN=characteristic and characteristic / RESISTANCE_FACTOR,
+        utilisation=used.value,
         verdict=verdict,
         case=extreme.case,
         reason=as_given(reason),
-        action_kN=extreme.max_kN,
-        action_factor=ACTION_FACTOR,
-        resistance_characteristic_kN=characteristic,
-        resistance_factor=None if resistance is None else RESISTANCE_FACTOR,
-        resistance_basis="" if resistance is None else "tested",
+        resistance_basis="" if characteristic is None else "tested",
         resistance_type="GEWI 28" if member != "post" else "HEA 160",
         resistance_cell="Anchors!E7",
         resistance_derivation=as_given(f"π · 90 mm {SCRIPT}")
         if mode == "pull_out"
         else None,
-        action=ActionRecord(
-            solved_kN=extreme.max_kN / 1.1,
-            post_spacing_m=4.0,
-            position="edge",
-            loaded_width_m=4.4,
-            end_factor=1.6,
-            end_length_m=1.5,
-            lateral_factor=1.0,
-            coupled_kN=extreme.high_kN,
-            floor_kN=0.4 * extreme.max_kN / 1.1,
-            guideline_kN=0.4 * extreme.max_kN,
-            floor_case="load_case_1",
-            floor_inclination_deg=35.0,
-        ),
+        governs="coupled",
+        load_case="load_case_1",
+        load_inclination_deg=35.0,
+        steps=list_steps(used),
         spreads=[
             SpreadRecord(
                 source=say("spread.numerical_error"),
@@ -650,6 +639,35 @@ def build_check(
     )
 
 
+def rate_force(extreme: ExtremeRecord, characteristic: float | None) -> Quantity:
+    """Utilisation of a force on the first support of a row, step by step."""
+    spacing = given("b", 4.0, "m", "Nets!L5")
+    support = place_end_support(
+        spacing,
+        given("f_R", 1.6, "-", "end.constant", kind=Kind.PROFILE),
+        given("Δl", 1.5, "m", "end.constant", kind=Kind.PROFILE),
+    )
+    largest, low, high = (
+        force / 1.1 for force in (extreme.max_kN, extreme.low_kN, extreme.high_kN)
+    )
+    solved = given(
+        *("E_s", largest, "kN", extreme.quantity), kind=Kind.SOLVED, band=(low, high)
+    )
+    floor = given("E_g0", 0.4 * largest, "kN", "floor", kind=Kind.SOLVED)
+    plain = MemberLoad()
+    force = take_largest(
+        "E_k",
+        bring_to_support("E_c", solved, plain, support),
+        bring_floor_to_support("E_g", floor, plain, support),
+    )
+    return rate(
+        force,
+        given("γ_E", ACTION_FACTOR, "-", "factor.action", kind=Kind.PROFILE),
+        given("R_k", characteristic, "kN", "Anchors!E7"),
+        given("γ_R", RESISTANCE_FACTOR, "-", "factor.tendon", kind=Kind.PROFILE),
+    )
+
+
 def build_geometry_check() -> CheckRecord:
     """Check without forces."""
     return CheckRecord(
@@ -658,8 +676,6 @@ def build_geometry_check() -> CheckRecord:
         member="net",
         mode="inclination",
         demand_kN=None,
-        demand_low_kN=None,
-        demand_high_kN=None,
         resistance_kN=None,
         utilisation=None,
         verdict=Verdict.PASS,
@@ -676,17 +692,20 @@ def build_slack_check(case: CasePoint) -> CheckRecord:
         member="downhill_guy",
         mode="rope",
         demand_kN=0.0,
-        demand_low_kN=0.0,
-        demand_high_kN=0.0,
         resistance_kN=180.0 / RESISTANCE_FACTOR,
         utilisation=0.0,
         verdict=Verdict.PASS,
         case=case,
         reason=as_given("The member is slack in every case; its resistance is given."),
-        action_kN=0.0,
-        action_factor=ACTION_FACTOR,
-        resistance_characteristic_kN=180.0,
-        resistance_factor=RESISTANCE_FACTOR,
+        governs="coupled",
+        steps=list_steps(
+            rate(
+                given("E_k", 0.0, "kN", "downhill_guy", kind=Kind.SOLVED),
+                given("γ_E", ACTION_FACTOR, "-", "action.snow", kind=Kind.PROFILE),
+                given("R_k", 180.0, "kN", "Ropes!E7"),
+                given("γ_R", RESISTANCE_FACTOR, "-", "resistance", kind=Kind.PROFILE),
+            )
+        ),
     )
 
 
