@@ -7,6 +7,7 @@ angles in degrees.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -198,3 +199,119 @@ def rate(
     demand = (on_action * force).named("E_d", "kN", "(V1)")
     design = (resistance / on_resistance).named("R_d", "kN", "(V1)")
     return (demand / design).named("μ", "-", "(V2)")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SupportForce:
+    """Characteristic force on one member of one support, with what it follows from.
+
+    Attributes
+    ----------
+    action : Quantity
+        E_k [kN].
+    coupled, by_panel, guideline : Quantity or None
+        On the support, by section, panel and guideline [kN]; None where there is none.
+        Of a base that slides, those across it.
+    support, load, push : Support, MemberLoad, Quantity or None
+        What turns a force inside the row into the member's, and the end guy's part.
+    pressing, tilt : Quantity or None
+        Force across the base plate [kN], and that along it over it [-], of a base that
+        slides.
+    """
+
+    action: Quantity
+    coupled: Quantity
+    by_panel: Quantity | None = None
+    guideline: Quantity | None = None
+    support: Support
+    load: MemberLoad = MemberLoad()
+    push: Quantity | None = None
+    pressing: Quantity | None = None
+    tilt: Quantity | None = None
+
+
+Leaves = Mapping[str, Quantity]  # given and solved quantities of a check by symbol
+
+
+def calculate_force(leaves: Leaves) -> SupportForce:
+    """Characteristic force of a check from its leaves, whichever of them it has.
+
+    ``E_s``, ``E_p0``, ``E_g0`` are the forces inside the row by section, panel and
+    guideline; ``V_s`` and so on those across a base that slides, with its tilt ``t``;
+    ``T_r`` alone is the rope of a member that holds the row's end, with the angle ``γ``
+    of its guy.
+    """
+    support = _find_support(leaves)
+    letter = "V" if "V_s" in leaves else "E"
+    if f"{letter}_s" not in leaves:
+        return _calculate_end(leaves, support)
+    load, push = _find_load(leaves), _find_push(leaves, support)
+    inside, in_panel, by_floor = (
+        leaves.get(f"{letter}_{one}") for one in ("s", "p0", "g0")
+    )
+    if inside is None:
+        raise ValueError("a force of no section")
+    is_alone = in_panel is None and by_floor is None
+    name = f"{letter}_k" if is_alone else f"{letter}_c"
+    coupled = bring_to_support(name, inside, load, support)
+    by_panel = guideline = None
+    if in_panel is not None:
+        by_panel = bring_to_support(f"{letter}_p", in_panel, load, support, push)
+    if by_floor is not None:
+        guideline = bring_floor_to_support(f"{letter}_g", by_floor, load, support)
+    loads = [one for one in (coupled, by_panel, guideline) if one is not None]
+    action, tilt = take_largest(f"{letter}_k", *loads), leaves.get("t")
+    return SupportForce(
+        action=action if tilt is None else slide_base(action, tilt),
+        coupled=coupled,
+        by_panel=by_panel,
+        guideline=guideline,
+        support=support,
+        load=load,
+        push=push,
+        pressing=None if tilt is None else action,
+        tilt=tilt,
+    )
+
+
+def _calculate_end(leaves: Leaves, support: Support) -> SupportForce:
+    """Force on a member that holds the ropes' pull along the row, at its end."""
+    pull = pull_at_end(leaves["T_r"], support)
+    if "γ" in leaves:
+        action = pull_end_guy(pull, leaves["γ"])
+    else:
+        action = pull.named("E_k", "kN", "(P8)")
+    return SupportForce(action=action, coupled=action, by_panel=action, support=support)
+
+
+def _find_support(leaves: Leaves) -> Support:
+    if "f_R" not in leaves:
+        return place_support(leaves["b"])
+    return place_end_support(leaves["b"], leaves["f_R"], leaves["Δl"])
+
+
+def _find_load(leaves: Leaves) -> MemberLoad:
+    if "c" in leaves:
+        return load_guy(*(leaves[one] for one in ("c", "k", "P", "β")))
+    if "w" in leaves:
+        return load_post(*(leaves[one] for one in ("w", "k", "P", "β", "T_min")))
+    if "k" in leaves:
+        return MemberLoad(lateral=find_lateral_factor(leaves["k"]))
+    return MemberLoad()
+
+
+def _find_push(leaves: Leaves, support: Support) -> Quantity | None:
+    if "T_r" not in leaves:
+        return None
+    return push_end_post(pull_at_end(leaves["T_r"], support), leaves["γ"])
+
+
+def calculate_resistance(leaves: Leaves, force: SupportForce | None) -> Quantity:
+    """Characteristic resistance of a check from its leaves: as given, or worked out."""
+    if "R_m" in leaves:
+        return resist_by_tests(
+            *(leaves[one] for one in ("R_m", "ξ_m", "R_min", "ξ_min"))
+        )
+    if "μ_b" in leaves and force is not None and force.pressing is not None:
+        return resist_by_friction(leaves["μ_b"], leaves["γ_E"], force.pressing)
+    return leaves["R_k"]

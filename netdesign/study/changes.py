@@ -222,7 +222,7 @@ def _build_target(
         results=results,
         use_floor=partial(_use_floor, *use_floor),
         bound_floor=partial(_bound_floor, *use_floor),
-        widen=cache(partial(_find_load if force.push else _find_width, task, one)),
+        widen=cache(partial(_find_load if force.on.push else _find_width, task, one)),
         push=_find_push(task, one, force),
     )
 
@@ -261,14 +261,14 @@ def _bound_floor(
 
 def _find_push(task: RowCheck, one: MemberCheck, force: MemberForce) -> Push | None:
     """Part of the panel's force that the end guy brings; None of any other member."""
-    if force.push is None or not force.push.high:
+    if force.on.push is None or not force.on.push.high:
         return None
     name, rope = name_in_panel(one.given.member), RopeForce.UPPER_ALONG
     results = task.solved.results
     panel = next(record for record in force.solved if record.quantity == name)
     inside = force.on_support * force.share * _widen(panel, results)
     pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
-    return Push(force=name, rope=rope, ratio=force.push.high / pull / inside)
+    return Push(force=name, rope=rope, ratio=force.on.push.high / pull / inside)
 
 
 def _find_load(task: RowCheck, one: MemberCheck, ranges: Ranges) -> float:

@@ -266,7 +266,7 @@ def _press(
 
 def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantity:
     """Characteristic resistance of a member, also one that its force brings [kN]."""
-    base, pressing = given.dimensions, force.pressing
+    base, pressing = given.dimensions, force.on.pressing
     if not isinstance(base, BaseFriction) or pressing is None or not pressing.value:
         return find_resistance(given, standard)
     friction = quantity("μ_b", base.coefficient, "-", given.source)

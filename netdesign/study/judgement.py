@@ -22,7 +22,6 @@ from netdesign.study.guideline_records import FloorForceRecord
 from netdesign.study.member_force import (
     MemberForce,
     RowForces,
-    find_end_force,
     find_force,
     tell_governing,
 )
@@ -193,7 +192,7 @@ def _judge_end(
     if unsaid:
         opened = _leave_open(basis, given, width, unsaid)
         return replace(opened, is_of_end=True)
-    force = find_end_force(known.forces, given.member)
+    force = find_force(known.forces, given, width)
     gap = known.gap or _find_unseen([force.largest] if force else [])
     gap = gap or find_other_panel(basis.row, given, "edge")
     doubt = _find_doubt(basis, [force.largest]) if force else None

@@ -14,20 +14,10 @@ from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.checks import Standard
 from netdesign.checks.check import find_profile_value
 from netdesign.checks.forces import (
-    MemberLoad,
-    Support,
-    bring_floor_to_support,
-    bring_to_support,
-    find_lateral_factor,
+    SupportForce,
+    calculate_force,
     load_guy,
     load_post,
-    place_end_support,
-    place_support,
-    pull_at_end,
-    pull_end_guy,
-    push_end_post,
-    slide_base,
-    take_largest,
 )
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.site.model import NetRow, Resistance
@@ -49,8 +39,13 @@ from netdesign.words.names import name
 
 Governing = Literal["coupled", "panel", "guideline"]
 PUSHED = (Member.POST, Member.POST_BASE)  # by the end guy
-_UPHILL = (Member.UPHILL_GUY, Member.UPHILL_ANCHOR)
-_DOWNHILL = (Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR)
+# Weights of the load along the row in the guys of each side.
+_PARTS: Mapping[str, str] = {
+    Member.UPHILL_GUY: "uphill_part",
+    Member.UPHILL_ANCHOR: "uphill_part",
+    Member.DOWNHILL_GUY: "downhill_part",
+    Member.DOWNHILL_ANCHOR: "downhill_part",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,85 +77,85 @@ class RowForces:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MemberForce:
-    """Characteristic force on one member of one support, with what it follows from.
+    """Characteristic force on one member of one support, with where it comes from.
 
     Attributes
     ----------
-    action : Quantity
-        E_k [kN].
+    on : SupportForce
+        The force, step by step.
     solved : tuple of ForceRecord
         By section, and by the panel between posts where there is one.
     largest : ForceRecord
         Larger one of them, which the check names its case by.
-    coupled, by_panel, guideline : Quantity or None
-        On the support, by section, panel and guideline [kN]; None where there is none.
-    load, push : MemberLoad, Quantity or None
-        What turns a force inside the row into the member's, and the end guy's part.
-    on_support : float
-        Force on the support over that inside the row, lateral load included [-].
     pull, rise : float
         Largest pull on a head, which brings what is added, 0 without any; and what that
         grows by at most where the pull doubles [kN].
-    tilt : float
-        Factor on all of it, of a base that slides [-].
-    pressing : Quantity or None
-        Force across the base plate, of a base that slides [kN].
     """
 
-    action: Quantity
+    on: SupportForce
     solved: tuple[ForceRecord, ...]
     largest: ForceRecord
-    coupled: Quantity
-    by_panel: Quantity | None = None
-    guideline: Quantity | None = None
-    load: MemberLoad
-    push: Quantity | None = None
-    on_support: float
     pull: float = 0.0
     rise: float = 0.0
-    tilt: float = 1.0
-    pressing: Quantity | None = None
+
+    @property
+    def action(self) -> Quantity:
+        """E_k [kN]."""
+        return self.on.action
 
     @property
     def is_by_panel(self) -> bool:
         """The force by the panel between posts is larger than that of the section."""
-        return (_high(self.by_panel) or 0.0) > (_high(self.coupled) or 0.0)
+        return _high(self.on.by_panel) > _high(self.on.coupled)
 
     @property
     def governs(self) -> Governing:
         """Largest one of the three; solved forces count with their upper ends."""
-        solved = max(_high(self.coupled) or 0.0, _high(self.by_panel) or 0.0)
-        least = _high(self.guideline)
+        solved = max(_high(self.on.coupled), _high(self.on.by_panel))
+        least = _high(self.on.guideline)
         if least and least >= solved:
             return "guideline"
         return "panel" if self.is_by_panel else "coupled"
 
     @property
+    def on_support(self) -> float:
+        """Force on the support over that inside the row, lateral load included [-]."""
+        support, lateral = self.on.support, self.on.load.lateral
+        if self.largest.quantity in tuple(RopeForce):
+            return _high(self.action) / (self.largest.high_kN or 1.0)
+        width, spacing = support.width.value or 0.0, support.spacing.value or 1.0
+        return width / spacing * ((lateral.value if lateral else None) or 1.0)
+
+    @property
     def share(self) -> float:
         """Part of the section's force in the member [-]."""
-        share = self.load.share
-        return self.tilt * ((share.value if share else None) or 1.0)
+        share = self.on.load.share
+        return self._tilt * ((share.value if share else None) or 1.0)
+
+    @property
+    def _tilt(self) -> float:
+        return (self.on.tilt.value if self.on.tilt else None) or 1.0
 
     @property
     def added(self) -> float:
         """Force that the load along the row adds, inside the row [kN]."""
-        added = self.load.added
-        return self.tilt * ((added.value if added else None) or 0.0)
+        added = self.on.load.added
+        return self._tilt * ((added.value if added else None) or 0.0)
 
     @property
     def added_high(self) -> float:
         """Upper end of what the load along the row adds, inside the row [kN]."""
-        return self.tilt * (_high(self.load.added) or 0.0)
+        return self._tilt * _high(self.on.load.added)
 
     def find_high(self, force: float, *, is_by_panel: bool) -> float:
         """Upper end of the member's force inside the row, from one solved [kN]."""
-        push = (_high(self.push) or 0.0) if is_by_panel else 0.0
-        along = self.tilt * push / self.on_support
+        push = _high(self.on.push) if is_by_panel else 0.0
+        along = self._tilt * push / self.on_support
         return self.share * force + self.added_high + along
 
 
-def _high(quantity: Quantity | None) -> float | None:
-    return quantity.high if quantity else None
+def _high(quantity: Quantity | None) -> float:
+    return (quantity.high if quantity else None) or 0.0
 
 
 def find_cell(row: NetRow, column: str, sheet: str = "Nets") -> str:
@@ -178,145 +173,47 @@ def solve_for(record: ForceRecord, symbol: str) -> Quantity:
     )
 
 
-def build_support(row: NetRow, width: LoadedWidth) -> Support:
-    """Support of a row, inside it or at its end, as a calculation has it."""
-    cell = find_cell(row, "post_spacing")
-    spacing = given("b", row.layout.post_spacing, "m", cell)
-    if width.position == "intermediate":
-        return place_support(spacing)
-    factor, length = (
-        given(symbol, value, unit, "end.constant", kind=Kind.PROFILE)
-        for symbol, value, unit in (
-            ("f_R", width.end_factor, "-"),
-            ("Δl", width.end_length, "m"),
-        )
-    )
-    return place_end_support(spacing, factor, length)
-
-
 def find_force(
     forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> MemberForce | None:
     """Force on a member of the support of that width; None without a solved case."""
     member = resistance.member
-    if member not in forces.largest:
+    if member in ROPE_OF:
+        return _find_end_force(forces, member, width)
+    section = forces.largest.get(member)
+    if section is None:
         return None
-    support = build_support(forces.row, width)
-    load, rise = _find_load(forces, member)
     is_sliding = resistance.mode == "sliding"
     letter = "V" if is_sliding else "E"
-    push = _find_push(forces, member, support)
-    found = _list_forces(forces, member, letter, load, support, push)
-    action = take_largest(f"{letter}_k", *(one for one in found if one is not None))
-    coupled, by_panel, guideline = found
-    section = forces.largest[member]
-    on_panel = forces.largest.get(name_in_panel(member))
-    is_panel = on_panel is not None and (_high(by_panel) or 0.0) > (coupled.high or 0.0)
+    leaves = _list_support_leaves(forces.row, width)
+    leaves += [solve_for(section, f"{letter}_s")]
+    panel = forces.largest.get(name_in_panel(member))
+    if panel is not None:
+        leaves.append(solve_for(panel, f"{letter}_p0"))
+    least = forces.floor.get(member) if forces.floor is not None else None
+    if least is not None:
+        leaves.append(_solved(f"{letter}_g0", least.force_kN, "kN", f"floor.{member}"))
+    added, rise = _list_load_leaves(forces, member)
+    leaves += added
+    if panel is not None and member in PUSHED and width.position == "edge":
+        leaves += _list_push_leaves(forces)
+    if is_sliding:
+        leaves.append(_solved("t", forces.tilt, "-", "tilt"))
+    force = calculate_force({one.symbol: one for one in leaves})
+    is_by_panel = _high(force.by_panel) > _high(force.coupled)
     is_foot = member in (Member.FOOT_ANCHOR, *forces.effects.at_foot)
-    tilt = given("t", forces.tilt, "-", "tilt", kind=Kind.SOLVED)
     return MemberForce(
-        action=slide_base(action, tilt) if is_sliding else action,
-        solved=(section,) if on_panel is None else (section, on_panel),
-        largest=on_panel if is_panel and on_panel is not None else section,
-        coupled=coupled,
-        by_panel=by_panel,
-        guideline=guideline,
-        load=load,
-        push=push,
-        on_support=_compare_support(support, load),
+        on=force,
+        solved=(section,) if panel is None else (section, panel),
+        largest=panel if panel is not None and is_by_panel else section,
         pull=forces.held.pull_kN if forces.held and not is_foot else 0.0,
         rise=rise,
-        tilt=forces.tilt if is_sliding else 1.0,
-        pressing=action if is_sliding else None,
     )
 
 
-def _list_forces(
-    forces: RowForces,
-    member: str,
-    letter: str,
-    load: MemberLoad,
-    support: Support,
-    push: Quantity | None,
-) -> tuple[Quantity, Quantity | None, Quantity | None]:
-    """Forces on the support by section, panel and guideline."""
-    panel = forces.largest.get(name_in_panel(member))
-    least = forces.floor.get(member) if forces.floor is not None else None
-    is_alone = panel is None and least is None
-    solved = solve_for(forces.largest[member], f"{letter}_s")
-    symbol = f"{letter}_k" if is_alone else f"{letter}_c"
-    coupled = bring_to_support(symbol, solved, load, support)
-    by_panel = guideline = None
-    if panel is not None:
-        inside = solve_for(panel, f"{letter}_p0")
-        by_panel = bring_to_support(f"{letter}_p", inside, load, support, push)
-    if least is not None:
-        symbol, source = f"{letter}_g0", f"floor.{member}"
-        inside = given(symbol, least.force_kN, "kN", source, kind=Kind.SOLVED)
-        guideline = bring_floor_to_support(f"{letter}_g", inside, load, support)
-    return coupled, by_panel, guideline
-
-
-def _compare_support(support: Support, load: MemberLoad) -> float:
-    width, spacing = support.width.value or 0.0, support.spacing.value or 1.0
-    lateral = load.lateral.value if load.lateral else None
-    return width / spacing * (lateral or 1.0)
-
-
-def _find_load(forces: RowForces, member: str) -> tuple[MemberLoad, float]:
-    """Way from the section's force to a member's, and how its addition may grow."""
-    if member in forces.effects.at_foot:
-        share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
-        lateral = find_lateral_factor(share) if share.is_known else None
-        return MemberLoad(lateral=lateral), 0.0
-    held = forces.held
-    if held is None or member == Member.FOOT_ANCHOR:
-        return MemberLoad(), 0.0
-    share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
-    splay = given("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
-    pull = given(
-        *("P", held.pull_kN, "kN", "head_pull"),
-        kind=Kind.SOLVED,
-        band=(held.pull_low_kN, held.pull_high_kN),
-    )
-    if member in (*_UPHILL, *_DOWNHILL):
-        is_uphill = member in _UPHILL
-        part = held.uphill_part if is_uphill else held.downhill_part
-        source = "uphill_part" if is_uphill else "downhill_part"
-        weight = given("c", part, "-", source, kind=Kind.SOLVED)
-        load = load_guy(weight, share, pull, splay)
-        return load, _high(load.added) or 0.0
-    weight = given("w", held.post_part, "-", "post_part", kind=Kind.SOLVED)
-    least = given(
-        "T_min", held.least_tension_kN, "kN", "least_tension", kind=Kind.SOLVED
-    )
-    load = load_post(weight, share, pull, splay, least)
-    nothing = given("T_min", 0.0, "kN", "least_tension", kind=Kind.SOLVED)
-    rise = _high(load_post(weight, share, pull, splay, nothing).added) or 0.0
-    # the guys' least tension does not grow
-    return (load if _high(load.added) else MemberLoad()), rise
-
-
-def _find_push(forces: RowForces, member: str, support: Support) -> Quantity | None:
-    """Compression by the end guy of a post at the row's end."""
-    row, rope = forces.row, forces.largest.get(RopeForce.UPPER_ALONG)
-    if member not in PUSHED or support.position != "edge" or rope is None:
-        return None
-    angle = _find_guy_angle(row)
-    if angle is None:
-        return None
-    return push_end_post(pull_at_end(solve_for(rope, "T_r"), support), angle)
-
-
-def _find_guy_angle(row: NetRow) -> Quantity | None:
-    angle = row.row_end.guy_angle if row.row_end else None
-    if angle is None:
-        return None
-    cell = find_cell(row, "end_guy_angle", "Ends") or find_cell(row, "end_guy_angle")
-    return given("γ", degree_from_radian(angle), "deg", cell)
-
-
-def find_end_force(forces: RowForces, member: str) -> MemberForce | None:
+def _find_end_force(
+    forces: RowForces, member: str, width: LoadedWidth
+) -> MemberForce | None:
     """Force on a member that holds the ropes' pull along the row, at its end.
 
     None of a row without panel or end, and where no case has a panel.
@@ -324,29 +221,75 @@ def find_end_force(forces: RowForces, member: str) -> MemberForce | None:
     rope = forces.largest.get(ROPE_OF[member])
     if forces.row.row_end is None or rope is None:
         return None
-    support = build_support(forces.row, forces.effects.find_support("edge"))
-    pull = pull_at_end(solve_for(rope, "T_r"), support)
-    angle = _find_guy_angle(forces.row)
-    if member == EndMember.LATERAL_ANCHOR or angle is None:
-        action = pull.named("E_k", "kN", "(P8)")
-    else:
-        action = pull_end_guy(pull, angle)
-    return MemberForce(
-        action=action,
-        solved=(rope,),
-        largest=rope,
-        coupled=action,
-        by_panel=action,
-        load=MemberLoad(),
-        on_support=(action.high or 0.0) / rope.high_kN if rope.high_kN else 1.0,
+    leaves = [*_list_support_leaves(forces.row, width), solve_for(rope, "T_r")]
+    if member != EndMember.LATERAL_ANCHOR:
+        leaves += _list_guy_angle(forces.row)
+    force = calculate_force({one.symbol: one for one in leaves})
+    return MemberForce(on=force, solved=(rope,), largest=rope)
+
+
+def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
+    return given(symbol, value, unit, source, kind=Kind.SOLVED)
+
+
+def _list_support_leaves(row: NetRow, width: LoadedWidth) -> list[Quantity]:
+    """Widths that load a support, inside the row or at its end."""
+    spacing = row.layout.post_spacing
+    leaves = [given("b", spacing, "m", find_cell(row, "post_spacing"))]
+    if width.position == "edge":
+        rule = {"source": "end.constant", "kind": Kind.PROFILE}
+        leaves.append(given("f_R", width.end_factor, "-", **rule))
+        leaves.append(given("Δl", width.end_length, "m", **rule))
+    return leaves
+
+
+def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], float]:
+    """What the load along the row brings a member, and how that may grow [kN]."""
+    share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
+    held = forces.held
+    if member in forces.effects.at_foot:
+        return ([share] if share.is_known else []), 0.0
+    if held is None or member == Member.FOOT_ANCHOR:
+        return [], 0.0
+    splay = given("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
+    pull = given(
+        *("P", held.pull_kN, "kN", "head_pull"),
+        kind=Kind.SOLVED,
+        band=(held.pull_low_kN, held.pull_high_kN),
     )
+    if member in _PARTS:
+        part: float = getattr(held, _PARTS[member])
+        leaves = [_solved("c", part, "-", _PARTS[member]), share, pull, splay]
+        return leaves, _high(load_guy(*leaves).added)
+    leaves = [_solved("w", held.post_part, "-", "post_part"), share, pull, splay]
+    nothing, least = (
+        _solved("T_min", force, "kN", "least_tension")
+        for force in (0.0, held.least_tension_kN)
+    )
+    rise = _high(load_post(*leaves, nothing).added)  # the least tension does not grow
+    return ([*leaves, least] if _high(load_post(*leaves, least).added) else []), rise
+
+
+def _list_push_leaves(forces: RowForces) -> list[Quantity]:
+    """Rope and guy that push the post at the row's end."""
+    rope = forces.largest.get(RopeForce.UPPER_ALONG)
+    angle = _list_guy_angle(forces.row)
+    return [solve_for(rope, "T_r"), *angle] if rope is not None and angle else []
+
+
+def _list_guy_angle(row: NetRow) -> list[Quantity]:
+    angle = row.row_end.guy_angle if row.row_end else None
+    if angle is None:
+        return []
+    cell = find_cell(row, "end_guy_angle", "Ends")
+    return [given("γ", degree_from_radian(angle), "deg", cell)]
 
 
 def tell_governing(reason: Message, force: MemberForce, load_case: str) -> Message:
     """A verdict's reason with the load that governs; of no demand at all, none does."""
-    loads = (force.coupled, force.by_panel, force.guideline)
-    is_alone = force.by_panel is None and force.guideline is None
-    if is_alone or not any(_high(one) for one in loads):
+    loads = (force.on.coupled, force.on.by_panel, force.on.guideline)
+    is_alone = loads[1] is None and loads[2] is None
+    if is_alone or not any(map(_high, loads)):
         return reason
     load = say(f"load.{force.governs}", case=name("load_case", load_case))
     return say("load.reason", reason=reason, load=load)
