@@ -39,7 +39,7 @@ ROWS = (
     {"site"},
     {"site.template"},
     {"study"},
-    {"study.audit", "files"},
+    {"study.rejudge", "files"},
     {"report.words"},
     {"report.view"},
     {"report.drawing"},

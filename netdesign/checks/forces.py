@@ -34,15 +34,15 @@ class Support:
     ----------
     position : str
         "intermediate" or "edge".
-    spacing, width : Quantity
-        b and b_e [m]; one and the same inside the row.
+    spacing, width : Quantity or None
+        b and b_e [m]; None inside the row, where one is the other.
     end_factor, end_length : Quantity or None
         f_R [-] and its length [m]; None inside the row.
     """
 
     position: Position
-    spacing: Quantity
-    width: Quantity
+    spacing: Quantity | None = None
+    width: Quantity | None = None
     end_factor: Quantity | None = None
     end_length: Quantity | None = None
 
@@ -64,11 +64,6 @@ class MemberLoad:
     share: Quantity | None = None
     added: Quantity | None = None
     lateral: Quantity | None = None
-
-
-def place_support(spacing: Quantity) -> Support:
-    """Support inside the row: a bay loads it."""
-    return Support(position="intermediate", spacing=spacing, width=spacing)
 
 
 def place_end_support(spacing: Quantity, factor: Quantity, length: Quantity) -> Support:
@@ -123,7 +118,7 @@ def bring_to_support(
     force = inside if load.share is None else load.share * inside
     if load.added is not None:
         force = force + load.added
-    if support.width is not support.spacing:
+    if support.width is not None and support.spacing is not None:
         force = force * support.width / support.spacing
     if load.lateral is not None:
         force = force * load.lateral
@@ -152,14 +147,17 @@ def take_largest(symbol: str, *forces: Quantity) -> Quantity:
 
 def pull_at_end(rope: Quantity, support: Support) -> Quantity:
     """Pull of a border rope along the row under the end effect, at most."""
-    factor, length = support.end_factor, support.end_length
-    if factor is None or length is None:
+    factor, length, spacing = support.end_factor, support.end_length, support.spacing
+    if factor is None:
         raise ValueError("a support inside the row has no end effect")
-    reach = factor * length / support.spacing
-    if (length.value or 0.0) > 0.5 * (support.spacing.value or 0.0):
-        reach = factor  # beyond half a bay it counts as if it were all over the bay
-    grown = 1 + reach
+    grown = 1 + factor  # beyond half a bay it counts as if it were all over the bay
+    if length is not None and spacing is not None and _is_short(length, spacing):
+        grown = 1 + factor * length / spacing
     return (rope * grown).named("H", "kN", "(P8)")
+
+
+def _is_short(length: Quantity, spacing: Quantity) -> bool:
+    return (length.value or 0.0) / (spacing.value or 1.0) <= 0.5
 
 
 def pull_end_guy(rope: Quantity, angle: Quantity) -> Quantity:
@@ -286,7 +284,9 @@ def _calculate_end(leaves: Leaves, support: Support) -> SupportForce:
 
 def _find_support(leaves: Leaves) -> Support:
     if "f_R" not in leaves:
-        return place_support(leaves["b"])
+        return Support(position="intermediate")
+    if "Δl" not in leaves:  # of a rope whose pull grows by f_R alone
+        return Support(position="edge", end_factor=leaves["f_R"])
     return place_end_support(leaves["b"], leaves["f_R"], leaves["Δl"])
 
 

@@ -44,13 +44,13 @@ def require_sound(
     StudyError
         With the contradictions, or if a file that was given is not the study's.
     """
-    from netdesign.study.audit import audit_study
+    from netdesign.study.rejudge import rejudge
     from netdesign.study.document import compute_digest
 
     site = _find_site(study, study_file, site_file, language)
     profile = _find_profile(study, study_file, standard, language)
     found = [say("stored.command", reason=one) for one in contradict_command(study)]
-    found += audit_study(study, profile, site)
+    found += rejudge(study, profile, site)
     if study.digest and study.digest != compute_digest(study):
         found.insert(0, say("stored.altered"))
     if found:

@@ -131,7 +131,7 @@ def _verify_study(
     language: Language,
 ) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
-    from netdesign.study.audit import audit_study
+    from netdesign.study.rejudge import rejudge
     from netdesign.study.check_site import check_site
     from netdesign.study.document import load_study
     from netdesign.study.record_provenance import load_own_profile
@@ -149,7 +149,7 @@ def _verify_study(
     if not all(hashes):
         tell(say("verify.not_its_inputs"), language)
         return _FAIL
-    arithmetic = audit_study(study, profile, site)
+    arithmetic = rejudge(study, profile, site)
     told = [
         show.digest(study),
         show.contradictions(say("verify.its_command"), contradict_command(study)),

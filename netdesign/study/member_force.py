@@ -123,8 +123,10 @@ class MemberForce:
         support, lateral = self.on.support, self.on.load.lateral
         if self.largest.quantity in tuple(RopeForce):
             return _high(self.action) / (self.largest.high_kN or 1.0)
-        width, spacing = support.width.value or 0.0, support.spacing.value or 1.0
-        return width / spacing * ((lateral.value if lateral else None) or 1.0)
+        ratio = 1.0
+        if support.width is not None and support.spacing is not None:
+            ratio = (support.width / support.spacing).value or 1.0
+        return ratio * ((lateral.value if lateral else None) or 1.0)
 
     @property
     def share(self) -> float:
@@ -234,13 +236,14 @@ def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
 
 def _list_support_leaves(row: NetRow, width: LoadedWidth) -> list[Quantity]:
     """Widths that load a support, inside the row or at its end."""
-    spacing = row.layout.post_spacing
-    leaves = [given("b", spacing, "m", find_cell(row, "post_spacing"))]
-    if width.position == "edge":
-        rule = {"source": "end.constant", "kind": Kind.PROFILE}
-        leaves.append(given("f_R", width.end_factor, "-", **rule))
-        leaves.append(given("Δl", width.end_length, "m", **rule))
-    return leaves
+    if width.position == "intermediate":
+        return []
+    rule = "end.constant"
+    return [
+        given("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
+        given("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE),
+        given("Δl", width.end_length, "m", rule, kind=Kind.PROFILE),
+    ]
 
 
 def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], float]:

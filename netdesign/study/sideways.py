@@ -113,9 +113,11 @@ def _record(
 
 
 def _find_largest(heads: Sequence[_Head], name: str) -> tuple[float, float]:
-    """Largest weight over the heads [-], and the inclination that it has there [deg]."""
-    known = [(float(getattr(one.weights, name)), one) for one in heads if one.weights]
-    value, head = max(known, key=lambda pair: pair[0])
+    """Largest weight over the heads [-], and the inclination there [deg]."""
+    weighed = [one for one in heads if one.weights]
+    values = [float(getattr(one.weights, name)) for one in weighed]
+    value = max(values)
+    head = weighed[values.index(value)]
     return value, given_degree_from_radian(head.inclination)
 
 

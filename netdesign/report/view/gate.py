@@ -11,7 +11,7 @@ from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.structure.members import ROPE_OF
-from netdesign.study.audit.comparing import tell_value, tell_verdict
+from netdesign.study.rejudge.compare import tell_value, tell_verdict
 from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say

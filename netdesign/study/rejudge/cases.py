@@ -9,18 +9,25 @@ from itertools import pairwise
 
 from netdesign.coupling.solution import RELEASED
 from netdesign.outcome import Outcome
-from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.audit.comparing import SAME, is_same, tell_unequal
+from netdesign.structure.members import (
+    BROUGHT_BY,
+    CARRYING_MEMBERS,
+    REPORTED_MEMBERS,
+    Member,
+)
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import BoundRecord, EnvelopeRecord
+from netdesign.study.force_records import ForceRecord
 from netdesign.study.records import RowStudy
+from netdesign.study.rejudge.compare import SAME, is_same, tell_unequal
+from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
 Spans = Mapping[str, tuple[float, float]]
 
 
-def audit_envelope(row: RowStudy, spans: Spans, tolerance: float) -> Iterator[Message]:
+def rejudge_cases(row: RowStudy, spans: Spans, tolerance: float) -> Iterator[Message]:
     """Sentences on what cannot be true of the cases and of what follows from them.
 
     Parameters
@@ -36,13 +43,14 @@ def audit_envelope(row: RowStudy, spans: Spans, tolerance: float) -> Iterator[Me
     place = say("audit.row", row=row.id)
     for number, case in enumerate(row.cases):
         where = say("audit.case", place=place, number=number)
-        yield from _audit_case(where, case, spans, tolerance)
+        yield from _rejudge_case(where, case, spans, tolerance)
     counts = Counter(case.case for case in row.cases)
     if any(count > 1 for count in counts.values()):
         yield say("audit.case_twice", place=place)
-    yield from _audit_extremes(place, row)
+    yield from _rejudge_extremes(place, row)
+    yield from _rejudge_forces(place, row)
     if row.envelope is not None:
-        yield from _audit_record(place, row, row.envelope, spans)
+        yield from _rejudge_record(place, row, row.envelope, spans)
 
 
 def read_force(case: CaseRecord, member: str) -> float | None:
@@ -70,7 +78,7 @@ def find_largest(row: RowStudy, member: str) -> CaseRecord | None:
     return min(list_solved(row), key=rank, default=None)
 
 
-def _audit_case(
+def _rejudge_case(
     place: Message, case: CaseRecord, spans: Spans, tolerance: float
 ) -> Iterator[Message]:
     forces = [read_force(case, member) for member in REPORTED_MEMBERS]
@@ -100,7 +108,7 @@ def _audit_case(
             )
 
 
-def _audit_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
+def _rejudge_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
     wanted = list(REPORTED_MEMBERS) if list_solved(row) else []
     named = [extreme.quantity for extreme in row.extremes]
     if named != wanted:
@@ -119,10 +127,10 @@ def _audit_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
         if largest is not None:
             member = name_member(extreme.quantity)
             where = say("audit.largest", place=place, member=member)
-            yield from _audit_extreme(where, extreme, largest)
+            yield from _rejudge_extreme(where, extreme, largest)
 
 
-def _audit_extreme(
+def _rejudge_extreme(
     place: Message, extreme: ExtremeRecord, largest: CaseRecord
 ) -> Iterator[Message]:
     others = [member for member in REPORTED_MEMBERS if member != extreme.quantity]
@@ -152,11 +160,67 @@ def _audit_extreme(
         yield say("audit.outside_band", place=place)
 
 
+def _rejudge_forces(place: Message, row: RowStudy) -> Iterator[Message]:
+    """Forces that the checks rest on, against the largest ones of the cases."""
+    extremes = {one.quantity: one for one in row.extremes}
+    extremes |= {one.quantity: one for one in row.panel.extremes} if row.panel else {}
+    named = [one.quantity for one in row.forces]
+    wanted = [*CARRYING_MEMBERS, *(one for one in extremes if one.startswith("panel"))]
+    if sorted(named) != sorted(wanted if list_solved(row) else []):
+        yield say(
+            "audit.largest_of_others",
+            place=place,
+            named=tuple(named),
+            wanted=tuple(wanted),
+        )
+        return
+    for force in row.forces:
+        where = say("audit.part", place=place, part=name_member(force.quantity))
+        yield from _rejudge_force(where, force, row, extremes)
+
+
+def _rejudge_force(
+    place: Message,
+    force: ForceRecord,
+    row: RowStudy,
+    extremes: Mapping[str, ExtremeRecord],
+) -> Iterator[Message]:
+    """One of them: a bound of a search exactly, of a grid with what may hide."""
+    if force.quantity == Member.POST_BASE:  # part of the post's, whose largest is told
+        if force.value_kN > extremes[Member.POST].max_kN * (1.0 + SAME):
+            yield say("audit.more_on_base", place=place)
+        return
+    largest = extremes[_find_bringing(force.quantity, row)]
+    pairs = [
+        ("value_kN", force.value_kN, largest.max_kN),
+        ("low_kN", force.low_kN, largest.low_kN),
+    ]
+    if largest.upper_bound_kN is not None:
+        pairs.append(("high_kN", force.high_kN, largest.high_kN))
+    elif force.high_kN < largest.high_kN * (1.0 - SAME):
+        high = show_value(force.high_kN)
+        yield say("audit.too_low_end", place=place, high=high, least=largest.high_kN)
+    yield from tell_unequal(place, pairs)
+    if not same_point(force.case, largest.case):
+        yield say("audit.other_case", place=place)
+
+
+def _find_bringing(quantity: str, row: RowStudy) -> str:
+    """Largest force that it is: an anchor has that of its guy, or of the net's foot."""
+    drawing = row.drawing
+    is_at_foot = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
+    if quantity == Member.UPHILL_ANCHOR and is_at_foot:
+        return Member.FOOT_ANCHOR  # one anchor carries both, (S7)
+    if quantity in (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR):
+        return BROUGHT_BY[quantity]
+    return quantity
+
+
 def _are_ordered(values: tuple[float, ...]) -> bool:
     return all(one <= other * (1.0 + SAME) for one, other in pairwise(values))
 
 
-def _audit_record(
+def _rejudge_record(
     place: Message, row: RowStudy, record: EnvelopeRecord, spans: Spans
 ) -> Iterator[Message]:
     failed = len(row.cases) - len(list_solved(row))
@@ -175,10 +239,10 @@ def _audit_record(
         yield say("audit.bounds_of_others", place=place)
     for bound in record.bounds:
         if bound.quantity in extremes:
-            yield from _audit_bound(place, bound, extremes[bound.quantity], record)
+            yield from _rejudge_bound(place, bound, extremes[bound.quantity], record)
 
 
-def _audit_bound(
+def _rejudge_bound(
     place: Message, bound: BoundRecord, extreme: ExtremeRecord, record: EnvelopeRecord
 ) -> Iterator[Message]:
     place = say("audit.bound", place=place, member=name_member(bound.quantity))

@@ -10,17 +10,17 @@ from netdesign.checks import Standard
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import Site
-from netdesign.study.audit.check_audit import audit_checks
-from netdesign.study.audit.comparing import is_of_steady_states, tell_verdict
-from netdesign.study.audit.envelope_audit import Spans, audit_envelope
-from netdesign.study.audit.statics_audit import audit_statics
-from netdesign.study.audit.support_audit import audit_support
 from netdesign.study.notes import list_reasons
 from netdesign.study.records import RowStudy, Study, list_verdicts
+from netdesign.study.rejudge.cases import Spans, rejudge_cases
+from netdesign.study.rejudge.checks import rejudge_checks
+from netdesign.study.rejudge.compare import is_of_steady_states, tell_verdict
+from netdesign.study.rejudge.drawn import rejudge_drawn
+from netdesign.study.rejudge.statics import rejudge_statics
 from netdesign.words.message import Message, say
 
 
-def audit_study(
+def rejudge(
     study: Study, standard: Standard | None = None, site: Site | None = None
 ) -> list[Message]:
     """Contradictions of a study, each in a sentence that names the place.
@@ -45,29 +45,29 @@ def audit_study(
     -----------
     tests/study/audit/test_alterations.py
     """
-    found = [*_audit_profile(study, standard)]
+    found = [*_rejudge_profile(study, standard)]
     spans = _read_spans(study)
     is_steady = is_of_steady_states(study)
     tolerance = _read_number(study, "balance_tolerance") if is_steady else math.inf
     law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
     accepts_law = bool(law) and study.project.accepted_law == law
     for row in study.rows:
-        found += audit_envelope(row, spans, tolerance)
-        found += audit_checks(row, study.profile, accepts_law=accepts_law)
-        found += audit_support(row, study.profile, is_steady=is_steady)
-        found += audit_statics(row) if is_steady else ()
-        found += _audit_verdict(row)
+        found += rejudge_cases(row, spans, tolerance)
+        found += rejudge_checks(row, study.profile, accepts_law=accepts_law)
+        found += rejudge_drawn(row, study.profile, is_steady=is_steady)
+        found += rejudge_statics(row) if is_steady else ()
+        found += _rejudge_verdict(row)
     if site is not None and site.sha256 == study.provenance.site_sha256:
-        from netdesign.study.audit.site_audit import audit_site
+        from netdesign.study.rejudge.again import judge_again
 
-        found += audit_site(study, site, standard)
+        found += judge_again(study, site, standard)
     verdict = merge_verdicts(row.verdict for row in study.rows)
     if study.verdict is not verdict:
         found.append(tell_verdict(say("audit.study"), study.verdict, verdict))
     return found
 
 
-def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]:
+def _rejudge_profile(study: Study, standard: Standard | None) -> Iterator[Message]:
     """Values of the profile against its files, where these are the ones of the hash."""
     ids = [value.id for value in study.profile.values]
     if len(set(ids)) < len(ids):
@@ -87,7 +87,7 @@ def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]
             yield say("audit.other_profile", name=key)
 
 
-def _audit_verdict(row: RowStudy) -> Iterator[Message]:
+def _rejudge_verdict(row: RowStudy) -> Iterator[Message]:
     """Verdict and reasons of a row from its checks and independent checks."""
     place = say("audit.row", row=row.id)
     verdict = merge_verdicts(list_verdicts(row.checks, row.independent))

@@ -1,5 +1,5 @@
 """Agreement of a stored study with itself, its site and its profile; unsolved."""
 
-from netdesign.study.audit.study_audit import audit_study
+from netdesign.study.rejudge.study import rejudge
 
-__all__ = ["audit_study"]
+__all__ = ["rejudge"]

@@ -42,10 +42,10 @@ def tell_unequal(place: Message, pairs: Iterable[Pair]) -> Iterator[Message]:
 
 
 def tell_differences(
-    key: str, stored: object, again: object, **given: Message
+    key: str, stored: object, again: object, *, is_exact: bool = False, **given: Message
 ) -> Iterator[Message]:
     """Sentences on the first places at which a stored part is not what follows."""
-    for found in compare_values(stored, again)[:_MOST]:
+    for found in compare_values(stored, again, is_exact=is_exact)[:_MOST]:
         yield say(key, **given, value=found.message)
 
 

@@ -7,28 +7,35 @@ from collections.abc import Iterator
 
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import ROPE_OF, Member, name_in_panel
-from netdesign.study.audit.comparing import Pair, tell_unequal
+from netdesign.structure.members import Member, RopeForce, name_in_panel
 from netdesign.study.records import RowStudy
+from netdesign.study.rejudge.compare import Pair, tell_unequal
 from netdesign.study.support_records import StaticsRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
 
-def audit_statics(row: RowStudy) -> Iterator[Message]:
+def rejudge_statics(row: RowStudy) -> Iterator[Message]:
     """Sentences on states whose forces do not follow, or are not those of the checks.
 
     Of steady states only: the forces of a history need not be of one instant.
     """
-    actions = [check.action for check in row.checks if check.action]
-    if not actions:
+    spacing = _read_spacing(row)
+    if spacing is None or not row.forces:
         return
     place = say("audit.row", row=row.id)
     for number, state in enumerate(row.statics):
         where = say("audit.statics", place=place, number=number)
-        yield from tell_unequal(where, _follow(state, actions[0].post_spacing_m))
-    yield from _audit_largest(place, row)
-    yield from _audit_sideways(place, row, actions[0].post_spacing_m)
+        yield from tell_unequal(where, _follow(state, spacing))
+    yield from _rejudge_largest(place, row)
+    yield from _rejudge_sideways(place, row, spacing)
+
+
+def _read_spacing(row: RowStudy) -> float | None:
+    """Post spacing that was read [m]."""
+    label = say("column.Nets.post_spacing")
+    found = [echo.value for echo in row.inputs if echo.label == label]
+    return next((one for one in found if isinstance(one, float)), None)
 
 
 def _follow(state: StaticsRecord, spacing: float) -> list[Pair]:
@@ -86,20 +93,17 @@ def read_state(state: StaticsRecord, member: str) -> float:
     return forces[Member(member)]
 
 
-def _audit_largest(place: Message, row: RowStudy) -> Iterator[Message]:
+def _rejudge_largest(place: Message, row: RowStudy) -> Iterator[Message]:
     """Each largest force stands in the state that is said to bring it."""
-    solved = {}
-    for check in row.checks:
-        action = check.action
-        if action is not None and check.member not in ROPE_OF:
-            solved[check.member] = action.solved_kN
-            solved[name_in_panel(check.member)] = action.panel_kN or 0.0
+    ropes = tuple(RopeForce)
+    solved = {one.quantity: one.value_kN for one in row.forces}
+    solved = {name: force for name, force in solved.items() if name not in ropes}
     least = {
         one.member: one.force_kN for one in (row.floor.forces if row.floor else ())
     }
     for key, wanted, states in (
-        ("solved_kN", solved, [one for one in row.statics if one.load is None]),
-        ("floor_kN", least, [one for one in row.statics if one.load is not None]),
+        ("value_kN", solved, [one for one in row.statics if one.load is None]),
+        ("force_kN", least, [one for one in row.statics if one.load is not None]),
     ):
         for member, force in wanted.items():
             if not force:
@@ -117,7 +121,9 @@ def _lacks_altitude(row: RowStudy) -> bool:
     return any(one.key == "row.altitude_assumed" for one in told)
 
 
-def _audit_sideways(place: Message, row: RowStudy, spacing: float) -> Iterator[Message]:
+def _rejudge_sideways(
+    place: Message, row: RowStudy, spacing: float
+) -> Iterator[Message]:
     """The pull and the tension by which the load along the row is shared."""
     held = row.held_sideways
     if held is None:
@@ -140,15 +146,3 @@ def _audit_sideways(place: Message, row: RowStudy, spacing: float) -> Iterator[M
             ("held_sideways.least_tension_kN", held.least_tension_kN, least),
         ],
     )
-    for check in row.checks:
-        load = check.action.sideways if check.action else None
-        if load is not None:
-            pairs: list[Pair] = [
-                ("pull_kN", load.pull_kN, held.pull_kN),
-                ("splay_deg", load.splay_deg, held.splay_deg),
-            ]
-            if load.least_tension_kN is not None:
-                tension = held.least_tension_kN
-                pairs.append(("least_tension_kN", load.least_tension_kN, tension))
-            where = say("audit.check", place=place, check=check.id)
-            yield from tell_unequal(where, pairs)

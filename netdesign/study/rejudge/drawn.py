@@ -11,16 +11,16 @@ from netdesign.outcome import Outcome
 from netdesign.structure.head import HeadForces, compute_head_forces
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS, Member
-from netdesign.study.audit.comparing import Pair, tell_unequal, tell_value
-from netdesign.study.audit.envelope_audit import (
+from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.records import IndependentRecord, ProfileRecord, RowStudy
+from netdesign.study.rejudge.cases import (
     find_largest,
     list_solved,
     name_members,
     read_force,
     same_point,
 )
-from netdesign.study.case_records import CasePoint, CaseRecord
-from netdesign.study.records import IndependentRecord, ProfileRecord, RowStudy
+from netdesign.study.rejudge.compare import Pair, tell_unequal, tell_value
 from netdesign.study.support_records import AnchorRecord, Drawing, HeadForce
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
@@ -31,7 +31,7 @@ _BESIDE_NET = 0.15  # rad, over so short a piece of a net that sags
 _CLOSE = 1e-6  # of the pull: members from a stored pull, whose last digits are lost
 
 
-def audit_support(
+def rejudge_drawn(
     row: RowStudy, profile: ProfileRecord, *, is_steady: bool
 ) -> Iterator[Message]:
     """Sentences on what cannot be true of the drawn case of a row.
@@ -52,12 +52,12 @@ def audit_support(
     if not same_point(drawing.case, _find_governing(row)):
         yield say("audit.other_drawn", place=place)
     share = next((v.value for v in profile.values if v.id == LATERAL_SHARE), 0.0)
-    yield from _audit_anchors(place, row.anchors, drawing, share)
+    yield from _rejudge_anchors(place, row.anchors, drawing, share)
     if is_steady:
-        yield from _audit_sizes(place, row.anchors, drawing, drawn)
-    yield from _audit_head(place, row, drawing)
-    yield from _audit_ends(place, row, drawing)
-    yield from _audit_laws(place, row, drawn, is_steady=is_steady)
+        yield from _rejudge_sizes(place, row.anchors, drawing, drawn)
+    yield from _rejudge_head(place, row, drawing)
+    yield from _rejudge_ends(place, row, drawing)
+    yield from _rejudge_laws(place, row, drawn, is_steady=is_steady)
 
 
 def _find_governing(row: RowStudy) -> CasePoint | None:
@@ -69,7 +69,7 @@ def _find_governing(row: RowStudy) -> CasePoint | None:
     return largest.case if largest else None
 
 
-def _audit_anchors(
+def _rejudge_anchors(
     place: Message, anchors: list[AnchorRecord], drawing: Drawing, share: float
 ) -> Iterator[Message]:
     named = tuple((one.anchor, one.member) for one in anchors)
@@ -113,7 +113,7 @@ def _name_arrow(anchor: str) -> str:
     return Member.POST if anchor == Member.POST_BASE else anchor
 
 
-def _audit_sizes(
+def _rejudge_sizes(
     place: Message, anchors: list[AnchorRecord], drawing: Drawing, drawn: CaseRecord
 ) -> Iterator[Message]:
     """Forces on the ground against those of the case; one anchor may carry two."""
@@ -131,7 +131,7 @@ def _audit_sizes(
     )
 
 
-def _audit_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
+def _rejudge_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
     """Members that hold the net's pull on the head, from (S1) to (S4)."""
     pull, *others = row.head
     if pull.member != Member.NET or len(row.anchors) != len(BROUGHT_BY):
@@ -163,7 +163,7 @@ def _audit_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Mes
     yield from _compare_head(place, others, expected)
 
 
-def _audit_ends(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
+def _rejudge_ends(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
     """A net pulls on its ends along itself, as far as its drawing shows that."""
     foot, pull = row.anchors[0], row.head[0]
     for name, points, force in (
@@ -202,7 +202,7 @@ def _compare_head(
         yield from tell_unequal(where, pairs)
 
 
-def _audit_laws(
+def _rejudge_laws(
     place: Message, row: RowStudy, drawn: CaseRecord, *, is_steady: bool
 ) -> Iterator[Message]:
     wanted = {*_LAWS, *(["capstan_ratio"] if is_steady else [])}

@@ -1,0 +1,413 @@
+"""Checks of a stored study against its forces, its profile and their own numbers."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from netdesign.calculation.quantity import Kind, Quantity
+from netdesign.calculation.steps import Step, evaluate, list_steps
+from netdesign.checks.check import judge
+from netdesign.checks.forces import (
+    calculate_force,
+    calculate_resistance,
+    rate,
+)
+from netdesign.checks.schema import ACTION_FACTOR, MODES_WITHOUT_FORCE, ROPE_ANGLE
+from netdesign.errors import NetDesignError
+from netdesign.outcome import Verdict
+from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
+from netdesign.structure.members import CARRYING_MEMBERS, ROPE_OF, Member
+from netdesign.study.member_force import leave_out_governing
+from netdesign.study.records import CheckRecord, ProfileRecord, RowStudy
+from netdesign.study.rejudge.cases import is_complete, name_members, same_point
+from netdesign.study.rejudge.compare import (
+    SAME,
+    Pair,
+    tell_differences,
+    tell_unequal,
+    tell_verdict,
+)
+from netdesign.words.message import Message, say
+from netdesign.words.names import name_check
+
+_NEVER_MET = ("profile.named", "inputs.plausible")  # there while something is open
+# A post of which the snow's moment leaves nothing for the force along it.
+_UNBOUNDED = "post_bending.too_much"
+_REASONS = {
+    Verdict.PASS: ("check.passes", "check.slack"),
+    Verdict.FAIL: (
+        *("check.fails", "check.fails_besides", "check.fails_though_declared"),
+        _UNBOUNDED,
+    ),
+    Verdict.NOT_PROVEN: ("check.not_proven",),
+    Verdict.DECLARED: ("check.declared",),
+}
+_RULES = "end.constant"  # names the rule of the row's end, not a value
+
+
+def rejudge_checks(
+    row: RowStudy, profile: ProfileRecord, *, accepts_law: bool
+) -> Iterator[Message]:
+    """Sentences on what cannot be true of a row's checks.
+
+    ``accepts_law`` says that the creep law is accepted outside its densities.
+    """
+    place = say("audit.row", row=row.id)
+    yield from _look_for_all(place, row, profile)
+    yield from _look_for_floor(place, row, profile)
+    values = {value.id: value.value for value in profile.values}
+    clauses = {value.id: value.clause for value in profile.values}
+    known = _list_known(row)
+    for check in row.checks:
+        where = say("audit.check", place=place, check=check.id)
+        yield from _rejudge_itself(where, check)
+        if check.mode in MODES_WITHOUT_FORCE:
+            yield from _rejudge_direction(where, check, row, values)
+        elif check.member != Member.NET:
+            yield from _rejudge_factors(where, check, values, clauses)
+            yield from _rejudge_steps(where, check, known, values)
+            yield from _rejudge_force(where, check, row)
+            if not accepts_law:
+                yield from _rejudge_snow(where, check, row)
+
+
+def _look_for_all(
+    place: Message, row: RowStudy, profile: ProfileRecord
+) -> Iterator[Message]:
+    """Every check that a row has to have, once."""
+    counts = Counter(check.id for check in row.checks)
+    for twice in (name for name, count in counts.items() if count > 1):
+        yield say("audit.check_twice", place=place, check=twice)
+    wanted = [f"{member}.{mode}" for member, mode in (*MEMBER_MODES, *DEPENDENT_MODES)]
+    if _has_end(row, profile):
+        wanted += [f"{one}.end" for one in wanted]
+    if _has_ropes(row) and not _goes_on(row):
+        wanted += [f"{member}.{mode}.end" for member, mode in END_MODES]
+    wanted += [f"{Member.POST}.lateral", "geometry.inclination"]
+    wanted += ["profile.named"] if profile.is_default else []
+    wanted += ["inputs.plausible"] if row.questions else []
+    lost = [one for one in wanted if one not in counts]
+    if lost:
+        yield say("audit.no_check", place=place, checks=tuple(lost))
+
+
+def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
+    """Presence of a last support that a rule of the profile loads."""
+    return any(one.id == _RULES for one in profile.values) and not _goes_on(row)
+
+
+def _goes_on(row: RowStudy) -> bool:
+    """Absence of an end: the next work goes on without a gap."""
+    ends = {("gap", 0.0), ("row_end", "continuous")}
+    said = {(say(f"column.Nets.{key}"), value) for key, value in ends}
+    return any((echo.label, echo.value) in said for echo in row.inputs)
+
+
+def _has_ropes(row: RowStudy) -> bool:
+    """Ropes between the posts, unless the row says that there are none."""
+    system = say("column.Nets.panel_system")
+    found = [echo.value for echo in row.inputs if echo.label == system]
+    return found != ["none"] and (bool(found) or row.panel is not None)
+
+
+def _look_for_floor(
+    place: Message, row: RowStudy, profile: ProfileRecord
+) -> Iterator[Message]:
+    """A floor where the profile takes one: a force of every member, or a reason."""
+    floor = row.floor
+    if (floor is None) is not (profile.floor == "none"):
+        yield say("audit.floor_of_profile", place=place, floor=profile.floor)
+    if floor is not None:
+        named = [one.member for one in floor.forces]
+        wanted = [] if floor.reason else list(CARRYING_MEMBERS)
+        if sorted(named) != sorted(wanted):
+            yield say("audit.floor_of_others", place=place, named=name_members(named))
+
+
+def _rejudge_itself(place: Message, check: CheckRecord) -> Iterator[Message]:
+    """A check of any kind: its name, and a utilisation without a bound."""
+    end = ".end" if check.position == "edge" else ""
+    is_own = check.id == f"{check.member}.{check.mode}{end}"
+    if not is_own and check.member != Member.NET:
+        what = name_check(check.member, check.mode, check.position)
+        yield say("audit.check_of_other", place=place, what=what)
+    if check.id in _NEVER_MET and check.verdict is not Verdict.NOT_PROVEN:
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    if check.is_unbounded is not _is_used_up(check):
+        yield say("audit.unbounded", place=place)
+
+
+def _is_used_up(check: CheckRecord) -> bool:
+    """A moment leaves nothing of the post for the force along it, by its reason."""
+    has_numbers = check.utilisation is not None or check.resistance_kN is not None
+    reason = leave_out_governing(check.reason)
+    alone = reason.arguments.get("reason")
+    if reason.key == "check.fails_though_declared" and isinstance(alone, Message):
+        reason = alone
+    return reason.key == _UNBOUNDED and not has_numbers
+
+
+def _rejudge_factors(
+    place: Message,
+    check: CheckRecord,
+    values: Mapping[str, float],
+    clauses: Mapping[str, str],
+) -> Iterator[Message]:
+    general = f"resistance.{check.mode}"
+    named = f"{general}.{check.resistance_basis}"
+    key = next((one for one in (named, general) if one in values), "")
+    yield from tell_unequal(
+        place,
+        [
+            ("γ_E", check.read("γ_E"), values.get(ACTION_FACTOR)),
+            ("γ_R", check.read("γ_R"), values.get(key)),
+        ],
+    )
+    if check.clause != clauses.get(key, "-"):
+        yield say("audit.other_clause", place=place, clause=check.clause)
+
+
+Ends = tuple[float | None, float | None, float | None]
+
+
+def _list_known(row: RowStudy) -> dict[str, Ends]:
+    """Solved quantities that a row states, by their sources: low end, value, high."""
+    known: dict[str, Ends] = {
+        one.quantity: (one.low_kN, one.value_kN, one.high_kN) for one in row.forces
+    }
+    for least in row.floor.forces if row.floor else ():
+        known[f"floor.{least.member}"] = (least.force_kN,) * 3
+    known["tilt"] = (row.tilt,) * 3
+    held = row.held_sideways
+    if held is not None:
+        known["head_pull"] = (held.pull_low_kN, held.pull_kN, held.pull_high_kN)
+        known["least_tension"] = (held.least_tension_kN,) * 3
+        for part in ("uphill_part", "downhill_part", "post_part"):
+            known[part] = (getattr(held, part),) * 3
+    return known
+
+
+def _rejudge_steps(
+    place: Message,
+    check: CheckRecord,
+    known: Mapping[str, Ends],
+    values: Mapping[str, float],
+) -> Iterator[Message]:
+    """Every step from the leaves, and these from forces and profile."""
+    try:
+        again = list_steps(_calculate(evaluate(check.steps)))
+    except (NetDesignError, KeyError, ValueError, TypeError):
+        yield say("audit.no_calculation", place=place)
+        return
+    yield from tell_differences(
+        "audit.other_steps",
+        {one.symbol: one for one in check.steps},
+        {one.symbol: one for one in again},
+        is_exact=True,
+        place=place,
+    )
+    for step in check.steps:
+        yield from _rejudge_leaf(place, step, known, values)
+    yield from tell_unequal(
+        place,
+        [
+            ("demand_kN", check.demand_kN, check.read("E_d")),
+            ("resistance_kN", check.resistance_kN, check.read("R_d")),
+            ("utilisation", check.utilisation, check.read("μ")),
+        ],
+    )
+
+
+def _calculate(found: Mapping[str, Quantity]) -> Quantity:
+    """Utilisation from the leaves of a stored calculation, as it was made."""
+    leaves = {name: one for name, one in found.items() if one.kind is not Kind.WORKED}
+    force = None if "E_k" in leaves else calculate_force(leaves)
+    resistance = calculate_resistance(leaves, force)
+    action = force.action if force else leaves["E_k"]
+    return rate(action, leaves["γ_E"], resistance, leaves["γ_R"])
+
+
+def _rejudge_leaf(
+    place: Message,
+    step: Step,
+    known: Mapping[str, Ends],
+    values: Mapping[str, float],
+) -> Iterator[Message]:
+    if step.kind is Kind.SOLVED and step.value is not None:
+        expected: Ends = known.get(step.source, (None, None, None))
+        names = (f"{step.symbol}.low", step.symbol, f"{step.symbol}.high")
+        yield from tell_unequal(
+            place, list(zip(names, step.ends, expected, strict=True))
+        )
+    if step.kind is Kind.PROFILE and step.source in values and step.source != _RULES:
+        yield from tell_unequal(place, [(step.symbol, step.value, values[step.source])])
+
+
+def is_left_open(check: CheckRecord, row: RowStudy) -> bool:
+    """A check without a force, for want of inputs that its force depends on."""
+    of_end = check.position == "edge" and check.member in (
+        *ROPE_OF,
+        *(Member.POST, Member.POST_BASE),
+    )
+    is_open = check.verdict in (Verdict.NOT_PROVEN, Verdict.DECLARED)
+    panel = row.panel
+    is_assumed = panel is not None and panel.assumed and panel.failed
+    is_empty = not check.is_of_force and check.read("E_k") is None
+    return is_open and is_empty and bool(row.unsaid or of_end or is_assumed)
+
+
+def _rejudge_force(
+    place: Message, check: CheckRecord, row: RowStudy
+) -> Iterator[Message]:
+    """A check of a force: its case, governing load, verdict, interval."""
+    if is_left_open(check, row):
+        return
+    if row.unsaid:
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    has_force = any(one.quantity == _name_force(check) for one in row.forces)
+    if check.is_of_force is not has_force:
+        yield say("audit.action_or_force", place=place)
+    elif has_force:
+        yield from _rejudge_governing(place, check, row)
+    yield from _rejudge_verdict(place, check, row)
+    yield from _rejudge_spreads(place, check)
+
+
+def _name_force(check: CheckRecord) -> str:
+    """Key of the force by the section, or of the rope, that a check rests on."""
+    return ROPE_OF.get(check.member, check.member)
+
+
+def _rejudge_governing(
+    place: Message, check: CheckRecord, row: RowStudy
+) -> Iterator[Message]:
+    """Governing load: the larger one; its case."""
+    forces = {one.quantity: one for one in row.forces}
+    largest = forces[_name_force(check)]
+    if check.is_by_panel and check.member not in ROPE_OF:
+        largest = forces[f"panel_{check.member}"]
+    if not same_point(check.case, largest.case):
+        yield say("audit.other_case", place=place)
+    governs, found = "panel", row.floor.forces if row.floor else ()
+    least = next((one for one in found if one.member == check.member), None)
+    if check.member not in ROPE_OF:
+        governs = _find_governing(check)
+        if check.load_case != (least.load_case if least else ""):
+            yield say("audit.other_load", place=place, load=say(f"load_name.{governs}"))
+    if check.governs != governs:
+        yield say("audit.other_load", place=place, load=say(f"load_name.{governs}"))
+
+
+def _find_governing(check: CheckRecord) -> str:
+    """Largest one of the loads on a support; solved ones count with upper ends."""
+    coupled, by_panel, least = (
+        check.read_band(check.name_force(one))[1] or 0.0 for one in "cpg"
+    )
+    if least and least >= max(coupled, by_panel):
+        return "guideline"
+    return "panel" if by_panel > coupled else "coupled"
+
+
+def _rejudge_verdict(
+    place: Message, check: CheckRecord, row: RowStudy
+) -> Iterator[Message]:
+    """The verdict from the band, as ``checks.check`` gives it."""
+    low, high = check.utilisation_band
+    verdict = Verdict.NOT_PROVEN
+    if low is not None and high is not None:
+        verdict = judge(low, high, least=0.0, most=1.0, is_complete=is_complete(row))
+    if check.is_unbounded:
+        verdict = Verdict.FAIL
+    is_open = is_held_back(check) or _is_information(check, row)
+    is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
+    if is_declared and verdict is not Verdict.FAIL:
+        is_open = True
+    if check.verdict is not verdict and not is_open:
+        yield tell_verdict(place, check.verdict, verdict)
+    if leave_out_governing(check.reason).key not in _REASONS[check.verdict]:
+        told = say(f"verdict.{check.verdict}")
+        yield say("audit.other_reason", place=place, verdict=told)
+
+
+def is_held_back(check: CheckRecord) -> bool:
+    """A check that would pass is not proven for a reason beside its numbers.
+
+    Such as a fault of the program in a solve that the check does not rest on.
+    """
+    _, high = check.utilisation_band
+    is_met = high is not None and high <= 1.0
+    is_told = leave_out_governing(check.reason).key in _REASONS[Verdict.NOT_PROVEN]
+    return check.verdict is Verdict.NOT_PROVEN and is_met and is_told
+
+
+def _is_information(check: CheckRecord, row: RowStudy) -> bool:
+    """The check is left open since the net stands below its snow."""
+    too_low = any(
+        one.id == "geometry.height" and one.verdict is Verdict.FAIL
+        for one in row.checks
+    )
+    return too_low and check.verdict is Verdict.NOT_PROVEN
+
+
+def _rejudge_spreads(place: Message, check: CheckRecord) -> Iterator[Message]:
+    """Parts of the interval that count in the verdict make up its band."""
+    counted = [spread for spread in check.spreads if spread.in_verdict]
+    used, band = check.utilisation, check.utilisation_band
+    if not counted:
+        if used:
+            yield say("audit.no_spread", place=place)
+        return
+    ends = [(one.low, one.high) for one in counted]
+    if used is None or any(None in pair for pair in ends):
+        yield say("audit.spread_without_numbers", place=place)
+        return
+    low = min(used, *(one or 0.0 for one, _ in ends))
+    high = used + sum((one or 0.0) - used for _, one in ends)
+    pairs: list[Pair] = [("spreads.low", low, band[0]), ("spreads.high", high, band[1])]
+    yield from tell_unequal(place, pairs)
+
+
+def _rejudge_snow(
+    place: Message, check: CheckRecord, row: RowStudy
+) -> Iterator[Message]:
+    """No pass on a force of snow for which the creep law is not given."""
+    if check.verdict is not Verdict.PASS:
+        return
+    names = [_name_force(check), f"panel_{check.member}"]
+    names += [Member.POST] if check.read_band("A")[1] else []
+    points = [one.case for one in row.forces if one.quantity in names and one.high_kN]
+    light = [case.case for case in row.cases if not case.is_calibrated]
+    if any(same_point(point, case) for case in light for point in points):
+        yield say("audit.extrapolated_pass", place=place)
+
+
+def _rejudge_direction(
+    place: Message, check: CheckRecord, row: RowStudy, values: Mapping[str, Any]
+) -> Iterator[Message]:
+    """Directions against the limits of the profile; where they pass, all is solved."""
+    if check.verdict is Verdict.PASS and not is_complete(row):
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    if check.mode != "direction":
+        return
+    own = [one for one in row.pulls if one.anchor == check.member]
+    at_end = [one for one in own if one.position == check.position]
+    pull = next(iter(at_end or own), None)
+    if pull is None:
+        yield say("audit.action_or_force", place=place)
+        return
+    most = values.get(ROPE_ANGLE)
+    beyond = Verdict.FAIL if most is not None else Verdict.NOT_PROVEN
+    is_kept = most is not None and pull.angle_deg <= most * (1.0 + SAME)
+    if not pull.is_axis_known and check.verdict is Verdict.PASS:
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
+    if _is_information(check, row) or (
+        is_declared and (is_kept or beyond is not Verdict.FAIL)
+    ):
+        return
+    if is_kept and check.verdict is Verdict.FAIL:
+        yield tell_verdict(place, check.verdict, Verdict.PASS)
+    if not is_kept and check.verdict is not beyond:
+        yield tell_verdict(place, check.verdict, beyond)
