@@ -175,13 +175,15 @@ def _judge_member(
     found = [forces.largest.get(given.member), *_list_panel(forces, given.member)]
     gap = known.gap or known.floor_gap or _find_unseen(found)
     gap = gap or find_other_panel(row, given, width.position)
-    judge = {"gap": gap, "doubt": doubt}
-    result = judge_force(given, force, basis.standard, **judge)
+    standard = basis.standard
+    result = judge_force(given, force, standard, gap=gap, doubt=doubt)
     short = find_short_post(given, row, basis.site.ranges)
     if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
-        result = judge_force(given, force, basis.standard, **judge)
-    return MemberCheck(given=given, width=width, force=force, result=result, **judge)
+        result = judge_force(given, force, standard, gap=gap, doubt=doubt)
+    return MemberCheck(
+        given=given, width=width, force=force, gap=gap, doubt=doubt, result=result
+    )
 
 
 def _judge_end(

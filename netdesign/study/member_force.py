@@ -264,13 +264,15 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
         part: float = getattr(held, _PARTS[member])
         leaves = [_solved("c", part, "-", _PARTS[member]), share, pull, splay]
         return leaves, _high(load_guy(*leaves).added)
-    leaves = [_solved("w", held.post_part, "-", "post_part"), share, pull, splay]
+    weight = _solved("w", held.post_part, "-", "post_part")
     nothing, least = (
         _solved("T_min", force, "kN", "least_tension")
         for force in (0.0, held.least_tension_kN)
     )
-    rise = _high(load_post(*leaves, nothing).added)  # the least tension does not grow
-    return ([*leaves, least] if _high(load_post(*leaves, least).added) else []), rise
+    # the least tension does not grow
+    rise = _high(load_post(weight, share, pull, splay, nothing).added)
+    added = load_post(weight, share, pull, splay, least).added
+    return ([weight, share, pull, splay, least] if _high(added) else []), rise
 
 
 def _list_push_leaves(forces: RowForces) -> list[Quantity]:

@@ -15,14 +15,14 @@ from netdesign.commands import verify as verify_command
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study import check_site as use_case
-from netdesign.study.audit import audit_study
 from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.study.record_provenance import record_provenance
+from netdesign.study.rejudge import rejudge
 from netdesign.study.repeat import list_differences
 from netdesign.words.catalogue import render
 from tests.alter_study import alter_leaf, list_leaves
 from tests.short_example import write_short_example
-from tests.study.audit.alterations import KINDS
+from tests.study.rejudge.alterations import KINDS
 from tests.words.english import find_words
 
 REFUSED = 3
@@ -171,10 +171,10 @@ def test_a_study_without_its_files_is_audited_all_the_same(text):
     for kind, alter in KINDS.items():
         document = json.loads(text)
         alter(document)
-        if audit_study(read_document(json.dumps(document))):
+        if rejudge(read_document(json.dumps(document))):
             alone.append(kind)
     assert len(alone) >= 30
-    assert audit_study(read_document(text)) == []
+    assert rejudge(read_document(text)) == []
 
 
 def test_every_contradiction_is_told_in_the_language(text, site):
@@ -183,7 +183,7 @@ def test_every_contradiction_is_told_in_the_language(text, site):
     for alter in KINDS.values():
         document = json.loads(text)
         alter(document)
-        found += audit_study(read_document(json.dumps(document)), profile, site)
+        found += rejudge(read_document(json.dumps(document)), profile, site)
     own = re.compile(r"'[^']*'|\[.*?\]|\w+_\w+|\w+[.]\S+")
     for language in ("fr", "de"):
         told = {render(one, language) for one in found}
@@ -194,7 +194,7 @@ def test_every_contradiction_is_told_in_the_language(text, site):
 
 def test_a_profile_of_another_hash_says_nothing(text):
     study = read_document(text)
-    assert audit_study(study, load_standard("eurocode")) == []
+    assert rejudge(study, load_standard("eurocode")) == []
 
 
 def test_report_reads_the_site_file_itself(call, home, text, tmp_path):

@@ -5,7 +5,11 @@ What follows from an altered number is altered with it as far as its kind says.
 """
 
 import math
+from dataclasses import asdict, replace
 
+from pydantic import TypeAdapter
+
+from netdesign.calculation.steps import Step, evaluate
 from netdesign.words.message import restore
 
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
@@ -23,76 +27,76 @@ def as_given(text):
     return {"key": "text.as_given", "arguments": {"text": text}}
 
 
-SOLVED = ("solved_kN", "solved_low_kN", "solved_high_kN")
-BY_PANEL = ("panel_kN", "panel_low_kN", "panel_support_kN")
-ALONG = ("along_kN", "along_low_kN", "along_high_kN")
+SOLVED = ("E_s", "V_s", "E_p0", "V_p0", "T_r", "P", "T_min")
+FLOOR = ("E_g0", "V_g0")
 
 
 def forces(study):
     """Checks of forces that carry something, of every row."""
-    return [c for row in study["rows"] for c in row["checks"] if c["action_kN"]]
+    return [c for row in study["rows"] for c in row["checks"] if c["demand_kN"]]
+
+
+def find_step(check, symbol):
+    return next((one for one in check["steps"] if one["symbol"] == symbol), None)
+
+
+def scale_steps(check, symbols, factor):
+    """Scale leaves of a calculation, and all that follows from them."""
+    for step in check["steps"]:
+        if step["symbol"] in symbols:
+            for end in ("low", "value", "high"):
+                if end in step:
+                    step[end] *= factor
+    follow_steps(check)
+
+
+def follow_steps(check):
+    """Make every step, and the numbers of the check, follow from the leaves."""
+    read = TypeAdapter(list[Step]).validate_python(check["steps"])
+    found = evaluate(read)
+    check["steps"] = [
+        {key: value for key, value in asdict(step).items() if value is not None}
+        for step in (
+            replace(one, value=q.value, low=q.low, high=q.high)
+            for one in read
+            for q in (found[one.symbol],)
+        )
+    ]
+    for step in check["steps"]:
+        for end in ("low", "high"):
+            if step.get(end) == step.get("value"):
+                step.pop(end, None)
+    for key, symbol in (
+        ("demand_kN", "E_d"),
+        ("resistance_kN", "R_d"),
+        ("utilisation", "μ"),
+    ):
+        check[key] = found[symbol].value
+    before = find_step(check, "μ")
+    settle_spreads(check, before)
+
+
+def settle_spreads(check, used):
+    """Parts of the interval that give the band of the utilisation."""
+    numerical, between, *others = check["spreads"]
+    factor = used["value"] / between["low"]
+    low, high = used.get("low", used["value"]), used.get("high", used["value"])
+    top = min(max(used["value"], numerical["high"] * factor), high)
+    numerical.update(low=low, high=top)
+    between.update(low=used["value"], high=used["value"] + high - top)
+    for one in others:
+        scale_all(one, ("low", "high"), factor)
 
 
 def scale_demand(check, factor):
-    """Scale the coupled part; the guideline's load stays below the demand."""
-    action, safety = check["action"], check["action_factor"]
-    parts = ("added_kN", "added_low_kN", "added_high_kN")
-    keys = (*SOLVED, "coupled_kN", *parts, *BY_PANEL, *ALONG)
-    scale_all(action, keys, factor)
-    if action["sideways"]:
-        scale_all(action["sideways"], ("pull_kN", "least_tension_kN"), factor)
-    on_row = action["loaded_width_m"] / action["post_spacing_m"]
-    on_row *= action["lateral_factor"]
-    solved, least, by_panel = (
-        (action["share"] * (action[key] or 0.0) + action["added_kN"]) * on_row
-        for key in ("solved_kN", "floor_kN", "panel_kN")
-    )
-    if action["panel_kN"] is not None:
-        solved = max(solved, by_panel + action["along_kN"])
-    if action["floor_kN"] is not None:
-        action["guideline_kN"] = least
-    else:
-        least = 0.0
-    check["action_kN"] = max(solved, least)
-    check["demand_kN"] = check["action_kN"] * safety
-    low = check["demand_low_kN"] * factor
-    check["demand_low_kN"] = max(low, least * safety)
-    coupled = max(action["coupled_kN"], action["panel_support_kN"] or 0.0)
-    check["demand_high_kN"] = max(coupled, least) * safety
-    settle_friction(check)
-    settle_spreads(check, factor)
+    """Scale the coupled part; the guideline's load stays."""
+    scale_steps(check, SOLVED, factor)
 
 
-def settle_friction(check):
-    """A base slides on what presses it, in proportion to its demand."""
-    derivation = check["resistance_derivation"]
-    if derivation is None or derivation["key"] != "derivation.sliding":
-        return
-    told, share = derivation["arguments"], check["action"]["share"]
-    pressing = check["action_kN"] / share
-    told["pressing"], before = pressing, told["pressing"]
-    keys = ("resistance_characteristic_kN", "resistance_kN")
-    scale_all(check, keys, pressing / before)
-
-
-def settle_spreads(check, factor):
-    resistance = check["resistance_kN"]
-    low, used, high = (
-        check[f"demand_{end}kN"] / resistance for end in ("low_", "", "high_")
-    )
-    numerical, between, *others = check["spreads"]
-    numerical.update(low=low, high=max(used, numerical["high"] * factor))
-    between.update(low=used, high=used + high - numerical["high"])
-    for one in others:
-        scale_all(one, ("low", "high"), factor)
-    check["utilisation"] = used
-
-
-def scale_ratio(check, factor):
-    check["utilisation"] *= factor
-    for spread in check["spreads"]:
-        for end in ("low", "high"):
-            spread[end] = spread[end] and spread[end] * factor
+def scale_forces(row, factor):
+    """Scale the forces that the checks rest on."""
+    for force in row["forces"]:
+        scale_all(force, ("low_kN", "value_kN", "high_kN"), factor)
 
 
 def scale_extremes(row, factor):
@@ -157,6 +161,7 @@ def demands_halved(study):
 def demands_and_largest_forces_halved(study):
     demands_halved(study)
     for row in study["rows"]:
+        scale_forces(row, 0.5)
         scale_extremes(row, 0.5)
 
 
@@ -165,6 +170,7 @@ def every_force_a_tenth_smaller(study):
     for check in forces(study):
         scale_demand(check, 0.9)
     for row in study["rows"]:
+        scale_forces(row, 0.9)
         scale_extremes(row, 0.9)
         scale_drawn(row, 0.9)
         scale_statics(row, 0.9)
@@ -259,18 +265,36 @@ def a_law_dropped(study):
 
 @alteration
 def a_resistance_doubled(study):
-    check = forces(study)[0]
-    for key in ("resistance_kN", "resistance_characteristic_kN"):
-        check[key] *= 2.0
-    scale_ratio(check, 0.5)
+    scale_steps(forces(study)[0], ("R_k", "R_m", "R_min"), 2.0)
 
 
 @alteration
 def a_factor_of_a_resistance_lowered(study):
-    check = forces(study)[1]
-    check["resistance_factor"] /= 1.3
-    check["resistance_kN"] *= 1.3
-    scale_ratio(check, 1 / 1.3)
+    scale_steps(forces(study)[1], ("γ_R",), 1 / 1.3)
+
+
+@alteration
+def a_formula_altered(study):
+    check = forces(study)[0]
+    step = find_step(check, "E_d")
+    step["formula"] = f"({step['formula']}) * 0.8"
+    follow_steps(check)
+
+
+@alteration
+def a_step_dropped(study):
+    check = forces(study)[0]
+    check["steps"].remove(find_step(check, "γ_R"))
+
+
+@alteration
+def a_step_alone_altered(study):
+    find_step(forces(study)[0], "E_k")["value"] *= 0.93
+
+
+@alteration
+def a_demand_alone_altered(study):
+    forces(study)[0]["demand_kN"] *= 0.93
 
 
 @alteration
@@ -289,12 +313,10 @@ def lower_action_factor(study):
         if value["id"] == "action.snow":
             value["value"] /= 1.5
     for check in (c for row in study["rows"] for c in row["checks"]):
-        if check["action_factor"]:
-            check["action_factor"] /= 1.5
-    for check in forces(study):
-        for key in ("demand_kN", "demand_low_kN", "demand_high_kN"):
-            check[key] /= 1.5
-        scale_ratio(check, 1 / 1.5)
+        if check["demand_kN"]:
+            scale_steps(check, ("γ_E",), 1 / 1.5)
+        elif check["demand_kN"] == 0.0:
+            find_step(check, "γ_E")["value"] /= 1.5
 
 
 @alteration
@@ -408,10 +430,10 @@ def the_high_end_of_a_band_lowered(study):
     row = study["rows"][0]
     extreme = row["extremes"][0]
     extreme["high_kN"] = extreme["upper_bound_kN"]
+    row["forces"][0]["high_kN"] = extreme["high_kN"]
     for check in row["checks"][:2]:
-        check["demand_high_kN"] = check["demand_kN"] * (
-            extreme["high_kN"] / extreme["max_kN"]
-        )
+        find_step(check, "E_s")["high"] = extreme["high_kN"]
+        follow_steps(check)
 
 
 @alteration
@@ -656,20 +678,13 @@ def the_log_shortened(study):
 @alteration
 def a_loaded_width_narrowed(study):
     for check in forces(study):
-        action = check["action"]
-        ratio = action["post_spacing_m"] / action["loaded_width_m"] * 0.9
-        action["loaded_width_m"] *= ratio
-        scale_demand(check, ratio)
-        scale_all(action, SOLVED, 1.0 / ratio)
+        scale_steps(check, ("f_R", "Δl"), 0.7)
 
 
 @alteration
 def a_share_along_the_row_left_out(study):
     for check in forces(study):
-        ratio = 1.0 / check["action"]["lateral_factor"]
-        check["action"]["lateral_factor"] = 1.0
-        scale_demand(check, ratio)
-        scale_all(check["action"], SOLVED, 1.0 / ratio)
+        scale_steps(check, ("k",), 0.0)
 
 
 @alteration
@@ -733,7 +748,7 @@ def a_layer_of_the_drawing_thinner(study):
 
 def loaded_by_floor(study):
     """A check whose demand is the guideline's, of any row."""
-    return next(c for c in forces(study) if c["action"]["governs"] == "guideline")
+    return next(c for c in forces(study) if c["governs"] == "guideline")
 
 
 @alteration
@@ -760,10 +775,8 @@ def a_force_of_the_floor_lowered_wherever_it_stands(study):
     for force in row["floor"]["forces"]:
         force["force_kN"] *= 0.5
     for check in row["checks"]:
-        if check["action"]:
-            scale_all(check["action"], ("floor_kN", "guideline_kN"), 0.5)
-            if check["action_kN"]:
-                scale_demand(check, 1.0)
+        if check["demand_kN"]:
+            scale_steps(check, FLOOR, 0.5)
 
 
 @alteration
@@ -783,20 +796,24 @@ def a_load_of_the_floor_altered(study):
 
 @alteration
 def a_check_without_its_floor(study):
-    action = forces(study)[0]["action"]
-    action.update(floor_kN=None, guideline_kN=None, floor_case="", governs="coupled")
+    check = forces(study)[0]
+    for symbol in ("E_g0", "E_g"):
+        check["steps"].remove(find_step(check, symbol))
+    find_step(check, "E_k")["formula"] = "E_c"
+    check.update(load_case="", load_inclination_deg=None, governs="coupled")
+    follow_steps(check)
 
 
 @alteration
 def the_other_load_said_to_govern(study):
-    action = forces(study)[0]["action"]
+    check = forces(study)[0]
     other = {"coupled": "guideline", "guideline": "coupled"}
-    action["governs"] = other[action["governs"]]
+    check["governs"] = other[check["governs"]]
 
 
 @alteration
-def a_coupled_bound_lowered(study):
-    forces(study)[1]["action"]["coupled_kN"] *= 0.71
+def a_force_of_a_check_lowered(study):
+    scale_steps(forces(study)[1], ("E_s",), 0.71)
 
 
 @alteration
@@ -815,12 +832,6 @@ def an_end_loaded_like_a_support_inside(study):
             like = inside[name]
             kept = {key: check[key] for key in ("id", "position", "reason")}
             check.update({**like, **kept})
-
-
-@alteration
-def a_width_beside_a_threshold_given_the_other_side(study):
-    action = next(c for c in forces(study) if c["position"] == "edge")["action"]
-    action["other_width_m"] = action["loaded_width_m"] * 1.3
 
 
 def call_declared(study):
