@@ -40,6 +40,7 @@ from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.rejudge.cases import find_largest, is_complete, same_point
 from netdesign.study.rejudge.checks import is_held_back
 from netdesign.study.rejudge.compare import (
+    guard,
     is_of_steady_states,
     is_same,
     tell_differences,
@@ -90,7 +91,8 @@ def judge_again(
         yield from _compare_inputs(row, rows[row.id], site, law)
         if standard is not None and is_known:
             basis = Basis(site=site, row=rows[row.id], standard=standard, law=law)
-            yield from _judge_row(row, basis, is_steady=is_steady)
+            place = say("audit.row", row=row.id)
+            yield from guard(place, _judge_row(row, basis, is_steady=is_steady))
 
 
 def _find_law(study: Study) -> CreepLaw:

@@ -15,7 +15,6 @@ from netdesign.checks.forces import (
     rate,
 )
 from netdesign.checks.schema import ACTION_FACTOR, MODES_WITHOUT_FORCE, ROPE_ANGLE
-from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
 from netdesign.structure.members import CARRYING_MEMBERS, ROPE_OF, Member
@@ -25,6 +24,7 @@ from netdesign.study.rejudge.cases import is_complete, name_members, same_point
 from netdesign.study.rejudge.compare import (
     SAME,
     Pair,
+    guard,
     tell_differences,
     tell_unequal,
     tell_verdict,
@@ -67,7 +67,8 @@ def rejudge_checks(
             yield from _rejudge_direction(where, check, row, values)
         elif check.member != Member.NET:
             yield from _rejudge_factors(where, check, values, clauses)
-            yield from _rejudge_steps(where, check, known, values)
+            steps = _rejudge_steps(where, check, known, values)
+            yield from guard(where, steps)
             yield from _rejudge_force(where, check, row)
             if not accepts_law:
                 yield from _rejudge_snow(where, check, row)
@@ -196,11 +197,7 @@ def _rejudge_steps(
     values: Mapping[str, float],
 ) -> Iterator[Message]:
     """Every step from the leaves, and these from forces and profile."""
-    try:
-        again = list_steps(_calculate(evaluate(check.steps)))
-    except (NetDesignError, KeyError, ValueError, TypeError):
-        yield say("audit.no_calculation", place=place)
-        return
+    again = list_steps(_calculate(evaluate(check.steps)))
     yield from tell_differences(
         "audit.other_steps",
         {one.symbol: one for one in check.steps},

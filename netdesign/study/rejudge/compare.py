@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
+from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.study.records import Study
 from netdesign.study.values import compare_values, show_value
@@ -39,6 +40,14 @@ def tell_unequal(place: Message, pairs: Iterable[Pair]) -> Iterator[Message]:
     for name, stored, expected in pairs:
         if not is_same(stored, expected):
             yield tell_value(place, name, stored, expected)
+
+
+def guard(place: Message, sentences: Iterator[Message]) -> Iterator[Message]:
+    """Sentences; where numbers are such as no solve gives, one that says so."""
+    try:
+        yield from sentences
+    except (NetDesignError, LookupError, ValueError, TypeError, ArithmeticError):
+        yield say("audit.no_calculation", place=place)
 
 
 def tell_differences(

@@ -14,7 +14,7 @@ from netdesign.study.notes import list_reasons
 from netdesign.study.records import RowStudy, Study, list_verdicts
 from netdesign.study.rejudge.cases import Spans, rejudge_cases
 from netdesign.study.rejudge.checks import rejudge_checks
-from netdesign.study.rejudge.compare import is_of_steady_states, tell_verdict
+from netdesign.study.rejudge.compare import guard, is_of_steady_states, tell_verdict
 from netdesign.study.rejudge.drawn import rejudge_drawn
 from netdesign.study.rejudge.statics import rejudge_statics
 from netdesign.words.message import Message, say
@@ -52,11 +52,16 @@ def rejudge(
     law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
     accepts_law = bool(law) and study.project.accepted_law == law
     for row in study.rows:
-        found += rejudge_cases(row, spans, tolerance)
-        found += rejudge_checks(row, study.profile, accepts_law=accepts_law)
-        found += rejudge_drawn(row, study.profile, is_steady=is_steady)
-        found += rejudge_statics(row) if is_steady else ()
-        found += _rejudge_verdict(row)
+        parts = (
+            rejudge_cases(row, spans, tolerance),
+            rejudge_checks(row, study.profile, accepts_law=accepts_law),
+            rejudge_drawn(row, study.profile, is_steady=is_steady),
+            rejudge_statics(row) if is_steady else iter(()),
+            _rejudge_verdict(row),
+        )
+        place = say("audit.row", row=row.id)
+        for part in parts:
+            found += guard(place, part)
     if site is not None and site.sha256 == study.provenance.site_sha256:
         from netdesign.study.rejudge.again import judge_again
 
