@@ -12,6 +12,7 @@ from netdesign import cli
 from netdesign.checks import load_standard
 from netdesign.commands import sound_study
 from netdesign.commands import verify as verify_command
+from netdesign.errors import StudyError
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study import check_site as use_case
@@ -175,6 +176,45 @@ def test_a_study_without_its_files_is_audited_all_the_same(text):
             alone.append(kind)
     assert len(alone) >= 30
     assert rejudge(read_document(text)) == []
+
+
+# Parts of a study from which no verdict follows: pictures, other models, the way of the
+# search, what was solved beside the checks. Only a new solve shows those.
+BESIDE = {
+    *("drawing", "envelope", "model_form", "slab", "statics", "panel", "guideline"),
+    *("holds", "spreads", "changes", "provenance", "digest", "sha256", "cases"),
+    *("independent", "is_floor_overruled", "hidden_tension_kN", "share"),
+    *("uphill_at_deg", "downhill_at_deg", "post_at_deg", "schema"),
+}
+
+
+def find_missed(text, site, seed, count):
+    """Places of drawn values that were altered and not found, of those that decide."""
+    draw, standard = random.Random(seed), load_standard(read_document(text).profile.id)
+    leaves = list_leaves(json.loads(text))
+    decide = [path for path in leaves if not BESIDE & set(path)]
+    named = {tuple(p for p in path if isinstance(p, str)): path for path in decide}
+    assert len(named) > 100
+    for path in draw.sample(decide, count):
+        document = json.loads(text)
+        if alter_leaf(document, path, draw) <= NOISE:
+            continue
+        try:
+            study = read_document(json.dumps(document))
+        except StudyError:
+            continue
+        if not (rejudge(study, standard) or rejudge(study, standard, site)):
+            yield path
+
+
+def test_drawn_alterations_of_what_decides_are_found(text, site):
+    assert list(find_missed(text, site, 36, 60)) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(10))
+def test_ten_thousand_drawn_alterations_are_found(text, site, seed):
+    assert list(find_missed(text, site, 3600 + seed, 1000)) == []
 
 
 def test_every_contradiction_is_told_in_the_language(text, site):
