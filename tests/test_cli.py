@@ -589,8 +589,8 @@ CHECK_KEYS = {
     "clause",
     "member",
     "demand_kN",
-    "demand_low_kN",
-    "demand_high_kN",
+    "mode",
+    "steps",
     "resistance_kN",
     "utilisation",
     "verdict",
@@ -606,7 +606,7 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
     )
     assert result.returncode == 1, result.stderr
     document = json.loads(result.stdout)
-    assert document["schema"] == "netdesign.study/2"
+    assert document["schema"] == "netdesign.study/3"
     assert document["verdict"] == "fail"
     assert set(document) >= STUDY_KEYS
     verdicts = {row["id"]: row["verdict"] for row in document["rows"]}

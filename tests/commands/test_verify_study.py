@@ -11,6 +11,7 @@ import pytest
 from netdesign import cli
 from netdesign.study.document import read_document, write_document
 from tests.short_example import write_short_example
+from tests.study.rejudge.alterations import scale_demand
 from tests.words.english import find_words
 
 DIFFERS, REFUSED, UNPROVEN, FAULT = 1, 3, 4, 5
@@ -75,13 +76,7 @@ def to_pass(study):
 
 def weaker_demand(study):
     """All numbers of one check agree with each other; only a new solve tells."""
-    check = first_check(study)
-    for name in ("demand_kN", "demand_low_kN", "demand_high_kN", "action_kN"):
-        check[name] *= 0.99
-    check["utilisation"] = check["demand_kN"] / check["resistance_kN"]
-    for spread in check["spreads"]:
-        for end in ("low", "high"):
-            spread[end] = spread[end] and spread[end] * 0.99
+    scale_demand(first_check(study), 0.99)
 
 
 def last_digits(study):
