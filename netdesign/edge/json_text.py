@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
 # 1,600 objects, a case 520 bytes, 13 values and 2 objects.
 MAX_JSON_BYTES = 384 * 2**20
 MAX_VALUES = 14_000_000
-MAX_OBJECTS = 2_100_000
+MAX_OBJECTS = 2_800_000
 _SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
 _FEW = 4  # values below which the encoder takes longer to set up than to write
 _MOST_KEYS = 200  # of one object
