@@ -33,7 +33,7 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
-    from netdesign.coupling.steady.bound import PullBound
+    from netdesign.coupling.steady.solve import PullBound
     from netdesign.files.solved_support import SolvedSupport
 
 SOLUTION_SCHEMA = "netdesign.solution/1"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.steady.glide_factor import measure_glide_factor
+from netdesign.coupling.steady.rigid import measure_glide_factor
 from netdesign.errors import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,

@@ -9,8 +9,8 @@ import numpy as np
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.state import TransientProblem
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.steady.hanging import locate_nodes
-from netdesign.coupling.steady.solve import find_hanging
+from netdesign.coupling.steady.net import locate_nodes
+from netdesign.coupling.steady.solve import find_net_equilibrium
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.snow.mesh import MeshSize
@@ -55,12 +55,12 @@ def find_net_at_rest(scene: Scene, size: MeshSize) -> NetAtRest:
     SolveError
         If there is no steady state.
     """
-    problem, hanging = find_hanging(scene, size, SolverSettings())
-    places = locate_nodes(problem.template, hanging)
-    strain = hanging.cable.tension.mean(axis=0) / problem.stiffness
+    problem, net = find_net_equilibrium(scene, size, SolverSettings())
+    places = locate_nodes(problem.template, net)
+    strain = net.cable.tension.mean(axis=0) / problem.stiffness
     return NetAtRest(
         places=places,
-        curve=hanging.cable.curve[:, : places.size],
+        curve=net.cable.curve[:, : places.size],
         strain=strain[: places.size // 2],
         free_strain=float(strain[-1]),
     )

@@ -13,7 +13,7 @@ from netdesign.coupling.history.net_at_rest import (
 from netdesign.coupling.history.settings import Start
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.steady.start import guess_pressure
+from netdesign.coupling.steady.net import guess_pressure
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
