@@ -21,7 +21,7 @@ from netdesign.coupling.solution import (
     WallSolution,
 )
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.snow.fluidity import FLUIDITY_EXPONENT
+from netdesign.snow.creep_law import FLUIDITY_EXPONENT
 from netdesign.solving.solve import Settings
 from netdesign.units import (
     day_from_second,

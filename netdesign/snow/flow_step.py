@@ -20,11 +20,11 @@ from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.compiled import CompiledFlow, prepare_flow
 from netdesign.snow.contact import (
     Contact,
+    FlowState,
     free_unknowns,
     friction_shares,
     net_components,
 )
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.kernel import (
     assemble_base_force,
     assemble_body_force,

@@ -15,7 +15,7 @@ from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints, Mask, gather
 from netdesign.outcome import Outcome
-from netdesign.snow.body import SnowBody
+from netdesign.snow.body import SnowBody, build_material
 from netdesign.snow.element import reference_element
 from netdesign.snow.kernel import (
     assemble_base_force,
@@ -37,7 +37,6 @@ from netdesign.snow.law import (
 )
 from netdesign.snow.linear import Blocks, SingularError, solve_blocks
 from netdesign.snow.placed_mesh import PlacedMesh
-from netdesign.snow.settling import build_material
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
 from netdesign.words.message import say
 

@@ -32,10 +32,9 @@ from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.compiled import describe_law, describe_rules, describe_template
 from netdesign.snow.compiled_mesh import describe_placement
-from netdesign.snow.contact import Contact, may_lift
+from netdesign.snow.contact import Contact, FlowState, may_lift
 from netdesign.snow.element import list_dofs
 from netdesign.snow.flow import ask_effort, make_linear
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.kernel import share_end_load
 from netdesign.snow.law import FlowProblem, sample_material
 from netdesign.snow.mesh import MeshTemplate, follow_net

@@ -14,8 +14,7 @@ from netdesign.cable.funicular import linearise_curve
 from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem
 from netdesign.coupling.steady.round import RoundResult
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.contact import net_components
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.contact import FlowState, net_components
 from netdesign.snow.flow_step import linearise_reaction
 from netdesign.snow.linear import SingularError
 from netdesign.snow.placed_mesh import PlacedMesh, turn_normals

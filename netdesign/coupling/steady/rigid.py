@@ -27,9 +27,9 @@ from netdesign.coupling.solution import (
 )
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
+from netdesign.snow.contact import FlowState
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.flow import solve_flow
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes

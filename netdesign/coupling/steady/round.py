@@ -24,8 +24,8 @@ from netdesign.coupling.steady.net import (
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
+from netdesign.snow.contact import FlowState
 from netdesign.snow.flow import FlowResult, solve_flow
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.words.message import Message, say

@@ -35,7 +35,7 @@ from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.contact import FlowState
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.transfer import transfer_state
 from netdesign.words.message import say

@@ -45,7 +45,7 @@ from netdesign.coupling.steady.rounds import CoupledState, couple
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.contact import FlowState
 from netdesign.snow.mesh import MeshSize, MeshTemplate
 from netdesign.snow.shared_mesh import share_template
 from netdesign.words.message import say
