@@ -6,7 +6,6 @@ Theory: cable/THEORY.md, eqs (C5a) and (C5b).
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -19,35 +18,28 @@ from netdesign.numerics.arrays import Floats, Ints
 _MOST_STEPS, _MOST_HALVINGS = 30, 20
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PartedCable:
-    """A cable whose parts begin and end at given heights.
+class CableParts(NamedTuple):
+    """Parts of a cable, which begin and end at given heights.
 
     Attributes
     ----------
     shares : ndarray, shape (n,)
-        Unstressed length of each element over that of its part.
+        Unstressed length of each element over that of its part [-].
+    part : ndarray of int, shape (n,)
+        Of each element.
     firsts : ndarray of int, shape (n_parts,)
         First element of each part.
     rises : ndarray, shape (n_parts,)
-        Height that each part has to gain; their sum is the head's.
-    head_x : float
-        X of the upper end from the lower one [any unit of length].
-    length : float
-        Unstressed, of all parts [unit of ``head_x``].
-    stiffness : float
-        ES, in the unit of the forces.
+        Height that each part has to gain; their sum is the head's [unit of length].
     """
 
     shares: Floats
+    part: Ints
     firsts: Ints
     rises: Floats
-    head_x: float
-    length: float
-    stiffness: float
 
 
-class _Parts(NamedTuple):
+class _Lengths(NamedTuple):
     """Lengths of the parts under a pull, what is missing, and its derivative."""
 
     lengths: Floats
@@ -61,15 +53,28 @@ class _Parts(NamedTuple):
         return float(np.hypot(*self.gap)) if is_risen else np.inf
 
 
-def part_cable(cable: PartedCable, forces: Floats, start: Floats) -> Floats | None:
+def find_part_lengths(
+    parts: CableParts,
+    forces: Floats,
+    head_x: float,
+    length: float,
+    stiffness: float,
+    start: Floats,
+) -> Floats | None:
     """Unstressed lengths of the parts, shape (n_parts,), in equilibrium.
 
     Parameters
     ----------
-    cable : PartedCable
-        What is given of it.
+    parts : CableParts
+        With their rises.
     forces : ndarray, shape (2, 2 n + 1)
         Nodal forces as ``solve_funicular`` takes them.
+    head_x : float
+        X of the upper end from the lower one [unit of the rises].
+    length : float
+        Unstressed, of all parts [unit of the rises].
+    stiffness : float
+        ES, in the unit of the forces.
     start : ndarray, shape (2,)
         Guess of the tension vector near the foot.
 
@@ -84,11 +89,18 @@ def part_cable(cable: PartedCable, forces: Floats, start: Floats) -> Floats | No
     """
     core = find_core()
     if core is not None:
-        return _part_compiled(core, cable, forces, start)
+        numbers = (head_x, length, stiffness)
+        return _find_compiled(core, parts, forces, numbers, start)
     offsets = tension_offsets(forces, -0.75 * forces[:, 1::2])
-    pull, now = start, _evaluate(cable, offsets, start)
+
+    def evaluate(pull: Floats) -> _Lengths:
+        return _evaluate(
+            parts, pull[:, None, None] + offsets, stiffness, head_x, length
+        )
+
+    pull, now = start, evaluate(start)
     for _ in range(_MOST_STEPS):
-        if now.miss <= 1e-12 * cable.length:
+        if now.miss <= 1e-12 * length:
             return now.lengths
         if not np.isfinite(now.miss):
             return None
@@ -97,7 +109,7 @@ def part_cable(cable: PartedCable, forces: Floats, start: Floats) -> Floats | No
         except np.linalg.LinAlgError:
             return None
         for _ in range(_MOST_HALVINGS):
-            then = _evaluate(cable, offsets, pull + step)
+            then = evaluate(pull + step)
             if then.miss < now.miss:
                 break
             step = step / 2.0
@@ -105,48 +117,52 @@ def part_cable(cable: PartedCable, forces: Floats, start: Floats) -> Floats | No
     return None
 
 
-def _part_compiled(
-    core: ctypes.PyDLL, cable: PartedCable, forces: Floats, start: Floats
+def _find_compiled(
+    core: ctypes.PyDLL,
+    parts: CableParts,
+    forces: Floats,
+    numbers: tuple[float, float, float],
+    start: Floats,
 ) -> Floats | None:
     """The same by the compiled core."""
-    count, parts = cable.shares.size, cable.rises.size
+    count, n_parts = parts.shares.size, parts.rises.size
     arrays = (
         to_floats(forces, (2, 2 * count + 1)),
-        to_floats(cable.shares, (count,)),
-        to_array(cable.firsts, np.int64, (parts,)),
-        to_floats(cable.rises, (parts,)),
+        to_floats(parts.shares, (count,)),
+        to_array(parts.firsts, np.int64, (n_parts,)),
+        to_floats(parts.rises, (n_parts,)),
     )
-    pull, lengths = to_floats(start, (2,)).copy(), np.empty(parts)
-    numbers = (cable.head_x, cable.length, cable.stiffness)
+    pull, lengths = to_floats(start, (2,)).copy(), np.empty(n_parts)
     code = core.nd_part(
-        *(count, parts, *(ctypes.c_void_p(one) for one in locate_all(*arrays))),
+        *(count, n_parts, *(ctypes.c_void_p(one) for one in locate_all(*arrays))),
         *map(ctypes.c_double, numbers),
         *(ctypes.c_void_p(one) for one in locate_all(pull, lengths)),
     )
     return lengths if require_sound(code) == 0 else None
 
 
-def _evaluate(cable: PartedCable, offsets: Floats, pull: Floats) -> _Parts:
-    """Parts as long as their rises ask under a pull (C5a), the gaps of (C5b)."""
-    vector = pull[:, None, None] + offsets
+def _evaluate(
+    parts: CableParts, vector: Floats, stiffness: float, head_x: float, length: float
+) -> _Lengths:
+    """Parts as long as their rises ask under tensions (C5a), the gaps of (C5b)."""
     size = np.hypot(*vector)
-    give = cable.shares / 2.0 * (1.0 / size + 1.0 / cable.stiffness)
-    along = cable.shares / 2.0 * vector / size**3
-    mean_x, mean_y = (_sum_parts(cable, give * axis) for axis in vector)
-    lengths = cable.rises / mean_y
+    give = parts.shares / 2.0 * (1.0 / size + 1.0 / stiffness)
+    along = parts.shares / 2.0 * vector / size**3
+    mean_x, mean_y = (_sum_parts(parts, give * axis) for axis in vector)
+    lengths = parts.rises / mean_y
     # derivatives of the mean slopes, shape (2, n_parts), per component of the pull
-    turn_y = -_sum_parts(cable, along * vector[1])
-    turn_x = -_sum_parts(cable, along * vector[0])
-    turn_x[0] += _sum_parts(cable, give)
-    turn_y[1] += _sum_parts(cable, give)
+    turn_y = -_sum_parts(parts, along * vector[1])
+    turn_x = -_sum_parts(parts, along * vector[0])
+    turn_x[0] += _sum_parts(parts, give)
+    turn_y[1] += _sum_parts(parts, give)
     longer = -lengths / mean_y * turn_y
-    return _Parts(
+    return _Lengths(
         lengths=lengths,
-        gap=np.array([lengths @ mean_x - cable.head_x, lengths.sum() - cable.length]),
+        gap=np.array([lengths @ mean_x - head_x, lengths.sum() - length]),
         slope=np.array([longer @ mean_x + turn_x @ lengths, longer.sum(axis=1)]),
     )
 
 
-def _sum_parts(cable: PartedCable, values: Floats) -> Floats:
+def _sum_parts(parts: CableParts, values: Floats) -> Floats:
     """Sums (.., n_parts) of values (.., 2, n) at the Gauss points."""
-    return np.asarray(np.add.reduceat(values.sum(axis=-2), cable.firsts, axis=-1))
+    return np.asarray(np.add.reduceat(values.sum(axis=-2), parts.firsts, axis=-1))

@@ -14,7 +14,7 @@ from netdesign.words.message import say
 @language_option()
 def glide(*, language: Language) -> None:
     """Measure the glide factors of slip lengths again, beside the stored table."""
-    from netdesign.coupling.steady.glide_factor import measure_glide_factor
+    from netdesign.coupling.steady.rigid import measure_glide_factor
     from netdesign.snow.creep_law import CREEP_LAWS
     from netdesign.snow.ground import load_glide_tables
 

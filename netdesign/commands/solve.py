@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from netdesign.coupling.scene import Scene
-    from netdesign.coupling.steady.bound import PullBound
+    from netdesign.coupling.steady.solve import PullBound
     from netdesign.files.scene import GivenScene
     from netdesign.files.solved_support import SolvedSupport
     from netdesign.report.page.solution_page import Solved
@@ -138,7 +138,7 @@ def _bound_refused(
     """Bound on the pulls of a net without a steady state; None if it has one."""
     from netdesign.coupling.scene import SolverSettings
     from netdesign.coupling.solution import FailedSolution
-    from netdesign.coupling.steady.bound import bound_by_less_slack
+    from netdesign.coupling.steady.solve import bound_by_less_slack
 
     if isinstance(settings, SolverSettings) and isinstance(solution, FailedSolution):
         return bound_by_less_slack(scene, settings)

@@ -1,7 +1,7 @@
 /* Strips and ropes of a panel: Newton's method on all of them at once.
  *
  * The loop of panel/solve.py with the kernels of panel/equations.py, panel/ropes.py and
- * cable/alike.py. Theory: panel/THEORY.md, section 3. */
+ * cable/funicular.py. Theory: panel/THEORY.md, section 3. */
 #include "core.h"
 
 #include <math.h>

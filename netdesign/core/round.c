@@ -1,8 +1,8 @@
 /* A round of flow and net: the mesh along a curve, the flow on it, the net under it.
  *
- * One call for what coupling/steady/played_round.py does step by step: snow/mesh.py
+ * One call for what coupling/steady/round.py does step by step: snow/mesh.py
  * (place_nodes), snow/placed_mesh.py, snow/flow.py, coupling/interface.py
- * (share_net_forces) and coupling/steady/hanging.py. */
+ * (share_net_forces) and coupling/steady/net.py. */
 #include "round.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ typedef struct {
     double end_load, length, stiffness, tolerance;
 } Scene;
 
-/* A net under forces, as ``Hanging`` has it. */
+/* A net under forces, as ``NetEquilibrium`` has it. */
 typedef struct {
     double *forces, *lengths, *parts, *curve, *pull, *tension, *ends;
 } Hung;
@@ -76,7 +76,7 @@ static Hung take_net(double **next, const Scene *scene) {
 }
 
 /* Places of the results, and how many numbers they take in all;
- * coupling/steady/compiled_scene.py has the same list. */
+ * coupling/steady/compiled.py has the same list. */
 static size_t lay_out(const Scene *scene, double *results, int32_t slides, Found *to) {
     size_t nodes = (size_t)scene->mesh.n_nodes, net = (size_t)scene->mesh.n_net;
     size_t points = (size_t)POINTS * (size_t)scene->mesh.n_triangles;

@@ -8,9 +8,14 @@ import numpy as np
 
 from netdesign.coupling.refine import Looseness
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.contact import Contact, free_unknowns, may_lift, net_components
+from netdesign.snow.contact import (
+    Contact,
+    FlowState,
+    free_unknowns,
+    may_lift,
+    net_components,
+)
 from netdesign.snow.flow import compute_weight
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.flow_step import compute_residual, remove_rounding
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.placed_mesh import PlacedMesh

@@ -16,17 +16,15 @@ from netdesign.guards import (
 )
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
+    FLUIDITY_EXPONENT,
     ICE_DENSITY,
+    PAPER_FLUIDITY,
     CreepLaw,
     compute_bulk_factor,
-    compute_shear_factor,
-    require_admissible,
-)
-from netdesign.snow.fluidity import (
-    FLUIDITY_EXPONENT,
-    PAPER_FLUIDITY,
     compute_fluidity,
     compute_settling_fluidity,
+    compute_shear_factor,
+    require_admissible,
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.law import FlowLayer, FlowProblem, Sides

@@ -28,11 +28,9 @@ from netdesign.files.support_tables import (
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     DENSEST_SNOW,
+    FLUIDITY_EXPONENT,
     ICE_DENSITY,
     CreepLaw,
-)
-from netdesign.snow.fluidity import (
-    FLUIDITY_EXPONENT,
     compute_fluidity,
 )
 from netdesign.snow.ground import GroundKind, GroundLaw, build_ground_from_glide_factor

@@ -21,7 +21,7 @@ from netdesign.coupling.solution import (
     WallSolution,
 )
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.snow.fluidity import FLUIDITY_EXPONENT
+from netdesign.snow.creep_law import FLUIDITY_EXPONENT
 from netdesign.solving.solve import Settings
 from netdesign.units import (
     day_from_second,
@@ -33,7 +33,7 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
-    from netdesign.coupling.steady.bound import PullBound
+    from netdesign.coupling.steady.solve import PullBound
     from netdesign.files.solved_support import SolvedSupport
 
 SOLUTION_SCHEMA = "netdesign.solution/1"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.cable.alike import reach_ends
+from netdesign.cable.funicular import reach_ends
 from netdesign.core.arguments import PanelArgument, locate_all, to_floats
 from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Panel

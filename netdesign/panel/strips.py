@@ -10,8 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.cable.alike import AlikeCables, build_alike, draw_curves
-from netdesign.cable.funicular import tension_offsets
+from netdesign.cable.funicular import (
+    AlikeCables,
+    build_alike,
+    draw_curves,
+    tension_offsets,
+)
 from netdesign.cable.net import Net
 from netdesign.coupling.solution import EndPull, Solution
 from netdesign.errors import ModelError, SolveError

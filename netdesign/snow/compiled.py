@@ -26,8 +26,7 @@ from netdesign.core.arguments import (
 from netdesign.core.library import SINGULAR, require_sound
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.compiled_mesh import number_template, plan_template
-from netdesign.snow.contact import Contact, may_lift
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.contact import Contact, FlowState, may_lift
 from netdesign.snow.law import FlowProblem, Material, sample_material
 from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshTemplate

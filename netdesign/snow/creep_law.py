@@ -1,18 +1,21 @@
-"""Creep laws of snow: how strain rate depends on stress and density.
+"""Creep laws of snow: how strain rate depends on stress, density and temperature.
 
-Theory: snow/THEORY.md, eqs (N1) to (N5).
+Laws of another exponent are derived from a set for n = 3. Fluidity only rescales time
+in homogeneous snow; between layers it shifts stresses. Theory: snow/THEORY.md, eqs (N1)
+to (N5), sections 6 and 7.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.units import fluidity_from_mpa_year, kelvin_from_celsius
 from netdesign.words.message import say
 
 ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source paper
@@ -20,6 +23,21 @@ ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source 
 # treats more than 0.99 as ice. The law needs b > 0, so denser snow is refused.
 DENSEST_SNOW = 0.99
 _LARGEST_COEFFICIENT = 60.0  # of the exponential fits: keeps their powers finite
+
+FLUIDITY_EXPONENT = 3.0  # creep exponent that every fluidity of this module is for
+
+# The source paper's value, Lliboutry and Duval (1985), for n = 3 [Pa^-3 s^-1].
+PAPER_FLUIDITY = fluidity_from_mpa_year(20.0, 3.0)
+
+_GAS_CONSTANT = 8.314  # [J/(mol K)]
+_BREAK = 263.15  # [K]
+# Rate factor A [Pa^-3 s^-1] and activation energy [J/mol] below and above the break.
+_COLD = (3.985e-13, 60e3)
+_WARM = (1.916e3, 139e3)
+# Settling of stations, delta-snow (Winkler et al. 2021): viscosity of snow without
+# density [Pa s], and its growth with density [m3/kg].
+_SETTLING_VISCOSITY, _STIFFENING = 8.523356e6, 0.02993175
+COLDEST, WARMEST = kelvin_from_celsius(-60.0), kelvin_from_celsius(0.0)  # [K]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -306,3 +324,155 @@ GAGLIARDINI_1997 = CreepLaw(
 CREEP_LAWS = {
     law.name: law for law in (BOUTILLIER_2004, ZWINGER_2007, GAGLIARDINI_1997)
 }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StatedExponent:
+    """A creep exponent of the literature, with the densities it is stated for.
+
+    Attributes
+    ----------
+    exponent : float
+        n [-].
+    source : str
+        Who states it.
+    densities : tuple of float
+        From and to [kg/m3].
+    """
+
+    exponent: float
+    source: str
+    densities: tuple[float, float]
+
+    def is_stated_for(self, density: float) -> bool:
+        """The source states this exponent for such snow.
+
+        Parameters
+        ----------
+        density : float
+            [kg/m3].
+        """
+        low, high = self.densities
+        return low <= density <= high
+
+
+# Between 200 and 320 kg/m3 the tests of 2003 lie between both exponents.
+STATED_EXPONENTS = (
+    StatedExponent(
+        exponent=1.8, source="Scapozza and Bartelt 2003", densities=(0.0, 200.0)
+    ),
+    StatedExponent(
+        exponent=2.15, source="Védrine and Hagenmuller 2025", densities=(0.0, 550.0)
+    ),
+    StatedExponent(
+        exponent=3.6, source="Scapozza and Bartelt 2003", densities=(320.0, 435.0)
+    ),
+)
+
+
+def derive_exponent(law: CreepLaw, exponent: float) -> CreepLaw:
+    """Law of another exponent that creeps alike at one stress, at every density; (N30).
+
+    Parameters
+    ----------
+    law : CreepLaw
+        A set with its own exponent.
+    exponent : float
+        m of the new law [-].
+
+    Returns
+    -------
+    CreepLaw
+        Named after both; calibrated below the branch only, beyond which nothing is
+        derived.
+
+    Raises
+    ------
+    ModelError
+        If the exponent is out of its range, or the set knows no snow below its branch.
+
+    Verified by
+    -----------
+    tests/snow/test_exponent.py
+    """
+    require_within("creep exponent", exponent, 1.0, 10.0)
+    low, high = law.calibrated
+    if low >= law.branch:
+        raise ModelError(say("snow.no_exponent", law=law.name, branch=law.branch))
+    power = (law.exponent + 1.0) / (exponent + 1.0)
+    (c0, c1), (d0, d1) = law.shear_fit, law.bulk_fit
+    shear = (power * c0, power * c1)
+    return replace(
+        law,
+        name=f"{law.name}-n{exponent:g}",
+        exponent=exponent,
+        shear_fit=shear,
+        bulk_fit=(shear[0] + d0 - c0, shear[1] + d1 - c1),
+        calibrated=(low, min(high, law.branch)),
+    )
+
+
+DERIVED_LAWS = {
+    law.name: law
+    for one in CREEP_LAWS.values()
+    for law in (derive_exponent(one, stated.exponent) for stated in STATED_EXPONENTS)
+}
+
+
+def compute_fluidity(temperature: float) -> float:
+    """Fluidity B for creep exponent 3 by an Arrhenius law.
+
+    Parameters
+    ----------
+    temperature : float
+        Of the snow [K], between ``COLDEST`` and ``WARMEST``.
+
+    Returns
+    -------
+    float
+        B = 2 A [Pa^-3 s^-1].
+
+    Raises
+    ------
+    ModelError
+        Outside the range.
+
+    Source
+    ------
+    Greve and Blatter (2009), Dynamics of ice sheets and glaciers; coefficients as
+    coded in a public firn model. The paper's 20 MPa^-3 a^-1 is about -14 C on it.
+    """
+    require_within("snow temperature", temperature, COLDEST, WARMEST, "K")
+    rate_factor, energy = _COLD if temperature <= _BREAK else _WARM
+    return 2.0 * rate_factor * math.exp(-energy / (_GAS_CONSTANT * temperature))
+
+
+def compute_settling_fluidity(law: CreepLaw, density: float, stress: float) -> float:
+    """Fluidity at which snow under a stress settles as at stations, (N25) = (N26).
+
+    Parameters
+    ----------
+    law : CreepLaw
+        Set of a(D), b(D), n.
+    density : float
+        [kg/m3].
+    stress : float
+        In the one direction in which the snow shortens [Pa].
+
+    Returns
+    -------
+    float
+        B [Pa^-n s^-1].
+
+    Raises
+    ------
+    ModelError
+        If density or stress is not positive.
+    """
+    require_positive("density", density, "kg/m3")
+    require_positive("stress", stress, "Pa")
+    relative = density / ICE_DENSITY
+    a, b = compute_shear_factor(law, relative), compute_bulk_factor(law, relative)
+    softness = (4.0 / (3.0 * a) + 1.0 / b) ** (-(law.exponent + 1.0) / 2.0)
+    rate = stress / (_SETTLING_VISCOSITY * math.exp(_STIFFENING * density))
+    return float(rate / (stress**law.exponent * softness))

@@ -16,8 +16,7 @@ from netdesign.core.arguments import EffortArgument
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.compiled import CompiledFlow
-from netdesign.snow.contact import change_some, update_contact
-from netdesign.snow.flow_state import FlowState, rest
+from netdesign.snow.contact import FlowState, change_some, rest, update_contact
 from netdesign.snow.flow_step import Step, compile_flow, take_step
 from netdesign.snow.law import (
     FlowProblem,

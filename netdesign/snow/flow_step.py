@@ -20,11 +20,11 @@ from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.compiled import CompiledFlow, prepare_flow
 from netdesign.snow.contact import (
     Contact,
+    FlowState,
     free_unknowns,
     friction_shares,
     net_components,
 )
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.kernel import (
     assemble_base_force,
     assemble_body_force,
@@ -45,8 +45,7 @@ from netdesign.snow.law import (
     sample_material,
     total_stress,
 )
-from netdesign.snow.linear import solve_blocks
-from netdesign.snow.ordering import Blocks, build_ordering
+from netdesign.snow.linear import Blocks, solve_blocks
 from netdesign.snow.placed_mesh import PlacedMesh
 
 
@@ -269,14 +268,11 @@ def _solve_step(
 ) -> Floats:
     """Unknowns that balance forces (n_dofs,) or (n_dofs, m) under a contact."""
     return solve_blocks(
-        build_ordering(
-            mesh.template, has_pressures=problem.element == "mixed", couples_net=False
-        ),
+        mesh.template,
         blocks,
         force,
         free_unknowns(problem, mesh, contact),
         friction_shares(problem, mesh, contact),
-        is_definite=problem.element == "velocity",
     )
 
 

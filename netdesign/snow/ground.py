@@ -152,7 +152,7 @@ def load_glide_tables() -> dict[str, GlideTable]:
 
 
 def load_glide_tables_of_exponents() -> dict[str, GlideTable]:
-    """Stored tables of the laws of ``snow/exponent.py``, by their names."""
+    """Stored tables of the laws of ``snow/creep_law.py``, by their names."""
     return _read_tables(_TABLE_FILE_OF_EXPONENTS)
 
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, gather
 from netdesign.snow.element import reference_element
+from netdesign.snow.linear import Blocks
 from netdesign.snow.mesh import MeshTemplate, edge_triples
-from netdesign.snow.ordering import Blocks
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.snow.shared_mesh import find_once
 

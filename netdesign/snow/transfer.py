@@ -7,9 +7,8 @@ from functools import lru_cache
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.snow.contact import Contact
+from netdesign.snow.contact import Contact, FlowState
 from netdesign.snow.element import interpolate_reference
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import MeshTemplate
 
 # Added between layers, more than any distance in one [thickness].

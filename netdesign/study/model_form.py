@@ -15,10 +15,12 @@ from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     ICE_DENSITY,
+    STATED_EXPONENTS,
     CreepLaw,
+    StatedExponent,
+    derive_exponent,
     require_admissible,
 )
-from netdesign.snow.exponent import STATED_EXPONENTS, StatedExponent, derive_exponent
 from netdesign.snow.ground import (
     GroundLaw,
     build_ground_from_glide_factor,

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.cable.alike import build_alike, reach_ends
-from netdesign.cable.funicular import solve_funicular
+from netdesign.cable.funicular import build_alike, reach_ends, solve_funicular
 from netdesign.outcome import Outcome
 
 STIFFNESS = 40.0

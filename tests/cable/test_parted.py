@@ -1,14 +1,35 @@
 """Parts of a cable that begin and end at given heights."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
 from netdesign.cable.funicular import solve_funicular
-from netdesign.cable.parted import PartedCable, part_cable
+from netdesign.cable.parted import CableParts, find_part_lengths
 
 STIFFNESS, SLACK = 400.0, 0.06
 PARTS = 4
 ELEMENTS = 3  # in each part
+
+
+class Cable(NamedTuple):
+    parts: CableParts
+    head_x: float
+    length: float
+
+    @property
+    def rises(self):
+        return self.parts.rises
+
+    @property
+    def size(self):
+        return self.parts.shares.size
+
+
+def part_cable(cable, forces, start):
+    known = (cable.parts, forces, cable.head_x, cable.length, STIFFNESS)
+    return find_part_lengths(*known, start)
 
 
 def draw_cable(seed):
@@ -17,23 +38,23 @@ def draw_cable(seed):
     shares = rng.uniform(0.3, 1.0, (PARTS, ELEMENTS))
     shares /= shares.sum(axis=1, keepdims=True)
     rises, head_x = rng.uniform(0.1, 0.7, PARTS), rng.uniform(0.0, 0.9)
-    cable = PartedCable(
+    parts = CableParts(
         shares=shares.ravel(),
+        part=np.repeat(np.arange(PARTS), ELEMENTS),
         firsts=np.arange(0, PARTS * ELEMENTS, ELEMENTS),
         rises=rises,
-        head_x=head_x,
-        length=(1.0 + SLACK) * float(np.hypot(head_x, rises.sum())),
-        stiffness=STIFFNESS,
     )
-    forces = rng.uniform(0.01, 0.4, (2, 2 * cable.shares.size + 1)) / cable.shares.size
+    length = (1.0 + SLACK) * float(np.hypot(head_x, rises.sum()))
+    cable = Cable(parts, head_x, length)
+    forces = rng.uniform(0.01, 0.4, (2, 2 * cable.size + 1)) / cable.size
     forces[1] *= -0.3
     return cable, forces
 
 
 def hang(cable, forces, parts, start):
     head = np.array([cable.head_x, cable.rises.sum()])
-    lengths = cable.shares * np.repeat(parts, ELEMENTS)
-    return solve_funicular(forces, lengths, cable.stiffness, head, start)
+    lengths = cable.parts.shares * parts[cable.parts.part]
+    return solve_funicular(forces, lengths, STIFFNESS, head, start)
 
 
 def guess_pull(cable, forces):
@@ -49,7 +70,7 @@ def test_parts_end_at_their_heights(seed):
     parts = part_cable(cable, forces, start)
     assert parts.sum() == pytest.approx(cable.length, rel=1e-11)
     found = hang(cable, forces, parts, start)
-    ends = found.curve[1, 2 * np.append(cable.firsts[1:], cable.shares.size)]
+    ends = found.curve[1, 2 * np.append(cable.parts.firsts[1:], cable.size)]
     np.testing.assert_allclose(ends, np.cumsum(cable.rises), atol=1e-9)
 
 
@@ -57,14 +78,7 @@ def test_a_cable_that_need_not_bend_is_parted_like_its_rises():
     cable, forces = draw_cable(0)
     straight = np.outer([cable.head_x, cable.rises.sum()], [5.0])[:, 0]
     taut = float(np.hypot(*straight)) / 5.0
-    cable = PartedCable(
-        shares=cable.shares,
-        firsts=cable.firsts,
-        rises=cable.rises,
-        head_x=cable.head_x,
-        length=taut * 0.99,
-        stiffness=STIFFNESS,
-    )
+    cable = cable._replace(length=taut * 0.99)
     parts = part_cable(cable, 0.0 * forces, straight)
     expected = cable.rises / cable.rises.sum() * cable.length
     np.testing.assert_allclose(parts, expected, rtol=1e-10)

@@ -9,8 +9,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
-from netdesign.snow.contact import Contact, may_lift, start_contact
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.contact import Contact, FlowState, may_lift, start_contact
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 

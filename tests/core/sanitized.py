@@ -15,9 +15,8 @@ from netdesign.core import library
 from netdesign.core.plan import build_plan
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.compiled_round import prepare_rounds
-from netdesign.coupling.steady.hanging import find_contact_curve, start_hanging
-from netdesign.coupling.steady.played_round import Guess
+from netdesign.coupling.steady.compiled import prepare_rounds
+from netdesign.coupling.steady.net import find_contact_curve, start_net
 from netdesign.coupling.steady.solve import _build_problem, solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
@@ -71,17 +70,17 @@ def try_spoilt_rounds(scene, rng):
     """Rounds along spoilt curves, and from spoilt states."""
     size = SolverSettings().levels[0]
     problem = _build_problem(scene, scene.net, size)
-    rounds = prepare_rounds(problem)
+    rounds = prepare_rounds(problem, 10)
     if rounds is None:
         return
-    hanging = start_hanging(problem)
-    curve = find_contact_curve(problem, hanging)
+    net = start_net(problem)
+    curve = find_contact_curve(problem, net)
     for spoilt in (curve, spoil(curve, rng)):
-        found = rounds.play(spoilt, Guess(None, hanging), 1e-3, 1e9, 10)
+        found = rounds.take(spoilt, None, net, 1e-3, 1e9)
         if found is not None:
-            rounds.play(curve, found, 1e-3, 1e9, 10)
+            rounds.take(curve, found.state, found.net, 1e-3, 1e9)
             state = replace(found.state, stress=spoil(found.state.stress, rng))
-            rounds.play(curve, Guess(state, found.hanging), 1e-3, 1e9, 10)
+            rounds.take(curve, state, found.net, 1e-3, 1e9)
 
 
 def try_spoilt_panel(solution, rng):

@@ -9,15 +9,15 @@ from netdesign.cable.net import Net
 from netdesign.core.library import find_core
 from netdesign.coupling.interface import find_support_forces, share_net_forces
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady import compiled_scene
-from netdesign.coupling.steady.compiled_round import prepare_rounds
-from netdesign.coupling.steady.hanging import (
+from netdesign.coupling.steady import compiled
+from netdesign.coupling.steady.compiled import prepare_rounds
+from netdesign.coupling.steady.net import (
     SteadyProblem,
     find_contact_curve,
-    hang_again,
-    start_hanging,
+    hang_net,
+    start_net,
 )
-from netdesign.coupling.steady.played_round import Guess, flow_along, place_along
+from netdesign.coupling.steady.round import flow_along, place_along
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
@@ -79,15 +79,15 @@ def amplifies_rounding(problem):
     return max(rates) > MOST_CONTRAST * min(rates)
 
 
-def play(problem, state, hanging, curve):
+def play(problem, state, net, curve):
     """A round by the core and step by step; what failed is None."""
-    core = prepare_rounds(problem)
-    found = core.play(curve, Guess(state, hanging), TOLERANCE, STILL, 40)
+    core = prepare_rounds(problem, 40)
+    found = core.take(curve, state, net, TOLERANCE, STILL)
     try:
         mesh = place_along(problem, curve)
         flow = flow_along(problem, mesh, state, SETTINGS, TOLERANCE)
         on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
-        hung = hang_again(problem, hanging, on_net)
+        hung = hang_net(problem, net, on_net)
     except SolveError:
         return found, None
     return found, (mesh, flow, hung)
@@ -101,10 +101,10 @@ def assert_alike(one, other):
 @pytest.mark.parametrize("number", range(len(PROBLEMS)))
 def test_a_round_is_the_same_in_one_call(number):
     problem = PROBLEMS[number]
-    state, hanging = None, start_hanging(problem)
+    state, net = None, start_net(problem)
     for _ in range(2):  # from nothing, then from the round before
-        curve = find_contact_curve(problem, hanging)
-        found, steps = play(problem, state, hanging, curve)
+        curve = find_contact_curve(problem, net)
+        found, steps = play(problem, state, net, curve)
         assert steps is not None or found is None  # the core finds nothing of its own
         if found is None:  # then the steps are taken
             return
@@ -120,93 +120,90 @@ def test_a_round_is_the_same_in_one_call(number):
             one, other = (getattr(f.state.contact, name) for f in (found, flow))
             np.testing.assert_array_equal(one, other)
         for name in ("forces", "lengths", "parts"):
-            assert_alike(getattr(found.hanging, name), getattr(hung, name))
+            assert_alike(getattr(found.net, name), getattr(hung, name))
         for name in ("curve", "tension", "foot_pull", "head_pull"):
-            assert_alike(getattr(found.hanging.cable, name), getattr(hung.cable, name))
-        state, hanging = flow.state, hung
+            assert_alike(getattr(found.net.cable, name), getattr(hung.cable, name))
+        state, net = flow.state, hung
 
 
 @pytest.mark.parametrize("number", range(len(PROBLEMS)))
 def test_forces_of_the_stresses_are_the_same_in_one_call(number, monkeypatch):
     problem = PROBLEMS[number]
-    hanging = start_hanging(problem)
-    found, steps = play(problem, None, hanging, find_contact_curve(problem, hanging))
+    net = start_net(problem)
+    found, steps = play(problem, None, net, find_contact_curve(problem, net))
     if found is None or amplifies_rounding(problem):
         return
     monkeypatch.setattr("netdesign.coupling.interface._ROUNDING", 1e9)  # none removed
     mesh, flow, hung = steps
     _, expected = find_support_forces(problem.snow, mesh, flow.state)
-    forces, settled = found.settled
+    forces, settled = found.from_stresses
     assert_alike(forces.on_net, expected.on_net)
     assert_alike(forces.on_ground, expected.on_ground)
     assert_alike(forces.ground_normal, expected.ground_normal)
     size = np.abs(expected.on_net).max()
     assert forces.unbalanced == pytest.approx(expected.unbalanced, abs=1e-9 * size)
     assert_alike(
-        settled.cable.curve, hang_again(problem, hung, expected.on_net).cable.curve
+        settled.cable.curve, hang_net(problem, hung, expected.on_net).cable.curve
     )
 
 
 @pytest.mark.parametrize("number", range(0, len(PROBLEMS), 4))
 def test_a_round_goes_on_from_results_as_from_what_they_say(number):
     problem = PROBLEMS[number]
-    hanging = start_hanging(problem)
-    curve = find_contact_curve(problem, hanging)
-    core, other = prepare_rounds(problem), prepare_rounds(replace(problem))
-    before = core.play(curve, Guess(None, hanging), 1e-3, STILL, 40)
+    net = start_net(problem)
+    curve = find_contact_curve(problem, net)
+    core, other = prepare_rounds(problem, 40), prepare_rounds(replace(problem), 40)
+    before = core.take(curve, None, net, 1e-3, STILL)
     if before is None:
         return
     assert before.moved == np.abs(before.image - curve).max()
-    said = Guess(before.state, before.hanging)
-    kept = before.results.copy()
+    kept = before.state.stress.copy()
     found = [
-        one.play(before.image, start, TOLERANCE, STILL, 40)
-        for one, start in ((core, before), (core, said), (other, before))
+        one.take(before.image, before.state, before.net, TOLERANCE, STILL)
+        for one in (core, other)
     ]
-    np.testing.assert_array_equal(before.results, kept)
+    np.testing.assert_array_equal(before.state.stress, kept)
     assert len({one is None for one in found}) == 1
     if found[0] is not None:
         for one in found[1:]:
-            np.testing.assert_array_equal(one.hanging.forces, found[0].hanging.forces)
+            np.testing.assert_array_equal(one.net.forces, found[0].net.forces)
             np.testing.assert_array_equal(one.state.stress, found[0].state.stress)
 
 
 def test_a_net_that_moves_is_not_settled():
     problem = PROBLEMS[0]
-    hanging = start_hanging(problem)
-    curve = find_contact_curve(problem, hanging)
-    found = prepare_rounds(problem).play(
-        curve, Guess(None, hanging), TOLERANCE, 1e-12, 40
-    )
-    assert found.settled is None
+    net = start_net(problem)
+    curve = find_contact_curve(problem, net)
+    found = prepare_rounds(problem, 40).take(curve, None, net, TOLERANCE, 1e-12)
+    assert found.from_stresses is None
 
 
 def test_a_curve_in_the_ground_is_none():
     problem = PROBLEMS[0]
-    hanging = start_hanging(problem)
-    curve = find_contact_curve(problem, hanging).copy()
+    net = start_net(problem)
+    curve = find_contact_curve(problem, net).copy()
     curve[1, 3] = -1e-3
-    core = prepare_rounds(problem)
-    assert core.play(curve, Guess(None, hanging), TOLERANCE, STILL, 40) is None
+    core = prepare_rounds(problem, 40)
+    assert core.take(curve, None, net, TOLERANCE, STILL) is None
 
 
 def test_what_the_core_does_not_take_is_left_to_numpy(monkeypatch):
     problem = PROBLEMS[0]
     mixed = replace(problem, snow=replace(problem.snow, element="mixed"))
-    assert prepare_rounds(mixed) is None
-    compiled_scene._describe_form.__wrapped__.cache_clear()
-    monkeypatch.setattr(compiled_scene, "describe_template", lambda *_: None)
-    assert prepare_rounds(replace(problem)) is None  # a template too large for it
-    compiled_scene._describe_form.__wrapped__.cache_clear()
+    assert prepare_rounds(mixed, 40) is None
+    compiled._describe_form.__wrapped__.cache_clear()
+    monkeypatch.setattr(compiled, "describe_template", lambda *_: None)
+    assert prepare_rounds(replace(problem), 40) is None  # a template too large for it
+    compiled._describe_form.__wrapped__.cache_clear()
 
 
 def test_what_the_core_reads_of_a_template_stays_with_its_form():
     """Numbers have caches of their own, which may forget them before."""
     problem = PROBLEMS[0]
-    compiled_scene._describe_form.__wrapped__.cache_clear()
+    compiled._describe_form.__wrapped__.cache_clear()
     compiled_mesh.number_template.__wrapped__.cache_clear()
     compiled_mesh._locate_template.__wrapped__.cache_clear()
-    rounds = prepare_rounds(replace(problem))
+    rounds = prepare_rounds(replace(problem), 40)
     kept = {one.__array_interface__["data"][0] for one in rounds.kept}
     place = rounds.argument.place
     assert {place.triangles, place.net, place.orientation} <= kept

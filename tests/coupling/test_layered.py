@@ -12,9 +12,9 @@ import pytest
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import correction, played_round
+from netdesign.coupling.steady import correction, round
 from netdesign.coupling.steady import solve as steady
-from netdesign.coupling.steady.compiled_round import CompiledRounds
+from netdesign.coupling.steady.compiled import CompiledRounds
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene as draw_any_scene
@@ -75,7 +75,7 @@ def draw_scene(seed, number, *, is_denser_below):
 def work(monkeypatch):
     """Linear solves times triangles, of all flows, those that fail too."""
     spent = []
-    solve_flow, play = played_round.solve_flow, CompiledRounds.play
+    solve_flow, take = round.solve_flow, CompiledRounds.take
 
     def count(law, mesh, *given, **named):
         flow = solve_flow(law, mesh, *given, **named)
@@ -83,13 +83,13 @@ def work(monkeypatch):
         return flow
 
     def count_in_core(self, *given):
-        found = play(self, *given)
+        found = take(self, *given)
         triangles = self.problem.template.triangles.shape[1]
         spent.append(self.argument.effort.steps * triangles)
         return found
 
-    monkeypatch.setattr(played_round, "solve_flow", count)
-    monkeypatch.setattr(CompiledRounds, "play", count_in_core)
+    monkeypatch.setattr(round, "solve_flow", count)
+    monkeypatch.setattr(CompiledRounds, "take", count_in_core)
     return spent
 
 

@@ -18,7 +18,7 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
-from netdesign.snow.fluidity import PAPER_FLUIDITY
+from netdesign.snow.creep_law import PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 
 FRICTIONS = [float(phi) for phi in range(46)]

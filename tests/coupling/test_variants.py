@@ -15,8 +15,7 @@ from netdesign.coupling.scene import (
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
-from netdesign.snow.creep_law import compute_shear_factor
-from netdesign.snow.fluidity import compute_fluidity
+from netdesign.snow.creep_law import compute_fluidity, compute_shear_factor
 from netdesign.snow.law import linearise_sliding
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh

@@ -16,7 +16,7 @@ from netdesign.errors import ModelError, SceneFileError
 from netdesign.files.scene import SceneFile, build_scene, read_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome
-from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
+from netdesign.snow.creep_law import PAPER_FLUIDITY, compute_fluidity
 from netdesign.snow.ground import build_ground_from_glide_factor
 from tests.full_scene import FULL_SCENE
 

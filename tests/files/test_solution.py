@@ -7,7 +7,7 @@ import pytest
 from netdesign.coupling.history.settings import StaggeredSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.bound import bound_by_less_slack
+from netdesign.coupling.steady.solve import bound_by_less_slack
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables, load_scenes

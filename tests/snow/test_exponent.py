@@ -7,16 +7,18 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.steady.glide_factor import measure_glide_factor
+from netdesign.coupling.steady.rigid import measure_glide_factor
 from netdesign.errors import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,
+    DERIVED_LAWS,
+    STATED_EXPONENTS,
     compute_bulk_factor,
     compute_shear_factor,
     compute_strain_rate,
+    derive_exponent,
 )
-from netdesign.snow.exponent import DERIVED_LAWS, STATED_EXPONENTS, derive_exponent
 from netdesign.snow.ground import (
     GroundLaw,
     compute_slip_length,

@@ -3,8 +3,8 @@ import math
 import pytest
 
 from netdesign.errors import ModelError
-from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.snow.fluidity import (
+from netdesign.snow.creep_law import (
+    BOUTILLIER_2004,
     COLDEST,
     PAPER_FLUIDITY,
     WARMEST,

@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.errors import ModelError
-from netdesign.snow.body import build_body
+from netdesign.snow.body import Settling, build_body, build_material, largest_density
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     DENSEST_SNOW,
@@ -17,7 +17,6 @@ from netdesign.snow.creep_law import (
 )
 from netdesign.snow.law import FlowLayer, sample_material
 from netdesign.snow.mesh import build_template
-from netdesign.snow.settling import Settling, build_material, largest_density
 
 LAW = CREEP_LAWS["boutillier-2004"]
 DENSITY = 0.4

@@ -6,9 +6,8 @@ from scipy.spatial import cKDTree
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import transfer
-from netdesign.snow.contact import Contact, start_contact
+from netdesign.snow.contact import Contact, FlowState, start_contact
 from netdesign.snow.element import point_heights
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.shared_mesh import share_template

@@ -16,12 +16,12 @@ from netdesign.evidence.verification.compaction import (
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     ICE_DENSITY,
+    PAPER_FLUIDITY,
     ZWINGER_2007,
     compute_bulk_factor,
     compute_shear_factor,
     compute_strain_rate,
 )
-from netdesign.snow.fluidity import PAPER_FLUIDITY
 
 
 @pytest.mark.parametrize("density", [170.0, 293.0, 441.0])

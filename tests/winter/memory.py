@@ -11,8 +11,8 @@ from scipy.interpolate import CubicSpline
 from netdesign.coupling.history.follow import follow
 from netdesign.coupling.history.instant import advance
 from netdesign.coupling.history.net_start import build_start, find_start
-from netdesign.coupling.history.problem import build_problem
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
+from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.body import build_body

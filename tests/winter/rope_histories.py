@@ -7,8 +7,8 @@ import numpy as np
 from netdesign.coupling.history.follow import follow
 from netdesign.coupling.history.instant import advance
 from netdesign.coupling.history.net_start import build_start, find_start
-from netdesign.coupling.history.problem import build_problem
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
+from netdesign.coupling.history.state import build_problem
 from netdesign.snow.mesh import build_template
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.fluidity import compute_fluidity
+from netdesign.snow.creep_law import compute_fluidity
 from netdesign.words.message import say
 
 _PARTS = 8  # of each interval between two readings, for the integral

@@ -1,22 +1,28 @@
-"""A whole history on one mesh."""
+"""A whole history on one mesh, and the solution in SI units that histories make."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from netdesign.cable.tension import compute_node_forces
+from netdesign.coupling.balance import check_balance, negative_share
+from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.instant import Instant
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.moments import (
+    History,
     HistoryPoint,
     Plateau,
     largest_pull,
     select_counted,
 )
-from netdesign.numerics.arrays import Floats
-from netdesign.snow.settling import largest_density
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
+from netdesign.numerics.arrays import Floats, Mask
+from netdesign.snow.body import largest_density
 from netdesign.words.message import Message
 
 
@@ -136,3 +142,155 @@ def _net_normals(points: Floats) -> Floats:
     """Unit normals of a polygon at its points (2, n)."""
     along = np.gradient(points, axis=1)
     return np.asarray(np.array([along[1], -along[0]]) / np.hypot(*along))
+
+
+def scale_history(
+    run: Run, scene: Scene, clock: Clock, *, start: str, densifies: bool
+) -> History:
+    """History of a run in SI units.
+
+    Parameters
+    ----------
+    run : Run
+        Dimensionless.
+    scene : Scene
+        Its scales.
+    clock : Clock
+        Of its temperatures.
+    start : str
+        ``steady``, ``straight`` or ``sagged``.
+    densifies : bool
+        The creep law followed the density.
+    """
+    plateau = run.plateau
+    if plateau.time is not None:
+        time = clock.to_time(plateau.time * scene.time_scale)
+        plateau = replace(plateau, time=time)
+    return History(
+        moments=tuple(_scale_moment(moment, scene, clock) for moment in run.moments),
+        plateau=plateau,
+        start=start,
+        densifies=densifies,
+        fallen_share=run.fallen,
+        ended=run.ended,
+    )
+
+
+def build_solution(
+    scene: Scene,
+    runs: Sequence[Run],
+    foot: EndPull,
+    head: EndPull,
+    history: History,
+    method: Method,
+    balance_tolerance: float,
+    friction_tolerance: float | None = None,
+) -> Solution:
+    """Solution whose shapes are those at the end of the finest run.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was solved.
+    runs : sequence of Run
+        Of all meshes; the finest is the last.
+    foot, head : EndPull
+        Largest pulls with their errors.
+    history : History
+        Of the finest run.
+    method : str
+        ``transient`` or ``staggered``.
+    balance_tolerance : float
+        Largest force missing over the weight [-].
+    friction_tolerance : float, optional
+        Shear beyond the friction limit over the weight [-]; default is the former.
+
+    Raises
+    ------
+    SolveError
+        If a balance is not met.
+    """
+    run = runs[-1]
+    thickness, body = scene.snowpack.thickness, run.state.body
+    template = body.topology.template
+    vertices = body.vertices
+    nodes = np.concatenate([vertices, vertices[:, template.edges].mean(axis=1)], axis=1)
+    points = run.instant.points
+    along = run.problem.head / np.hypot(*run.problem.head)
+    balance = _measure_balance(run, scene)
+    check_balance(balance, balance_tolerance, friction_tolerance=friction_tolerance)
+    return Solution(
+        scene=scene,
+        method=method,
+        foot=foot,
+        head=head,
+        tension_min=min(one.tension_min for one in run.counted) * scene.force_scale,
+        tension_max=max(one.tension_max for one in run.counted) * scene.force_scale,
+        sag=float((along[1] * points[0] - along[0] * points[1]).max()) * thickness,
+        net_curve=points * thickness,
+        net_forces=_list_forces(run) * scene.force_scale,
+        net_slides=_find_slides(run),
+        mesh_nodes=nodes * thickness,
+        mesh_edges=template.edges,
+        mesh_triangles=body.topology.triangles.T,
+        mesh_density=body.density * scene.snowpack.density,
+        largest_velocity=float(np.hypot(*run.instant.velocity).max())
+        * scene.velocity_scale,
+        balance=balance,
+        cost=Cost(
+            linear_solves=sum(part.linear_solves for part in runs),
+            rounds=sum(len(part.moments) + part.rejected for part in runs),
+            elements=template.triangles.shape[1],
+            degrees_of_freedom=2 * template.nodes.shape[1],
+        ),
+        history=history,
+    )
+
+
+def _list_forces(run: Run) -> Floats:
+    """Forces of the snow on the net's nodes, shape (2, n), foot to head."""
+    on_net = run.instant.on_net
+    corner = -on_net.sum(axis=1)
+    corner += run.instant.foot_pull + run.instant.head_pull
+    return np.column_stack([corner, on_net])
+
+
+def _find_slides(run: Run) -> Mask:
+    """Net nodes at which the snow slips, foot to head."""
+    signs = run.instant.response.sliding.slide_signs
+    slides = np.append(False, signs != 0)
+    if run.instant.on_net.shape[1] > signs.size:
+        slides = np.append(slides, True)  # a corner held at the head slips freely
+    return slides
+
+
+def _scale_moment(moment: HistoryPoint, scene: Scene, clock: Clock) -> HistoryPoint:
+    force, thickness = scene.force_scale, scene.snowpack.thickness
+    return replace(
+        moment,
+        time=clock.to_time(moment.time * scene.time_scale),
+        foot=moment.foot * force,
+        head=moment.head * force,
+        tension_min=moment.tension_min * force,
+        tension_max=moment.tension_max * force,
+        on_net=moment.on_net * force,
+        way=moment.way * thickness,
+        speed=moment.speed * scene.velocity_scale,
+    )
+
+
+def _measure_balance(run: Run, scene: Scene) -> Balance:
+    weight = float(run.state.body.mass.sum())
+    tensions = run.instant.response.sliding.tensions
+    forces = compute_node_forces(run.instant.points, tensions)
+    friction = run.problem.snow.friction
+    excess = np.abs(forces.tangential) - friction * np.maximum(forces.normal, 0.0)
+    size = weight * float(np.hypot(*run.problem.snow.gravity))
+    return Balance(
+        weight_along_slope=weight * run.problem.snow.gravity[0] * scene.force_scale,
+        relative_residual=max(moment.residual for moment in run.moments),
+        friction_excess=max(0.0, float(excess.max())) / size,
+        smallest_tension=float(tensions.min()) * scene.force_scale,
+        suction_share=negative_share(forces.normal),
+        ground_tension_share=negative_share(run.instant.ground_normal),
+    )

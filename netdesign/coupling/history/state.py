@@ -1,4 +1,4 @@
-"""Snow and net that move: what stays the same, and their state at one time.
+"""Snow and net that move: the scene that stays the same, and their state at one time.
 
 Dimensionless as in ``steady``; times in d over the velocity scale.
 """
@@ -10,10 +10,13 @@ from typing import Literal
 
 import numpy as np
 
+from netdesign.cable.net import Net
+from netdesign.coupling.scene import Scene
+from netdesign.errors import ModelError
 from netdesign.numerics.arrays import Floats, Ints, Signs
-from netdesign.snow.body import SnowBody
+from netdesign.snow.body import Settling, SnowBody
 from netdesign.snow.law import FlowProblem
-from netdesign.snow.settling import Settling
+from netdesign.words.message import say
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
 # net below it.
@@ -121,3 +124,43 @@ def list_net_points(problem: TransientProblem, nodes: Floats) -> Floats:
     points = np.zeros((2, nodes.shape[1] + 2))
     points[:, 1:-1], points[:, -1] = nodes, problem.head
     return points
+
+
+def build_problem(
+    scene: Scene, *, densifies: bool, base_drag: float = 0.0
+) -> TransientProblem:
+    """The scene's snow and net, dimensionless.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    densifies : bool
+        The creep law follows the density.
+    base_drag : float
+        Shear stress on the ground over its velocity [rho g d / velocity scale].
+
+    Raises
+    ------
+    ModelError
+        If the scene has a wall or a one-sided contact.
+    """
+    net = scene.net
+    if not isinstance(net, Net):
+        raise ModelError(say("history.needs_net"))
+    if "one-sided" in (scene.ground_contact, scene.net_contact):
+        raise ModelError(say("history.two_sided_only"))
+    thickness = scene.snowpack.thickness
+    return TransientProblem(
+        snow=scene.flow_problem,
+        settling=Settling(
+            creep_law=scene.creep_law,
+            mean_density=scene.snowpack.relative_density,
+            densifies=densifies,
+            least_density=min(layer.density for layer in scene.flow_problem.layers),
+        ),
+        head=net.head / thickness,
+        length=net.unstressed_length / thickness,
+        stiffness=net.stiffness_per_m / scene.force_scale,
+        base_drag=base_drag,
+    )

@@ -15,7 +15,7 @@ from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints, Mask, gather
 from netdesign.outcome import Outcome
-from netdesign.snow.body import SnowBody
+from netdesign.snow.body import SnowBody, build_material
 from netdesign.snow.element import reference_element
 from netdesign.snow.kernel import (
     assemble_base_force,
@@ -35,10 +35,8 @@ from netdesign.snow.law import (
     squared_invariant,
     total_stress,
 )
-from netdesign.snow.linear import SingularError, solve_blocks
-from netdesign.snow.ordering import Blocks, build_ordering
+from netdesign.snow.linear import Blocks, SingularError, solve_blocks
 from netdesign.snow.placed_mesh import PlacedMesh
-from netdesign.snow.settling import build_material
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
 from netdesign.words.message import say
 
@@ -424,12 +422,8 @@ def _solve(equations: StepEquations, blocks: Sequence[Blocks], force: Floats) ->
         # over the head the snow slips up, with friction against it (N14)
         friction = np.zeros(mesh.n_dofs)
         friction[equations.top + 1] = -snow.friction
-    is_mixed = snow.element == "mixed"
-    ordering = build_ordering(mesh.template, has_pressures=is_mixed, couples_net=False)
     try:
-        return solve_blocks(
-            ordering, blocks, force, equations.free, friction, is_definite=not is_mixed
-        )
+        return solve_blocks(mesh.template, blocks, force, equations.free, friction)
     except SingularError:
         raise SolveError(Outcome.NONFINITE, say("history.nothing_holds")) from None
 

@@ -17,17 +17,21 @@ from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.follow import follow
 from netdesign.coupling.history.instant import Instant, advance
 from netdesign.coupling.history.net_start import build_start, find_start
-from netdesign.coupling.history.problem import build_problem
 from netdesign.coupling.history.run import (
     Run,
+    build_solution,
     measure_run,
     record_moment,
+    scale_history,
 )
-from netdesign.coupling.history.run_result import build_solution, scale_history
 from netdesign.coupling.history.settings import (
     TransientSettings,
 )
-from netdesign.coupling.history.state import TransientProblem, TransientState
+from netdesign.coupling.history.state import (
+    TransientProblem,
+    TransientState,
+    build_problem,
+)
 from netdesign.coupling.moments import (
     HistoryPoint,
     Plateau,

@@ -10,11 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.coupling.steady.hanging import SteadyProblem
-from netdesign.coupling.steady.played_round import Round
-from netdesign.coupling.steady.round_tangent import linearise_round
+from netdesign.cable.funicular import linearise_curve
+from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem
+from netdesign.coupling.steady.round import RoundResult
 from netdesign.numerics.arrays import Floats
+from netdesign.snow.contact import FlowState, net_components
+from netdesign.snow.flow_step import linearise_reaction
 from netdesign.snow.linear import SingularError
+from netdesign.snow.placed_mesh import PlacedMesh, turn_normals
 
 _MOST_HALVINGS = 3
 _PLAIN_STEP = 0.5  # share of what is missed that is made good without a derivative
@@ -58,7 +61,7 @@ class Correction(NamedTuple):
 
 def correct_round(
     problem: SteadyProblem,
-    played: Round,
+    taken: RoundResult,
     last: Correction | None,
     carried: Floats | None = None,
 ) -> Correction:
@@ -68,20 +71,20 @@ def correct_round(
     ----------
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
-    played : Round
+    taken : RoundResult
         The last round.
     last : Correction or None
         What led to it.
     carried : ndarray, shape (2, n_net, 2, n_net), optional
         Derivative on another mesh, where it will do.
     """
-    if last is not None and last.may_halve and played.moved > last.moved:
+    if last is not None and last.may_halve and taken.moved > last.moved:
         return last.halve()
-    tangent = _find_tangent(problem, played) if carried is None else carried
+    tangent = _find_tangent(problem, taken) if carried is None else carried
     return Correction(
-        curve=played.curve,
-        moved=played.moved,
-        step=_find_step(tangent, played.image - played.curve),
+        curve=taken.curve,
+        moved=taken.moved,
+        step=_find_step(tangent, taken.image - taken.curve),
         tangent=tangent,
     )
 
@@ -111,18 +114,9 @@ def _interpolate(known: Floats, wanted: Floats) -> Floats:
     return np.array([np.interp(wanted, known, hat) for hat in np.eye(known.size)]).T
 
 
-def _find_tangent(problem: SteadyProblem, played: Round) -> Floats | None:
-    hanging = played.hanging
+def _find_tangent(problem: SteadyProblem, taken: RoundResult) -> Floats | None:
     with suppress(SingularError):
-        return linearise_round(
-            problem.snow,
-            played.found.mesh,
-            played.state,
-            hanging.cable,
-            hanging.forces,
-            hanging.lengths,
-            problem.stiffness,
-        )
+        return linearise_round(problem, taken.mesh, taken.state, taken.net)
     return None
 
 
@@ -134,3 +128,32 @@ def _find_step(tangent: Floats | None, miss: Floats) -> Floats:
             step = np.linalg.solve(matrix, miss.ravel())
             return np.asarray(step.reshape(miss.shape))
     return _PLAIN_STEP * miss
+
+
+def linearise_round(
+    problem: SteadyProblem, mesh: PlacedMesh, state: FlowState, net: NetEquilibrium
+) -> Floats:
+    """Derivative of a round, of which only the turning of the net is taken.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    mesh, state : PlacedMesh, FlowState
+        Snow against the curve that was given.
+    net : NetEquilibrium
+        Under the forces found.
+
+    Returns
+    -------
+    ndarray, shape (2, n_net, 2, n_net)
+        Component and node of the curve found; of the curve given.
+    """
+    count = mesh.template.net.size
+    _, tangential = net_components(mesh)
+    speed = state.unknowns[tangential]
+    # velocity along the net turns into one out of the snow: v.n = 0 in a turned n
+    across = -speed[:, None, None] * turn_normals(mesh)[1:]
+    loads = np.tensordot(linearise_reaction(problem.snow, mesh, state), across, 1)
+    curve = linearise_curve(net.cable, net.forces, net.lengths, problem.stiffness)
+    return np.tensordot(curve[:, :count, :, :count], loads, 2)

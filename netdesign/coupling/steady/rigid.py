@@ -1,7 +1,8 @@
-"""Snow against a rigid wall or rake: forces on the wall."""
+"""Snow against a rigid wall or rake: forces on it, and the glide factor by them."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -26,16 +27,28 @@ from netdesign.coupling.solution import (
 )
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
+from netdesign.snow.contact import FlowState
+from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.flow import solve_flow
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.ground import GroundLaw
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
+from netdesign.snow.snowpack import Snowpack
+from netdesign.snow.wall import Wall
 from netdesign.words.message import say
+
+# The recipe: snow adhering to a rigid wall normal to the slope, as high as the snow.
+# What these leave open: coupling/THEORY.md, section 1.
+_THICKNESS = 3.0  # [m]
+_UPSLOPE_LENGTH = 240.0  # [m]
+_SLOPE_ANGLE = math.radians(40.0)
+_DENSITY = 340.0  # [kg/m3]
+_FINE = SolverSettings(accuracy=0.001)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Pressed:
+class _WallState:
     """Snow against the wall on one mesh, dimensionless."""
 
     problem: FlowProblem
@@ -91,7 +104,7 @@ def solve_rigid(
 
 
 def _build_solution(
-    scene: Scene, states: Sequence[_Pressed], force: Estimate, balance: Balance
+    scene: Scene, states: Sequence[_WallState], force: Estimate, balance: Balance
 ) -> WallSolution:
     """The finest state in SI."""
     end, scale, thickness = states[-1], scene.force_scale, scene.snowpack.thickness
@@ -124,7 +137,7 @@ def _build_solution(
     )
 
 
-def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
+def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _WallState:
     problem = scene.steady_flow_problem
     template = build_template(scene.modelled_aspect, size, scene.layer_tops)
     heights = template.net_fractions
@@ -141,10 +154,53 @@ def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
             flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
         )
     state, forces = find_support_forces(problem, mesh, flow.state)
-    return _Pressed(
+    return _WallState(
         problem=problem,
         mesh=mesh,
         state=state,
         forces=forces,
         linear_solves=flow.linear_solves,
     )
+
+
+def measure_glide_factor(law: CreepLaw, slip_ratio: float) -> float:
+    """Ratio of snow pressures on a rigid wall with and without sliding.
+
+    Parameters
+    ----------
+    law : CreepLaw
+        Creep law.
+    slip_ratio : float
+        Slip length over snow thickness [-].
+
+    Returns
+    -------
+    float
+        N [-].
+
+    Raises
+    ------
+    SolveError
+        If one of the two scenes has no solution.
+    """
+    sliding = GroundLaw(kind="sliding", slip_length=slip_ratio * _THICKNESS)
+    rough = GroundLaw(kind="no-slip")
+    return _wall_force(law, sliding) / _wall_force(law, rough)
+
+
+def _wall_force(law: CreepLaw, ground: GroundLaw) -> float:
+    scene = Scene(
+        snowpack=Snowpack(
+            slope_angle=_SLOPE_ANGLE,
+            thickness=_THICKNESS,
+            upslope_length=_UPSLOPE_LENGTH,
+            density=_DENSITY,
+        ),
+        ground=ground,
+        net=Wall(height_normal=_THICKNESS),
+        creep_law=law,
+    )
+    solution = solve_rigid(scene, _FINE)
+    if isinstance(solution, FailedSolution):
+        raise SolveError(solution.outcome, solution.reason)
+    return solution.force.x

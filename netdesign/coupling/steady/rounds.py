@@ -16,36 +16,27 @@ from itertools import pairwise
 import numpy as np
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.compiled_round import Played, Settled, prepare_rounds
+from netdesign.coupling.steady.compiled import prepare_rounds
 from netdesign.coupling.steady.correction import (
     Correction,
     carry_tangent,
     correct_round,
 )
-from netdesign.coupling.steady.hanging import (
-    Hanging,
+from netdesign.coupling.steady.net import (
+    NetEquilibrium,
     SteadyProblem,
     find_contact_curve,
     locate_nodes,
-    start_hanging,
+    start_net,
 )
-from netdesign.coupling.steady.played_round import (
-    Closeness,
-    Guess,
-    Round,
-    Start,
-    Stepped,
-    explain_failure,
-    play_round,
-)
+from netdesign.coupling.steady.round import RoundResult, explain_failure, take_round
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.contact import FlowState
 from netdesign.snow.mesh import MeshTemplate
-from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.snow.transfer import transfer_state
 from netdesign.words.message import say
 
@@ -76,18 +67,16 @@ _LEAST_WORK, _LEAST_WORK_LAYERED, _MOST_WORK = 100, 40, 4e4
 _FAILED_FLOW = 20  # of them, for a flow that does not converge
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Coupled:
+@dataclass(frozen=True, slots=True, eq=False)
+class CoupledState:
     """Snow and net at rest with each other on one mesh, dimensionless.
 
     Attributes
     ----------
     problem : SteadyProblem
         What was solved.
-    found : Played or Stepped
-        By the last round.
-    state, hanging : FlowState, Hanging
-        The snow, and the net under its forces.
+    last : RoundResult
+        The last round.
     tangent : ndarray, shape (2, n_net, 2, n_net), or None
         Derivative of the last round, if plain rounds gained little [-].
     pull_gain : float
@@ -97,66 +86,20 @@ class Coupled:
     """
 
     problem: SteadyProblem
-    found: Played | Stepped
-    state: FlowState
-    hanging: Hanging
+    last: RoundResult
     tangent: Floats | None
     pull_gain: float
     linear_solves: int
     rounds: int
 
-    @property
-    def mesh(self) -> PlacedMesh:
-        """Mesh of the snow."""
-        return self.found.mesh
-
-    @property
-    def settled(self) -> Settled | None:
-        """Net under the forces of the stresses alone, if that is known."""
-        return self.found.settled
-
-    @classmethod
-    def of_round(
-        cls,
-        problem: SteadyProblem,
-        last: Round,
-        tangent: Floats | None,
-        pull_gain: float,
-        linear_solves: int,
-        rounds: int,
-    ) -> Coupled:
-        """State that the last round left.
-
-        Parameters
-        ----------
-        problem, last : SteadyProblem, Round
-            What was solved, and the round.
-        tangent : ndarray, shape (2, n_net, 2, n_net), or None
-            Derivative of the round [-].
-        pull_gain : float
-            As in the attributes [1/thickness].
-        linear_solves, rounds : int
-            What it took.
-        """
-        return cls(
-            problem=problem,
-            found=last.found,
-            state=last.state,
-            hanging=last.hanging,
-            tangent=tangent,
-            pull_gain=pull_gain,
-            linear_solves=linear_solves,
-            rounds=rounds,
-        )
-
 
 def couple(
     problem: SteadyProblem,
     settings: SolverSettings,
-    guess: Coupled | None,
+    guess: CoupledState | None,
     *,
     is_first: bool = False,
-) -> Coupled:
+) -> CoupledState:
     """Rounds of flow and net until neither moves the other.
 
     Parameters
@@ -165,7 +108,7 @@ def couple(
         Snow and net on one mesh.
     settings : SolverSettings
         Tolerances, and how many rounds at most.
-    guess : Coupled or None
+    guess : CoupledState or None
         Where to start: the same or a like scene on this or on a coarser mesh.
     is_first : bool
         A coarsest mesh, which is only compared with the next.
@@ -175,59 +118,57 @@ def couple(
     SolveError
         If the rounds do not end, or one of them has no solution.
     """
-    start = guess.hanging if guess is not None else start_hanging(problem)
-    curve = _start_curve(problem, start, guess)
+    state, net = _begin(problem, guess)
+    curve = _start_curve(problem, net, guess)
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
     allowed = settings.patience * _allow_solves(problem)
-    played: list[Round] = []
+    taken: list[RoundResult] = []
     correction: Correction | None = None
     corrects = guess is not None and guess.tangent is not None
     carried = _carry(problem, guess)
-    core = None if settings.step else prepare_rounds(problem)
+    core = None if settings.step else prepare_rounds(problem, settings.max_iterations)
     solves = tried = 0
     while tried < settings.max_rounds and solves <= allowed:
         tried += 1
-        moved = _measure_movement(played, guess)
+        moved = _measure_movement(taken, guess)
         inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
         try:
-            begin = _begin(problem, guess, start, played)
-            close = Closeness(inner, still)
-            now = play_round(problem, settings, core, curve, begin, close)
+            now = core.take(curve, state, net, inner, still) if core else None
+            if now is None:  # by steps: nearer to the last curve where that helps
+                last = taken[-1].curve if taken else None
+                now = take_round(problem, settings, curve, last, state, net, inner)
         except SolveError:
             if correction is None or not correction.may_halve:
                 raise
             correction = correction.halve()
             curve, solves = correction.target, solves + _FAILED_FLOW
             continue
-        played.append(now)
-        solves += now.found.linear_solves
-        is_still = now.moved < still and now.found.change < tolerance
-        if is_still and _has_settled(problem, played, guess, _SETTLED * still):
+        taken.append(now)
+        state, net, solves = now.state, now.net, solves + now.linear_solves
+        is_still = now.moved < still and now.change < tolerance
+        if is_still and _has_settled(problem, taken, guess, _SETTLED * still):
             tangent = correction.tangent if correction else carried
-            gain = _measure_gain(problem, played, guess)
-            return Coupled.of_round(problem, now, tangent, gain, solves, tried)
+            gain = _measure_gain(problem, taken, guess)
+            return CoupledState(problem, now, tangent, gain, solves, tried)
         # a net that is still, whose pulls are not, is worth no derivative
-        corrects = corrects or (not is_still and _is_slow(played, guess))
+        corrects = corrects or (not is_still and _is_slow(taken, guess))
         if corrects:
             correction = correct_round(problem, now, correction, carried)
             curve, carried = correction.target, None
         else:
-            curve = _mix(played)
-    left = float(_measure_movement(played, guess))
+            curve = mix_anderson([r.curve for r in taken], [r.image for r in taken])
+    left = float(_measure_movement(taken, guess))
     what = say("steady.still_moves", moved=left, rounds=tried)
-    curve = played[-1].curve if played else curve
+    curve = taken[-1].curve if taken else curve
     raise explain_failure(problem, Outcome.MAX_ITERATIONS, what, curve)
 
 
-def _mix(played: Sequence[Round]) -> Floats:
-    """Next curve by what the rounds before found, shape (2, n_net) [thickness]."""
-    return mix_anderson([one.curve for one in played], [one.image for one in played])
-
-
-def _measure_movement(played: Sequence[Round], guess: Coupled | None) -> float:
+def _measure_movement(
+    taken: Sequence[RoundResult], guess: CoupledState | None
+) -> float:
     """Way of the net in the last round; before the first, its usual way [thickness]."""
-    if played:
-        return played[-1].moved
+    if taken:
+        return taken[-1].moved
     return 1.0 if guess is None else _REFINED
 
 
@@ -239,8 +180,8 @@ def _allow_solves(problem: SteadyProblem) -> float:
 
 def _has_settled(
     problem: SteadyProblem,
-    played: Sequence[Round],
-    guess: Coupled | None,
+    taken: Sequence[RoundResult],
+    guess: CoupledState | None,
     allowed: float,
 ) -> bool:
     """Pulls of layered snow on the net change by a small share in a round.
@@ -250,57 +191,51 @@ def _has_settled(
     """
     if not problem.is_layered:
         return True
-    if len(played) > 1:
-        return _change_pulls(*played[-2:]) <= allowed
+    if len(taken) > 1:
+        return _change_pulls(*taken[-2:]) <= allowed
     # what a coarser mesh tells is trusted less than what was seen
-    expected = math.inf if guess is None else guess.pull_gain * played[-1].moved
+    expected = math.inf if guess is None else guess.pull_gain * taken[-1].moved
     return expected <= allowed / _SETTLED
 
 
-def _change_pulls(before: Round, now: Round) -> float:
+def _change_pulls(before: RoundResult, now: RoundResult) -> float:
     """Relative change of the pulls from one round to the next, of the larger one."""
-    cable, last = now.hanging.cable, before.hanging.cable
+    cable, last = now.net.cable, before.net.cable
     foot = np.hypot(*(cable.foot_pull - last.foot_pull)) / np.hypot(*cable.foot_pull)
     head = np.hypot(*(cable.head_pull - last.head_pull)) / np.hypot(*cable.head_pull)
     return float(max(foot, head))
 
 
 def _measure_gain(
-    problem: SteadyProblem, played: Sequence[Round], guess: Coupled | None
+    problem: SteadyProblem, taken: Sequence[RoundResult], guess: CoupledState | None
 ) -> float:
     """Largest relative change of pulls over that of the net, on the meshes so far."""
     if not problem.is_layered:
         return math.inf  # not calm: no derivative goes on to a finer mesh
     gains = [
         _change_pulls(before, now) / float(np.abs(now.curve - before.curve).max())
-        for before, now in pairwise(played)
+        for before, now in pairwise(taken)
     ]
     return max([guess.pull_gain if guess else 0.0, *gains])
 
 
-def _carry(problem: SteadyProblem, guess: Coupled | None) -> Floats | None:
+def _carry(problem: SteadyProblem, guess: CoupledState | None) -> Floats | None:
     """Derivative of a round as the coarser mesh knew it; None if it will not do."""
     if guess is None or guess.tangent is None or guess.pull_gain > _CALM:
         return None
-    known = locate_nodes(guess.problem.template, guess.hanging)
-    wanted = locate_nodes(problem.template, guess.hanging)
+    known = locate_nodes(guess.problem.template, guess.last.net)
+    wanted = locate_nodes(problem.template, guess.last.net)
     return carry_tangent(guess.tangent, known, wanted)
 
 
 def _begin(
-    problem: SteadyProblem,
-    guess: Coupled | None,
-    hanging: Hanging,
-    played: Sequence[Round],
-) -> Start:
-    """Start of the next round: the last one, else the guess."""
-    if played:
-        last = played[-1]
-        return Start(last.curve, last.found)
+    problem: SteadyProblem, guess: CoupledState | None
+) -> tuple[FlowState | None, NetEquilibrium]:
+    """Snow, as far as it is known, and net before the first round."""
     if guess is None:
-        return Start(None, Guess(None, hanging))
+        return None, start_net(problem)
     old, new = guess.problem.template, problem.template
-    return Start(None, Guess(transfer_state(guess.state, old, new), hanging))
+    return transfer_state(guess.last.state, old, new), guess.last.net
 
 
 def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> float:
@@ -321,32 +256,32 @@ def _choose_tolerances(
     )
 
 
-def _is_slow(played: Sequence[Round], guess: Coupled | None) -> bool:
+def _is_slow(taken: Sequence[RoundResult], guess: CoupledState | None) -> bool:
     """Snow slips along the net, and the last round gained little, or the next would."""
-    last = played[-1]
-    if len(played) > 1:
-        is_slow = last.moved > _SLOW * played[-2].moved
+    last = taken[-1]
+    if len(taken) > 1:
+        is_slow = last.moved > _SLOW * taken[-2].moved
         return is_slow and last.state.contact.slip_share > 0.0
     is_near = guess is None and last.moved < _NEAR_REST
     return is_near and last.state.contact.slip_share > _MOST_SLIPS
 
 
 def _start_curve(
-    problem: SteadyProblem, hanging: Hanging, guess: Coupled | None
+    problem: SteadyProblem, net: NetEquilibrium, guess: CoupledState | None
 ) -> Floats:
     """Curve of the first round, shape (2, n_net) [thickness]."""
     if guess is None:
-        return find_contact_curve(problem, hanging)
-    curve = find_contact_curve(guess.problem, hanging)
-    source, target = guess.problem.template, problem.template
+        return find_contact_curve(problem, net)
+    curve = find_contact_curve(guess.problem, net)
     # between its nodes as smooth as the net is, which a polygon is not
+    source, target = guess.problem.template, problem.template
     if not source.interfaces and not target.interfaces:
         return np.asarray(curve @ _weigh_nodes(source.origin, target.origin))
-    known, wanted = (locate_nodes(one, hanging) for one in (source, target))
+    known, wanted = (locate_nodes(one, net) for one in (source, target))
     return interpolate_curve(known, curve, wanted)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=64)  # else a twentieth of a solve
 def _weigh_nodes(source: MeshTemplate, target: MeshTemplate) -> Floats:
     """Weights of a net's nodes in those of another mesh, without layers, (n, m)."""
     known, wanted = source.net_fractions, target.net_fractions

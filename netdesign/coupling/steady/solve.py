@@ -8,9 +8,9 @@ forces per metre of width in rho g d^2.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
 
@@ -40,17 +40,20 @@ from netdesign.coupling.solution import (
     list_skipped,
     triangle_density,
 )
-from netdesign.coupling.steady.hanging import Hanging, SteadyProblem, hang_again
-from netdesign.coupling.steady.rounds import Coupled, couple
+from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, hang_net
+from netdesign.coupling.steady.rounds import CoupledState, couple
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
+from netdesign.snow.contact import FlowState
 from netdesign.snow.mesh import MeshSize, MeshTemplate
 from netdesign.snow.shared_mesh import share_template
 from netdesign.words.message import say
 
 # Share of suction, over the largest accepted, that no finer mesh takes back.
 _HOPELESS_SUCTION = 2.0
+# Shares of a refused net's slack that are tried in turn.
+_SLACK_SHARES = (0.75, 0.5, 0.25, 0.0)
 
 
 def solve_steady(
@@ -119,14 +122,14 @@ def find_end_pulls(
     SolveError
         If the mesh gives no converged solution.
     """
-    _, hanging = find_hanging(scene, size, settings)
-    cable = hanging.cable
+    _, net = find_net_equilibrium(scene, size, settings)
+    cable = net.cable
     return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
 
 
-def find_hanging(
+def find_net_equilibrium(
     scene: Scene, size: MeshSize, settings: SolverSettings
-) -> tuple[SteadyProblem, Hanging]:
+) -> tuple[SteadyProblem, NetEquilibrium]:
     """Net at rest on one mesh, dimensionless: where a history may begin.
 
     Parameters
@@ -144,8 +147,8 @@ def find_hanging(
         If the mesh gives no converged solution.
     """
     problem = _build_problem(scene, _require_net(scene), size)
-    end, _ = _finish(couple(problem, settings, None, is_first=True))
-    return problem, end.hanging
+    _, net, _ = _finish(couple(problem, settings, None, is_first=True))
+    return problem, net
 
 
 def _require_net(scene: Scene) -> Net:
@@ -185,7 +188,9 @@ def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
     return _refine(scene, settings, None)
 
 
-def _refine(scene: Scene, settings: SolverSettings, start: Coupled | None) -> Solution:
+def _refine(
+    scene: Scene, settings: SolverSettings, start: CoupledState | None
+) -> Solution:
     states, estimates = _solve_levels(scene, settings, start)
     solution = _build_solution(scene, states, [one.error for one in estimates])
     try:
@@ -201,13 +206,13 @@ def _refine(scene: Scene, settings: SolverSettings, start: Coupled | None) -> So
 
 
 def _solve_levels(
-    scene: Scene, settings: SolverSettings, start: Coupled | None
-) -> tuple[list[Coupled], list[Estimate]]:
+    scene: Scene, settings: SolverSettings, start: CoupledState | None
+) -> tuple[list[CoupledState], list[Estimate]]:
     """Meshes until two agree; those before the one that fails, if they are two."""
     first = _build_problem(scene, _require_net(scene), settings.levels[0])
-    solved: dict[MeshSize, Coupled] = {}
+    solved: dict[MeshSize, CoupledState] = {}
 
-    def solve(size: MeshSize, coarse: Coupled | None) -> Coupled:
+    def solve(size: MeshSize, coarse: CoupledState | None) -> CoupledState:
         if size not in solved:
             problem = replace(first, template=_build_template(scene, size))
             solved[size] = couple(
@@ -216,14 +221,14 @@ def _solve_levels(
             _require_pressure(solved[size])
         return solved[size]
 
-    def run(levels: Sequence[MeshSize]) -> tuple[list[Coupled], list[Estimate]]:
+    def run(levels: Sequence[MeshSize]) -> tuple[list[CoupledState], list[Estimate]]:
         return refine(
             levels,
             solve,
-            lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
+            lambda end: (end.last.net.cable.foot_pull, end.last.net.cable.head_pull),
             settings.accuracy,
             STEADY_ERROR,
-            lambda end: measure_looseness(end.state.contact),
+            lambda end: measure_looseness(end.last.state.contact),
         )
 
     try:
@@ -235,7 +240,7 @@ def _solve_levels(
         return run(settings.levels[: len(solved)])
 
 
-def _require_pressure(end: Coupled) -> None:
+def _require_pressure(end: CoupledState) -> None:
     """Leave a net that finer meshes will not press against the snow either.
 
     Raises
@@ -243,13 +248,14 @@ def _require_pressure(end: Coupled) -> None:
     SuctionError
         With some margin: the finest mesh decides.
     """
-    on_net = end.hanging.forces[:, : end.mesh.template.net.size]
-    suction = measure_suction(end.mesh, on_net)
+    mesh = end.last.mesh
+    on_net = end.last.net.forces[:, : mesh.template.net.size]
+    suction = measure_suction(mesh, on_net)
     if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
         raise SuctionError(suction)
 
 
-def _find_start(scene: Scene, settings: SolverSettings) -> Coupled | None:
+def _find_start(scene: Scene, settings: SolverSettings) -> CoupledState | None:
     """State that the first mesh starts from; None if there is none."""
     if not settings.shares_start:
         return None
@@ -258,7 +264,7 @@ def _find_start(scene: Scene, settings: SolverSettings) -> Coupled | None:
 
 
 @lru_cache(maxsize=1)
-def _find_stuck(scene: Scene, settings: SolverSettings) -> Coupled | None:
+def _find_stuck(scene: Scene, settings: SolverSettings) -> CoupledState | None:
     """First mesh of a scene whose snow sticks to its net; None without a solution.
 
     Scenes in turn that differ in friction only have it in common. Each ends the same
@@ -287,28 +293,31 @@ def _build_template(scene: Scene, size: MeshSize) -> MeshTemplate:
     return share_template(scene.modelled_aspect, size, scene.layer_tops)
 
 
-def _finish(end: Coupled) -> tuple[Coupled, SupportForces]:
+def _finish(
+    end: CoupledState,
+) -> tuple[FlowState, NetEquilibrium, SupportForces]:
     """Forces from the stresses alone, and the net that hangs under these."""
-    known = end.settled
-    if known and is_balanced(end.problem.snow, end.mesh, known.forces):
-        return replace(end, hanging=known.hanging), known.forces
-    state, forces = find_support_forces(end.problem.snow, end.mesh, end.state)
-    hanging = hang_again(end.problem, end.hanging, forces.on_net)
-    return replace(end, state=state, hanging=hanging), forces
+    problem, last = end.problem, end.last
+    if last.from_stresses is not None:
+        forces, net = last.from_stresses
+        if is_balanced(problem.snow, last.mesh, forces):
+            return last.state, net, forces
+    state, forces = find_support_forces(problem.snow, last.mesh, last.state)
+    return state, hang_net(problem, last.net, forces.on_net), forces
 
 
 def _build_solution(
-    scene: Scene, states: Sequence[Coupled], errors: Sequence[float]
+    scene: Scene, states: Sequence[CoupledState], errors: Sequence[float]
 ) -> Solution:
     """Solution of the finest mesh; ``errors`` of its pulls at foot and head."""
-    end, forces = _finish(states[-1])
-    thickness, scale = scene.snowpack.thickness, scene.force_scale
-    cable, mesh, snow = end.hanging.cable, end.mesh, end.problem.snow
+    problem, mesh = states[-1].problem, states[-1].last.mesh
+    state, net, forces = _finish(states[-1])
+    thickness, scale, cable = scene.snowpack.thickness, scene.force_scale, net.cable
     foot, head = (
         EndPull.of_estimate(Estimate(vector=pull, error=error), scale)
         for pull, error in zip((cable.foot_pull, cable.head_pull), errors, strict=True)
     )
-    along = end.problem.head / np.hypot(*end.problem.head)
+    along = problem.head / np.hypot(*problem.head)
     offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
     tensions = np.append(cable.tension * scale, (foot.size, head.size))
     held = cable.foot_pull + cable.head_pull
@@ -322,18 +331,74 @@ def _build_solution(
         sag=float(offsets.max()) * thickness,
         net_curve=cable.curve * thickness,
         net_forces=forces.on_net * scale,
-        net_slides=np.append(False, end.state.contact.sign != 0),
+        net_slides=np.append(False, state.contact.sign != 0),
         mesh_nodes=mesh.nodes * thickness,
         mesh_edges=mesh.template.edges,
         mesh_triangles=mesh.template.triangles[:3],
         mesh_density=triangle_density(scene, mesh.template),
-        largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
-        balance=measure_balance(snow, mesh, forces, held, cable.tension, scale),
+        largest_velocity=state.largest_velocity(mesh) * scene.velocity_scale,
+        balance=measure_balance(problem.snow, mesh, forces, held, cable.tension, scale),
         cost=Cost(
-            linear_solves=sum(state.linear_solves for state in states),
-            rounds=sum(state.rounds for state in states),
+            linear_solves=sum(one.linear_solves for one in states),
+            rounds=sum(one.rounds for one in states),
             elements=mesh.template.triangles.shape[1],
             degrees_of_freedom=mesh.n_dofs,
             skipped=list_skipped(scene, mesh),
         ),
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PullBound:
+    """Pulls of the same net with less slack; its own are smaller.
+
+    Less slack is less sag, and a flatter net pulls more: coupling/THEORY.md, section 2.
+
+    Attributes
+    ----------
+    slack : float
+        Of the net that was solved [-].
+    foot, head : EndPull
+        Its pulls.
+    """
+
+    slack: float
+    foot: EndPull
+    head: EndPull
+
+
+def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> PullBound | None:
+    """Pulls of a refused scene with the most slack that is solved.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net, or a wall, which has no slack.
+    settings : SolverSettings
+        Accuracy and tolerances.
+
+    Returns
+    -------
+    PullBound or None
+        None if the net has no slack, or none of the tautened nets is solved.
+
+    Verified by
+    -----------
+    tests/coupling/steady/test_bound.py
+    """
+    for tauter in _list_tauter(scene):
+        solution = solve_steady(tauter, settings)
+        if isinstance(solution, Solution):
+            assert isinstance(tauter.net, Net)
+            return PullBound(
+                slack=tauter.net.slack, foot=solution.foot, head=solution.head
+            )
+    return None
+
+
+def _list_tauter(scene: Scene) -> Iterator[Scene]:
+    net = scene.net
+    if not isinstance(net, Net) or net.slack == 0.0:
+        return
+    for share in _SLACK_SHARES:
+        yield replace(scene, net=replace(net, slack=share * net.slack))

@@ -17,8 +17,7 @@ import skfem
 from skfem.element import DiscreteField
 
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.snow.contact import Contact, free_unknowns, friction_shares
-from netdesign.snow.flow_state import FlowState
+from netdesign.snow.contact import Contact, FlowState, free_unknowns, friction_shares
 from netdesign.snow.forms import (
     assemble_mixed_form,
     assemble_stress_form,

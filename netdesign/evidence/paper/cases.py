@@ -9,8 +9,7 @@ from typing import Literal
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, Start
 from netdesign.coupling.scene import Scene
 from netdesign.evidence.scene import build_scene
-from netdesign.snow.creep_law import ICE_DENSITY
-from netdesign.snow.fluidity import PAPER_FLUIDITY
+from netdesign.snow.creep_law import ICE_DENSITY, PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import GravityMode
 from netdesign.units import second_from_day

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.coupling.history.clock import Clock
-from netdesign.coupling.history.run_result import scale_history
+from netdesign.coupling.history.run import scale_history
 from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.history.staggered import run_exchange
 from netdesign.coupling.history.transient import run_history, solve_transient

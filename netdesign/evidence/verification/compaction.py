@@ -17,11 +17,11 @@ from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,
     ICE_DENSITY,
+    PAPER_FLUIDITY,
     CreepLaw,
     compute_bulk_factor,
     compute_shear_factor,
 )
-from netdesign.snow.fluidity import PAPER_FLUIDITY
 from netdesign.snow.ground import GroundKind, GroundLaw
 from netdesign.snowpack.hs2swe import Hs2swe
 

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from netdesign.coupling.history.clock import Clock
 from netdesign.errors import ModelError
-from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
+from netdesign.snow.creep_law import PAPER_FLUIDITY, compute_fluidity
 
 DAY = 86400.0
 TIMES = np.array([0.0, 2.0, 5.0, 30.0]) * DAY

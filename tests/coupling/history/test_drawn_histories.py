@@ -20,7 +20,7 @@ from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.snow.fluidity import PAPER_FLUIDITY
+from netdesign.snow.creep_law import PAPER_FLUIDITY
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene

@@ -12,8 +12,8 @@ from netdesign.cable.tension import compute_node_forces
 from netdesign.coupling.history import instant as instant_module
 from netdesign.coupling.history.instant import advance, advance_under
 from netdesign.coupling.history.net_start import build_start
-from netdesign.coupling.history.problem import build_problem
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
+from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.history.transient import run_history
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome

@@ -5,10 +5,13 @@ import pytest
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history import net_start
-from netdesign.coupling.history.net_at_rest import find_net_at_rest
-from netdesign.coupling.history.net_start import build_start, find_start
-from netdesign.coupling.history.problem import build_problem
+from netdesign.coupling.history.net_start import (
+    build_start,
+    find_net_at_rest,
+    find_start,
+)
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
+from netdesign.coupling.history.state import build_problem
 from netdesign.errors import SolveError
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome

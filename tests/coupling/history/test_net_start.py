@@ -7,9 +7,9 @@ import pytest
 
 from netdesign.cable.response import measure_arcs, respond
 from netdesign.coupling.history.net_start import build_start
-from netdesign.coupling.history.problem import build_problem
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
-from netdesign.coupling.steady.start import guess_pressure
+from netdesign.coupling.history.state import build_problem
+from netdesign.coupling.steady.net import guess_pressure
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize, build_template

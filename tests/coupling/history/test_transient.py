@@ -14,7 +14,7 @@ from netdesign.coupling.moments import select_counted
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError
 from netdesign.outcome import Outcome
-from netdesign.snow.fluidity import compute_fluidity
+from netdesign.snow.creep_law import compute_fluidity
 
 COARSE = TRANSIENT_LEVELS[0]
 SHORT = 0.02  # creep time in which a sagged net comes to rest

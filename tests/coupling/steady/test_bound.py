@@ -6,9 +6,8 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import bound
-from netdesign.coupling.steady.bound import bound_by_less_slack
-from netdesign.coupling.steady.solve import solve_steady
+from netdesign.coupling.steady import solve as steady_solve
+from netdesign.coupling.steady.solve import bound_by_less_slack, solve_steady
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables
@@ -52,7 +51,7 @@ def test_the_most_slack_that_is_solved_is_taken(monkeypatch, a_scene, solved):
     scene = a_scene()
     slack = 0.0731
     scene = replace(scene, net=replace(scene.net, slack=slack))
-    monkeypatch.setattr(bound, "solve_steady", solve)
+    monkeypatch.setattr(steady_solve, "solve_steady", solve)
     found = bound_by_less_slack(scene, ROUGH)
     assert found is not None
     assert found.slack == 0.25 * slack
@@ -70,7 +69,7 @@ def test_nothing_bounds_a_taut_net_or_a_wall(a_scene):
 @pytest.mark.parametrize("slack", [0.0731])
 def test_nothing_bounds_what_fails_taut_too(monkeypatch, a_scene, slack):
     failed = FailedSolution(outcome=Outcome.OUT_OF_VALIDITY, reason="folds")
-    monkeypatch.setattr(bound, "solve_steady", lambda *_: failed)
+    monkeypatch.setattr(steady_solve, "solve_steady", lambda *_: failed)
     scene = a_scene()
     scene = replace(scene, net=replace(scene.net, slack=slack))
     assert bound_by_less_slack(scene, ROUGH) is None

@@ -7,17 +7,22 @@ import pytest
 
 from netdesign.coupling.steady import correction
 from netdesign.coupling.steady.correction import carry_tangent, correct_round
-from netdesign.coupling.steady.played_round import Round, Stepped
+from netdesign.coupling.steady.round import RoundResult
 from netdesign.snow.linear import SingularError
 
 CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
 
 
 def a_round(curve, image):
-    hanging = SimpleNamespace(cable=None, forces=None, lengths=None)
-    found = Stepped(None, None, hanging, 1, 0.0)
-    moved = np.abs(image - curve).max()
-    return Round(curve=curve, image=image, moved=moved, found=found)
+    return RoundResult(
+        curve=curve,
+        image=image,
+        mesh=None,
+        state=None,
+        net=None,
+        linear_solves=1,
+        change=0.0,
+    )
 
 
 PROBLEM = SimpleNamespace(snow=None, stiffness=None)

@@ -9,9 +9,8 @@ import pytest
 from netdesign.coupling import interface
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, WallSolution
-from netdesign.coupling.steady import glide_factor as glide
-from netdesign.coupling.steady.glide_factor import measure_glide_factor
-from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.coupling.steady import rigid
+from netdesign.coupling.steady.rigid import measure_glide_factor, solve_rigid
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.creep_law import BOUTILLIER_2004
@@ -147,15 +146,15 @@ def test_force_lost_on_the_ground(a_scene, monkeypatch):
 
 def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
     recipe = measure_glide_factor(BOUTILLIER_2004, 31.5)
-    monkeypatch.setattr(glide, "_UPSLOPE_LENGTH", 341.0)
+    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 341.0)
     longer = measure_glide_factor(BOUTILLIER_2004, 31.5)
     assert longer == pytest.approx(recipe, rel=5e-4)
-    monkeypatch.setattr(glide, "_UPSLOPE_LENGTH", 61.0)  # too short: 20 thicknesses
+    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 61.0)  # too short: 20 thicknesses
     assert measure_glide_factor(BOUTILLIER_2004, 31.5) < 0.99 * recipe
 
 
 def test_glide_factor_without_a_solution_raises(monkeypatch):
-    monkeypatch.setattr(glide, "_SETTINGS", replace(COARSE, max_iterations=1))
+    monkeypatch.setattr(rigid, "_FINE", replace(COARSE, max_iterations=1))
     with pytest.raises(SolveError, match="snow flow") as raised:
         measure_glide_factor(BOUTILLIER_2004, 1.0)
     assert raised.value.outcome is Outcome.MAX_ITERATIONS

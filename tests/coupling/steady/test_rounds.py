@@ -1,11 +1,12 @@
 """Rounds of flow and net: when their derivative is taken out."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.steady import rounds
-from netdesign.coupling.steady.played_round import Round, Stepped
 from netdesign.coupling.steady.rounds import couple
 from netdesign.coupling.steady.solve import _build_problem
 
@@ -26,7 +27,7 @@ def test_snow_that_slips_everywhere_needs_no_second_plain_round(smooth, monkeypa
     waiting = couple(smooth, SETTINGS, None, is_first=True)
     assert at_once.rounds < waiting.rounds
     assert at_once.tangent is not None
-    one, other = (end.hanging.cable.foot_pull for end in (at_once, waiting))
+    one, other = (end.last.net.cable.foot_pull for end in (at_once, waiting))
     np.testing.assert_allclose(one, other, atol=2e-3 * np.hypot(*other))
 
 
@@ -57,6 +58,5 @@ def test_finer_meshes_wait_for_a_round_that_gains_little(smooth):
 
 
 def _a_round(end, moved):
-    curve = end.hanging.cable.curve
-    found = Stepped(end.mesh, end.state, end.hanging, 1, 0.0)
-    return Round(curve=curve, image=curve + moved, moved=moved, found=found)
+    curve = end.last.net.cable.curve
+    return replace(end.last, curve=curve, image=curve + moved)

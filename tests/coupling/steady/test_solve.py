@@ -9,7 +9,7 @@ from netdesign.coupling import interface
 from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import hanging, played_round, rounds
+from netdesign.coupling.steady import net, round, rounds
 from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
@@ -79,8 +79,8 @@ def test_net_without_equilibrium(a_scene, monkeypatch):
         cable = solve_funicular(*arguments)
         return replace(cable, outcome=Outcome.NO_EQUILIBRIUM)
 
-    solve_funicular = hanging.solve_funicular
-    monkeypatch.setattr(hanging, "solve_funicular", without_equilibrium)
+    solve_funicular = net.solve_funicular
+    monkeypatch.setattr(net, "solve_funicular", without_equilibrium)
     result = solve_steady(a_scene(), COARSE)
     assert_fails(Outcome.NO_EQUILIBRIUM, result, "no equilibrium")
 
@@ -125,8 +125,8 @@ def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
         return replace(result, state=state)
 
     monkeypatch.setenv("NETDESIGN_CORE", "numpy")
-    solve = played_round.solve_flow
-    monkeypatch.setattr(played_round, "solve_flow", disturb)
+    solve = round.solve_flow
+    monkeypatch.setattr(round, "solve_flow", disturb)
     monkeypatch.setattr(interface, "remove_rounding", lambda _, __, state: state)
     settings = replace(COARSE, shape_tolerance=1e-4)
     result = solve_steady(a_scene(), settings)

@@ -1,6 +1,7 @@
 """A round: snow that flows along a given curve, and the net that hangs under it.
 
-One call of the compiled core; step by step where there is none, or where it failed.
+The compiled core takes it in one call (``compiled.py``); it is taken step by step where
+there is no core, or where that failed.
 Theory: coupling/THEORY.md, section 2. Dimensionless: lengths in snow thicknesses d,
 forces per metre of width in rho g d^2.
 """
@@ -9,24 +10,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.coupling.interface import share_net_forces
+from netdesign.coupling.interface import SupportForces, share_net_forces
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.compiled_round import CompiledRounds, Known, Played
-from netdesign.coupling.steady.hanging import (
-    Hanging,
+from netdesign.coupling.steady.net import (
+    NetEquilibrium,
     SteadyProblem,
     find_contact_curve,
-    hang_again,
+    hang_net,
 )
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
+from netdesign.snow.contact import FlowState
 from netdesign.snow.flow import FlowResult, solve_flow
-from netdesign.snow.flow_state import FlowState
 from netdesign.snow.mesh import place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.words.message import Message, say
@@ -40,110 +39,51 @@ _MUCH_SLACK = 0.1
 _LOW = math.radians(5.0)
 
 
-class Start(NamedTuple):
-    """Start of a round.
-
-    Attributes
-    ----------
-    curve : ndarray, shape (2, n_net), or None
-        Of the last round on this mesh; None before the first [thickness].
-    known : Known
-        What the last round found, or is known otherwise.
-    """
-
-    curve: Floats | None
-    known: Known
-
-
-class Guess(NamedTuple):
-    """Snow and net before the first round on a mesh, as far as they are known.
-
-    Attributes
-    ----------
-    state : FlowState or None
-        Where the flow starts.
-    hanging : Hanging
-        The net.
-    """
-
-    state: FlowState | None
-    hanging: Hanging
-
-
-class Closeness(NamedTuple):
-    """Closeness of a round.
-
-    Attributes
-    ----------
-    tolerance : float
-        Relative error that the last step of its flow may leave [-].
-    still : float
-        Way of a net at rest [thickness].
-    """
-
-    tolerance: float
-    still: float
-
-
-class Stepped(NamedTuple):
-    """Results of a round that was taken step by step.
-
-    Attributes
-    ----------
-    mesh, state, hanging : PlacedMesh, FlowState, Hanging
-        Snow along the curve, and the net under its forces.
-    linear_solves, change : int, float
-        Taken by the flow; relative error that its last step left [-].
-    settled : None
-        The net under the forces of the stresses alone is not known.
-    """
-
-    mesh: PlacedMesh
-    state: FlowState
-    hanging: Hanging
-    linear_solves: int
-    change: float
-    settled: None = None
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Round:
-    """Flow along a curve, and the net that hangs under its forces.
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RoundResult:
+    """Snow along a curve, and the net that hangs under its forces.
 
     Attributes
     ----------
     curve, image : ndarray, shape (2, n_net)
         The net's nodes as given, and as found [thickness].
-    moved : float
-        Largest distance of the two along an axis [thickness].
-    found : Played or Stepped
-        Snow along the curve, and the net.
+    mesh, state : PlacedMesh, FlowState
+        The snow.
+    net : NetEquilibrium
+        Under the reactions of the flow.
+    linear_solves : int
+        Taken by the flow.
+    change : float
+        Relative error that its last step left [-].
+    from_stresses : tuple or None
+        Forces from the stresses of the snow alone, and the net under them; where the
+        core found them for a net that hardly moved.
     """
 
     curve: Floats
     image: Floats
-    moved: float
-    found: Played | Stepped
+    mesh: PlacedMesh
+    state: FlowState
+    net: NetEquilibrium
+    linear_solves: int
+    change: float
+    from_stresses: tuple[SupportForces, NetEquilibrium] | None = None
 
     @property
-    def state(self) -> FlowState:
-        """Flow along the curve."""
-        return self.found.state
-
-    @property
-    def hanging(self) -> Hanging:
-        """The net."""
-        return self.found.hanging
+    def moved(self) -> float:
+        """Largest distance of curve and image along an axis [thickness]."""
+        return float(np.abs(self.image - self.curve).max())
 
 
-def play_round(
+def take_round(
     problem: SteadyProblem,
     settings: SolverSettings,
-    core: CompiledRounds | None,
     wanted: Floats,
-    start: Start,
-    closeness: Closeness,
-) -> Round:
+    last: Floats | None,
+    state: FlowState | None,
+    net: NetEquilibrium,
+    tolerance: float,
+) -> RoundResult:
     """Flow along the wanted curve or near it, and the net under its forces.
 
     Parameters
@@ -152,37 +92,34 @@ def play_round(
         Scene on a mesh, dimensionless.
     settings : SolverSettings
         Newton steps allowed, and who takes them.
-    core : CompiledRounds or None
-        What plays a round in one call; None where NumPy has to do.
     wanted : ndarray, shape (2, n_net)
         Curve of the net [thickness].
-    start : Start
-        Where it starts.
-    closeness : Closeness
-        How closely it is solved.
+    last : ndarray, shape (2, n_net), or None
+        Curve of the last round on this mesh [thickness].
+    state : FlowState or None
+        Where the flow starts.
+    net : NetEquilibrium
+        As it hung last.
+    tolerance : float
+        Relative error that the last step of the flow may leave [-].
 
     Raises
     ------
     SolveError
         If no curve near enough has a mesh, a flow and a net in equilibrium.
     """
-    if core is not None:
-        played = core.play(wanted, start.known, *closeness, settings.max_iterations)
-        if played is not None:
-            return Round(
-                curve=wanted, image=played.image, moved=played.moved, found=played
-            )
-    # step by step: nearer to the last curve where that helps, else with a reason
-    curve, mesh = _place_between(problem, start.curve, wanted)
-    flow = flow_along(problem, mesh, start.known.state, settings, closeness.tolerance)
+    curve, mesh = _place_between(problem, last, wanted)
+    flow = flow_along(problem, mesh, state, settings, tolerance)
     on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
-    hanging = hang_again(problem, start.known.hanging, on_net)
-    image = find_contact_curve(problem, hanging)
-    return Round(
+    found = hang_net(problem, net, on_net)
+    return RoundResult(
         curve=curve,
-        image=image,
-        moved=float(np.abs(image - curve).max()),
-        found=Stepped(mesh, flow.state, hanging, flow.linear_solves, flow.change),
+        image=find_contact_curve(problem, found),
+        mesh=mesh,
+        state=flow.state,
+        net=found,
+        linear_solves=flow.linear_solves,
+        change=flow.change,
     )
 
 

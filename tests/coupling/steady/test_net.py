@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.coupling.steady.hanging import (
+from netdesign.coupling.steady.net import (
     SteadyProblem,
     find_contact_curve,
-    hang_again,
+    hang_net,
     locate_nodes,
-    start_hanging,
+    start_net,
 )
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
@@ -36,14 +36,14 @@ def build_problem(a_flow_problem):
 @pytest.mark.parametrize("height", [1.0, 1.001, 1.3])
 def test_contact_ends_where_the_snow_ends(build_problem, height):
     problem = build_problem(height)
-    hanging = start_hanging(problem)
-    curve = find_contact_curve(problem, hanging)
+    net = start_net(problem)
+    curve = find_contact_curve(problem, net)
     assert curve.shape == (2, problem.template.net.size)
     assert curve[:, 0] == pytest.approx([0.0, 0.0], abs=1e-12)
     assert curve[1, -1] == pytest.approx(1.0, abs=1e-9)
-    assert hanging.cable.curve[:, -1] == pytest.approx(problem.head, abs=1e-9)
-    assert hanging.parts.size == 1 + problem.has_freeboard
-    assert hanging.lengths.sum() == pytest.approx(problem.length, rel=1e-12)
+    assert net.cable.curve[:, -1] == pytest.approx(problem.head, abs=1e-9)
+    assert net.parts.size == 1 + problem.has_freeboard
+    assert net.lengths.sum() == pytest.approx(problem.length, rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -53,28 +53,28 @@ def test_layers_end_at_their_heights_on_the_net(build_problem, height, seed):
     rng = np.random.default_rng(seed)
     tops = tuple(np.sort(rng.uniform(0.1, 0.9, rng.integers(1, 4))).tolist())
     problem = build_problem(height, tops)
-    first = start_hanging(problem)
+    first = start_net(problem)
     forces = first.forces[:, : problem.template.net.size]
-    hanging = hang_again(problem, first, forces * rng.uniform(0.2, 1.8, forces.shape))
-    curve = find_contact_curve(problem, hanging)
+    net = hang_net(problem, first, forces * rng.uniform(0.2, 1.8, forces.shape))
+    curve = find_contact_curve(problem, net)
     fractions = problem.template.net_fractions
     for top in (*tops, 1.0):
         node = np.abs(fractions - top).argmin()
         assert curve[1, node] == pytest.approx(top, abs=1e-9)
-    places = locate_nodes(problem.template, hanging)
+    places = locate_nodes(problem.template, net)
     for low, high in zip((0.0, *tops), (*tops, 1.0), strict=True):
         inside = (fractions > low - 1e-9) & (fractions < high + 1e-9)
         spacing = np.diff(places[inside]) / np.diff(fractions[inside])
         np.testing.assert_allclose(spacing, spacing[0], rtol=1e-8)
-    assert hanging.lengths.sum() == pytest.approx(problem.length, rel=1e-11)
+    assert net.lengths.sum() == pytest.approx(problem.length, rel=1e-11)
 
 
 @pytest.mark.parametrize("height", [1.0, 1.3])
 def test_the_net_holds_the_forces_in_its_ends_alone(build_problem, height):
     problem = build_problem(height)
-    first = start_hanging(problem)
+    first = start_net(problem)
     on_net = 2.0 * first.forces[:, : problem.template.net.size]
-    cable = hang_again(problem, first, on_net).cable
+    cable = hang_net(problem, first, on_net).cable
     held = cable.foot_pull + cable.head_pull
     assert held == pytest.approx(on_net.sum(axis=1), rel=1e-9)
 
@@ -82,7 +82,7 @@ def test_the_net_holds_the_forces_in_its_ends_alone(build_problem, height):
 def test_a_net_that_nothing_spans_is_refused(build_problem):
     """Forces along the chord leave nothing for a slack net to hang by."""
     problem = build_problem(1.0)
-    first = start_hanging(problem)
+    first = start_net(problem)
     with pytest.raises(SolveError) as caught:
-        hang_again(replace(problem, stiffness=1e9), first, np.zeros_like(first.forces))
+        hang_net(replace(problem, stiffness=1e9), first, np.zeros_like(first.forces))
     assert caught.value.outcome is Outcome.NO_EQUILIBRIUM

@@ -8,16 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
-from netdesign.cable.parted import PartedCable, part_cable
-from netdesign.coupling.steady.start import guess_pressure
+from netdesign.cable.parted import CableParts, find_part_lengths
 from netdesign.errors import SolveError
-from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
@@ -62,7 +60,7 @@ class SteadyProblem:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Hanging:
+class NetEquilibrium:
     """The net under given forces, and how much of it lies in each layer of snow.
 
     Attributes
@@ -84,7 +82,30 @@ class Hanging:
     lengths: Floats
 
 
-def start_hanging(problem: SteadyProblem) -> Hanging:
+def guess_pressure(problem: FlowProblem, aspect: float) -> float:
+    """Mean pressure on the net of the snow that its base does not hold.
+
+    Drag of a sliding ground and creep along X balance over a length that goes with the
+    slip length to the power 1 / (n + 1); coupling/THEORY.md, eq. (K0a).
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Gravity and ground.
+    aspect : float
+        Upslope length over thickness [-].
+
+    Returns
+    -------
+    float
+        [rho g d].
+    """
+    felt = math.pow(problem.slip_ratio, 1.0 / (problem.exponent + 1.0))
+    length = {"free": aspect, "no-slip": 1.0, "sliding": 1.0 + felt}[problem.ground]
+    return max(0.05, problem.gravity[0]) * min(aspect, length)
+
+
+def start_net(problem: SteadyProblem) -> NetEquilibrium:
     """The net under a uniform pressure of about the right size.
 
     Parameters
@@ -103,14 +124,13 @@ def start_hanging(problem: SteadyProblem) -> Hanging:
     pressure = guess_pressure(problem.snow, problem.template.aspect)
     sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
     pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
-    heights = _cut(problem).heights
-    per_height = problem.length / heights.sum()
+    rises = _cut(problem).rises
+    per_height = problem.length / rises.sum()
     shares = pressure * per_height * _share_load(problem.template)
     on_net = outward[:, None] * shares
-    return _hang(problem, on_net, pull, heights * per_height)
+    return _hang(problem, on_net, pull, rises * per_height)
 
 
-@find_once
 def _share_load(template: MeshTemplate) -> Floats:
     """Shares of the nodes in a uniform load per height, shape (n_net,)."""
     lengths = np.diff(template.net_fractions[::2])
@@ -121,15 +141,17 @@ def _share_load(template: MeshTemplate) -> Floats:
     return shares
 
 
-def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hanging:
+def hang_net(
+    problem: SteadyProblem, net: NetEquilibrium, on_net: Floats
+) -> NetEquilibrium:
     """The net under other forces.
 
     Parameters
     ----------
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
-    hanging : Hanging
-        As the net hung last.
+    net : NetEquilibrium
+        As it hung last.
     on_net : ndarray, shape (2, n_net)
         Forces on the nodes in the snow, foot to head [rho g d^2].
 
@@ -138,17 +160,17 @@ def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hang
     SolveError
         If nothing holds the net, or its contact with the snow's surface is not found.
     """
-    return _hang(problem, on_net, hanging.cable.pull, hanging.parts)
+    return _hang(problem, on_net, net.cable.pull, net.parts)
 
 
-def find_contact_curve(problem: SteadyProblem, hanging: Hanging) -> Floats:
+def find_contact_curve(problem: SteadyProblem, net: NetEquilibrium) -> Floats:
     """Net nodes that lie in the snow.
 
     Parameters
     ----------
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
-    hanging : Hanging
+    net : NetEquilibrium
         The net.
 
     Returns
@@ -156,17 +178,17 @@ def find_contact_curve(problem: SteadyProblem, hanging: Hanging) -> Floats:
     ndarray, shape (2, n_net)
         Foot to head [thickness].
     """
-    return hanging.cable.curve[:, : problem.template.net.size]
+    return net.cable.curve[:, : problem.template.net.size]
 
 
-def locate_nodes(template: MeshTemplate, hanging: Hanging) -> Floats:
+def locate_nodes(template: MeshTemplate, net: NetEquilibrium) -> Floats:
     """Unstressed length below each net node, over that in the snow.
 
     Parameters
     ----------
     template : MeshTemplate
         Reference mesh.
-    hanging : Hanging
+    net : NetEquilibrium
         The net.
 
     Returns
@@ -177,34 +199,12 @@ def locate_nodes(template: MeshTemplate, hanging: Hanging) -> Floats:
     if not template.interfaces:
         return template.net_fractions
     marks = np.array([0.0, *template.interfaces, 1.0])
-    below = np.append(0.0, np.cumsum(hanging.parts[: marks.size - 1]))
+    below = np.append(0.0, np.cumsum(net.parts[: marks.size - 1]))
     return np.asarray(np.interp(template.net_fractions, marks, below / below[-1]))
 
 
-class NetParts(NamedTuple):
-    """Parts of a net, which end where layers and snow end.
-
-    Attributes
-    ----------
-    shares : ndarray, shape (n_elements,)
-        Length of each element over that of its part [-].
-    part : ndarray of int, shape (n_elements,)
-        Of each element.
-    firsts : ndarray of int, shape (n_parts,)
-        First element of each part.
-    heights, rises : ndarray, shape (n_parts,)
-        From end to end, in the template and of the net [thickness].
-    """
-
-    shares: Floats
-    part: Ints
-    firsts: Ints
-    heights: Floats
-    rises: Floats
-
-
 @find_once
-def cut_net(template: MeshTemplate, top: float) -> NetParts:
+def cut_net(template: MeshTemplate, top: float) -> CableParts:
     """Parts of a net of some height.
 
     Parameters
@@ -219,11 +219,10 @@ def cut_net(template: MeshTemplate, top: float) -> NetParts:
     elements = np.array([*template.net_fractions[::2], *free])
     part = np.searchsorted(marks, (elements[1:] + elements[:-1]) / 2.0) - 1
     heights = np.diff(marks)
-    return NetParts(
+    return CableParts(
         shares=np.diff(elements) / heights[part],
         part=part,
         firsts=np.searchsorted(part, np.arange(heights.size)),
-        heights=heights,
         rises=np.diff([*marks[:-1], top]),
     )
 
@@ -233,13 +232,13 @@ def _stands_out(top: float) -> bool:
     return top > 1.0 + 1e-9
 
 
-def _cut(problem: SteadyProblem) -> NetParts:
+def _cut(problem: SteadyProblem) -> CableParts:
     return cut_net(problem.template, float(problem.head[1]))
 
 
 def _hang(
     problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
-) -> Hanging:
+) -> NetEquilibrium:
     """Net under nodal forces; its parts end where the layers and the snow end."""
     if problem.has_freeboard:
         forces = np.concatenate([forces, np.zeros((2, 2))], axis=1)
@@ -247,23 +246,21 @@ def _hang(
         parts = _find_parts(problem, forces, pull, parts)
     lengths = _lengthen(problem, parts)
     cable = _solve_cable(problem, forces, lengths, pull)
-    return Hanging(cable=cable, parts=parts, forces=forces, lengths=lengths)
+    return NetEquilibrium(cable=cable, parts=parts, forces=forces, lengths=lengths)
 
 
 def _find_parts(
     problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
 ) -> Floats:
     """Lengths of the parts, from the pull of the last round or of the last lengths."""
-    cable = _build_parted(problem)
-    found = part_cable(cable, forces, pull)
+    cut, head_x = _cut(problem), float(problem.head[0])
+    known = (cut, forces, head_x, problem.length, problem.stiffness)
+    found = find_part_lengths(*known, pull)
     if found is None:
         hung = _solve_cable(problem, forces, _lengthen(problem, parts), pull)
-        found = part_cable(cable, forces, hung.pull)
+        found = find_part_lengths(*known, hung.pull)
     if found is None:
-        raise SolveError(
-            Outcome.NO_EQUILIBRIUM,
-            say("steady.contact_not_found"),
-        )
+        raise SolveError(Outcome.NO_EQUILIBRIUM, say("steady.contact_not_found"))
     return found
 
 
@@ -271,18 +268,6 @@ def _lengthen(problem: SteadyProblem, parts: Floats) -> Floats:
     """Unstressed lengths of the elements from those of the parts."""
     cut = _cut(problem)
     return np.asarray(cut.shares * parts[cut.part])
-
-
-def _build_parted(problem: SteadyProblem) -> PartedCable:
-    cut = _cut(problem)
-    return PartedCable(
-        shares=cut.shares,
-        firsts=cut.firsts,
-        rises=cut.rises,
-        head_x=float(problem.head[0]),
-        length=problem.length,
-        stiffness=problem.stiffness,
-    )
 
 
 def _solve_cable(

@@ -1,0 +1,381 @@
+"""A round of flow and net by the compiled core; the same as the steps of ``round.py``.
+
+One call for the mesh along a curve, the flow on it, and the net under its forces. What
+hangs on the mesh alone is found once for all scenes on it. Theory: core/THEORY.md.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import accumulate
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from netdesign.cable.funicular import CLOSED, Funicular
+from netdesign.core.arguments import (
+    LawArgument,
+    MeshArgument,
+    SceneArgument,
+    locate,
+    locate_all,
+    to_floats,
+)
+from netdesign.core.library import find_core, require_sound
+from netdesign.coupling.interface import SupportForces
+from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, cut_net
+from netdesign.coupling.steady.round import RoundResult
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import Outcome
+from netdesign.snow.compiled import describe_law, describe_rules, describe_template
+from netdesign.snow.compiled_mesh import describe_placement
+from netdesign.snow.contact import Contact, FlowState, may_lift
+from netdesign.snow.element import list_dofs
+from netdesign.snow.flow import ask_effort, make_linear
+from netdesign.snow.kernel import share_end_load
+from netdesign.snow.law import FlowProblem, sample_material
+from netdesign.snow.mesh import MeshTemplate, follow_net
+from netdesign.snow.placed_mesh import (
+    EDGE_SHAPE,
+    EDGE_TANGENT,
+    EDGE_WEIGHTS,
+    PlacedMesh,
+)
+from netdesign.snow.shared_mesh import find_once
+
+# Fields of ``SceneArgument``: which of the net's nodes are beside a node; its parts.
+_FRAME = ("below", "rise", "heights", "ends")
+_NET = ("shares", "part", "firsts", "rises")
+
+_Arrays = tuple[np.ndarray[Any, Any], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CompiledRounds:
+    """The core on one scene and one mesh.
+
+    Attributes
+    ----------
+    library : PyDLL
+        The core.
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    max_iterations : int
+        Newton steps allowed in a round.
+    argument : SceneArgument
+        Scene and mesh as the core takes them.
+    places : mapping of slice
+        Of each result of a round in the array of all.
+    kept : tuple of ndarray, each of any shape
+        Arrays whose addresses the argument has.
+    """
+
+    library: ctypes.PyDLL
+    problem: SteadyProblem
+    max_iterations: int
+    argument: SceneArgument
+    places: Mapping[str, slice]
+    kept: _Arrays
+
+    def take(
+        self,
+        curve: Floats,
+        state: FlowState | None,
+        net: NetEquilibrium,
+        tolerance: float,
+        still: float,
+    ) -> RoundResult | None:
+        """A round; None where a step of it fails.
+
+        Parameters
+        ----------
+        curve : ndarray, shape (2, n_net)
+            Of the net in the snow [thickness].
+        state : FlowState or None
+            Where the flow starts; None if nothing is known of it.
+        net : NetEquilibrium
+            As it hung last.
+        tolerance : float
+            Relative error that the last step of the flow may leave [-].
+        still : float
+            A net that moves less also hangs under the forces of the stresses
+            [thickness].
+
+        Raises
+        ------
+        ValueError
+            If an array is not of its shape.
+        """
+        given = to_floats(curve, (2, self.n_net))  # a copy lives as long as the call
+        places = self.places
+        results = np.empty(places["marks"].stop)
+        if state is not None:
+            _copy_state(state, self._view_state(results))
+        results[places["parts"]], results[places["pull"]] = net.parts, net.cable.pull
+        self.argument.effort = ask_effort(tolerance, self.max_iterations)
+        code = self.library.nd_round(
+            ctypes.byref(self.argument),
+            ctypes.c_void_p(locate(given)),
+            ctypes.c_double(still),
+            int(places["shear"].stop > places["shear"].start),
+            int(state is not None),
+            ctypes.c_int64(results.size),
+            ctypes.c_void_p(locate(results)),
+        )
+        return None if require_sound(code) else self._read(curve, results)
+
+    def _read(self, curve: Floats, results: Floats) -> RoundResult:
+        net = self._view_net(results)
+        return RoundResult(
+            curve=curve,
+            image=net.cable.curve[:, : self.n_net],
+            mesh=self._view_mesh(results),
+            state=self._view_state(results),
+            net=net,
+            linear_solves=self.argument.effort.steps,
+            change=self.argument.effort.change,
+            from_stresses=self._view_from_stresses(results),
+        )
+
+    @property
+    def n_net(self) -> int:
+        """Number of the net's nodes in the snow."""
+        return int(self.problem.template.net.size)
+
+    def _view_mesh(self, results: Floats) -> PlacedMesh:
+        places, template = self.places, self.problem.template
+        n_triangles = template.triangles.shape[1]
+        return PlacedMesh(
+            template=template,
+            nodes=results[places["nodes"]].reshape(2, -1),
+            weights=results[places["weights"]].reshape(n_triangles, -1),
+            gradients=results[places["gradients"]].reshape(2, n_triangles, -1, 6),
+            folded=None,
+            dofs=list_dofs(template, "velocity"),
+            load=results[places["unit_load"]],
+            net_normal=results[places["normal"]].reshape(2, -1),
+            axes=results[places["axes"]].reshape(2, -1),
+        )
+
+    def _view_state(self, results: Floats) -> FlowState:
+        places, template = self.places, self.problem.template
+        shear = results[places["shear"]]
+        marks = results[places["marks"]].view(np.bool_)
+        n_net, n_ground = self.n_net - 1, template.ground.size - 1
+        return FlowState(
+            unknowns=results[places["unknowns"]],
+            reaction=results[places["reaction"]],
+            stress=results[places["stress"]].reshape(template.triangles.shape[1], 3, 3),
+            base_shear=shear.reshape(-1, EDGE_WEIGHTS.size) if shear.size else None,
+            contact=Contact(
+                sign=results[places["sign"]].view(np.int64),
+                is_pressed=marks[:n_net],
+                is_open=marks[n_net : 2 * n_net],
+                is_lifted=marks[2 * n_net : 2 * n_net + n_ground],
+            ),
+        )
+
+    def _view_net(self, results: Floats, prefix: str = "") -> NetEquilibrium:
+        """Net under the reactions; ``settled_``: under the forces of the stresses."""
+        places = self.places
+        ends = results[places[f"{prefix}ends"]]
+        cable = Funicular(
+            outcome=Outcome.CONVERGED,
+            curve=results[places[f"{prefix}curve"]].reshape(2, -1),
+            pull=results[places[f"{prefix}pull"]],
+            tension=results[places[f"{prefix}tension"]].reshape(2, -1),
+            foot_pull=ends[:2],
+            head_pull=ends[2:],
+        )
+        return NetEquilibrium(
+            cable=cable,
+            parts=results[places[f"{prefix}parts"]],
+            forces=results[places[f"{prefix}forces"]].reshape(2, -1),
+            lengths=results[places[f"{prefix}lengths"]],
+        )
+
+    def _view_from_stresses(
+        self, results: Floats
+    ) -> tuple[SupportForces, NetEquilibrium] | None:
+        places, template = self.places, self.problem.template
+        unbalanced = float(results[places["unbalanced"]][0])
+        if unbalanced < 0.0:
+            return None
+        net = self._view_net(results, "settled_")
+        forces = SupportForces(
+            on_net=net.forces[:, : self.n_net],
+            on_ground=results[places["on_ground"]],
+            ground_normal=results[places["ground_normal"]][may_lift(template)],
+            unbalanced=unbalanced,
+        )
+        return forces, net
+
+
+def _copy_state(start: FlowState, to: FlowState) -> None:
+    for name in ("unknowns", "reaction", "stress", "base_shear"):
+        if (own := getattr(to, name)) is not None:
+            own[...] = getattr(start, name)
+    for name in ("sign", "is_pressed", "is_open", "is_lifted"):
+        getattr(to.contact, name)[:] = getattr(start.contact, name)
+
+
+def prepare_rounds(
+    problem: SteadyProblem, max_iterations: int
+) -> CompiledRounds | None:
+    """The core for rounds of a scene on a mesh; None where NumPy has to do.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    max_iterations : int
+        Newton steps allowed in a round.
+    """
+    library, template, snow = find_core(), problem.template, problem.snow
+    if library is None or snow.element != "velocity":
+        return None
+    top = float(problem.head[1])
+    form = _describe_form(template, library, top, snow.ground == "sliding")
+    if form is None:
+        return None
+    argument = SceneArgument.from_buffer_copy(form.argument)
+    layered = template if problem.is_layered else None
+    law, first, density, kept = _describe_laws(snow, layered)
+    argument.law, argument.first = law, first
+    argument.is_uniform = int(density.size == 1)
+    arrays = (
+        np.ascontiguousarray(template.nodes, dtype=np.float64),
+        np.ascontiguousarray(follow_net(template), dtype=np.float64),
+        density,
+        np.array(problem.head, dtype=np.float64),
+    )
+    names = ("reference", "follow", "density", "head")
+    for name, place in zip(names, locate_all(*arrays), strict=True):
+        setattr(argument, name, place)
+    lifts = may_lift(template)
+    argument.rules = describe_rules(snow, locate(lifts))
+    argument.gravity[:] = snow.gravity
+    argument.end_load = snow.end_load
+    argument.length, argument.stiffness = problem.length, problem.stiffness
+    return CompiledRounds(
+        library=library,
+        problem=problem,
+        max_iterations=max_iterations,
+        argument=argument,
+        places=form.places,
+        kept=(*form.kept, *kept, *arrays, lifts),
+    )
+
+
+@lru_cache(maxsize=8)  # every mesh of a scene asks
+def _describe_laws(
+    snow: FlowProblem, template: MeshTemplate | None
+) -> tuple[LawArgument, LawArgument, Floats, _Arrays]:
+    """Laws of the snow and of its linear creep, density, and arrays to keep.
+
+    ``template`` is that of layered snow; uniform snow is the same on all.
+    """
+    shape = (template.triangles.shape[1], 3) if template else ()
+    material = sample_material(snow, template)
+    law, kept = describe_law(snow, material, shape)
+    linear = make_linear(snow)
+    first, more = describe_law(linear, sample_material(linear, template), shape)
+    density = np.array(material.density, dtype=np.float64)
+    return law, first, density, (*kept, *more)
+
+
+class _Form(NamedTuple):
+    """A template and a net of some height as the core takes them."""
+
+    argument: SceneArgument
+    places: Mapping[str, slice]
+    kept: _Arrays
+
+
+@find_once
+def _describe_form(
+    template: MeshTemplate, library: ctypes.PyDLL, top: float, slides: bool
+) -> _Form | None:
+    described = describe_template(template, library)
+    if described is None:
+        return None
+    frame, net = _describe_frame(template), _describe_net(template, top)
+    end = share_end_load(template)
+    mesh = MeshArgument(*described.counts, *described.numbers)
+    mesh.edge_shape = locate(EDGE_SHAPE)
+    argument = SceneArgument(place=describe_placement(template, EDGE_TANGENT))
+    # numbers have caches of their own: the form keeps the arrays of one alone
+    argument.place.triangles, argument.place.net = mesh.triangles, mesh.net
+    argument.mesh, argument.plan = mesh, described.plan
+    argument.n_vertices = template.n_vertices
+    for name, place in zip(_FRAME, locate_all(*frame), strict=True):
+        setattr(argument, name, place)
+    for name, place in zip(_NET, locate_all(*net), strict=True):
+        setattr(argument, name, place)
+    argument.end_share, argument.edge_weights = locate_all(end, EDGE_WEIGHTS)
+    argument.n_elements, argument.n_parts = net[0].size, net[-1].size
+    argument.tolerance = CLOSED
+    return _Form(
+        argument=argument,
+        places=_lay_out(template, net[0].size, net[-1].size, slides=slides),
+        kept=(*described.kept, *frame, *net, end, template.orientation),
+    )
+
+
+def _describe_net(template: MeshTemplate, top: float) -> _Arrays:
+    """The net's parts, as ``Scene`` of round.c has them."""
+    parts = cut_net(template, top)
+    return (
+        np.ascontiguousarray(parts.shares, dtype=np.float64),
+        np.ascontiguousarray(parts.part, dtype=np.int64),
+        np.ascontiguousarray(parts.firsts, dtype=np.int64),
+        np.ascontiguousarray(parts.rises, dtype=np.float64),
+    )
+
+
+def _describe_frame(template: MeshTemplate) -> _Arrays:
+    """Places of nodes between those of the net, as ``Scene`` of round.c has them."""
+    heights, of_net = template.nodes[1], template.net_fractions
+    below = np.searchsorted(of_net, heights, side="right") - 1
+    below = np.clip(below, 0, of_net.size - 1)
+    rise = np.where(below < of_net.size - 1, heights - of_net[below], 0.0)
+    return (
+        np.ascontiguousarray(below, dtype=np.int32),
+        np.maximum(rise, 0.0),
+        np.ascontiguousarray(of_net, dtype=np.float64),
+        np.ascontiguousarray(template.edges, dtype=np.int32),
+    )
+
+
+def _lay_out(
+    template: MeshTemplate, n_elements: int, n_parts: int, *, slides: bool
+) -> dict[str, slice]:
+    """Places of a round's results; round.c has the same list."""
+    nodes, net = template.nodes.shape[1], template.net.size
+    points, ground = 3 * template.triangles.shape[1], template.ground.size - 1
+    edges = ground // 2 * EDGE_WEIGHTS.size
+    on_net = 2 * (2 * n_elements + 1)
+    hung = {
+        **{"forces": on_net, "lengths": n_elements, "parts": n_parts},
+        **{"curve": on_net, "pull": 2, "tension": 2 * n_elements, "ends": 4},
+    }
+    sizes = {
+        **{"nodes": 2 * nodes, "weights": points, "gradients": 12 * points},
+        **{"unit_load": nodes, "normal": 2 * net, "axes": 2 * nodes},
+        **{"edge_weights": edges, "load": 2 * nodes},
+        **{"unknowns": 2 * nodes, "reaction": 2 * nodes, "stress": 3 * points},
+        "shear": edges if slides else 0,
+        "sign": net - 1,
+        **hung,
+        **{f"settled_{name}": size for name, size in hung.items()},
+        **{"residual": 2 * nodes, "on_ground": 2, "ground_normal": ground},
+        **{"unbalanced": 1, "way": 1, "marks": (2 * (net - 1) + ground) // 8 + 1},
+    }
+    ends = accumulate(sizes.values())
+    return {
+        name: slice(end - size, end)
+        for (name, size), end in zip(sizes.items(), ends, strict=True)
+    }
