@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.cells.findings import Finding
 from netdesign.site.model import MEMBER_MODES, NAMED_BY, InputEcho
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import Table, read_rows
 from netdesign.structure.members import EndMember
 from netdesign.words.message import say
 
@@ -16,38 +15,6 @@ EndsByRow = Mapping[str, Row]  # one line by net row
 
 # Columns of both sheets that name a type of the support.
 _TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
-
-
-def read_ends(table: Table | None, findings: list[Finding]) -> EndsByRow:
-    """Lines of sheet Ends by net row; a second line of one is a finding."""
-    by_row: dict[str, Row] = {}
-    for line in read_rows(table, findings) if table else ():
-        reading = line["row"]
-        if reading.word in by_row:
-            first = by_row[reading.word]["row"].place
-            rule = say("nets.used_twice", place=first)
-            refuse(reading, rule, say("ends.one_line"), findings)
-        elif reading.word:
-            by_row[reading.word] = line
-    return by_row
-
-
-def refuse_unknown_ends(
-    ends: EndsByRow, net_rows: Mapping[str, Row], findings: list[Finding]
-) -> None:
-    """Refuse ends of a net row that sheet Nets does not have."""
-    places = {name: row["id"].place for name, row in net_rows.items()}
-    for name, line in ends.items():
-        if name not in net_rows:
-            sheet = say("sheet.Nets")
-            accepted = say("accepted.id_of_sheet", sheet=sheet)
-            accepted = add_nearest(accepted, name, net_rows, places)
-            refuse(line["row"], say("nets.no_id", sheet=sheet), accepted, findings)
-
-
-def list_end_types(end: Row) -> list[Reading]:
-    """Cells that name what holds a row of panels along the row."""
-    return [end[key] for key in EndMember if end[key].word]
 
 
 def replace_types(row: Row, end: Row | None) -> Row:

@@ -11,16 +11,8 @@ from itertools import islice
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number
-from netdesign.site.cells.typed_units import find_typed_unit
-from netdesign.site.columns.fields import (
-    Field,
-    Language,
-    SheetPlan,
-    normalise,
-    split_heading,
-)
-from netdesign.site.columns.heading_text import fold
-from netdesign.site.columns.lexicon import Lexicon
+from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
+from netdesign.site.columns.lexicon import Lexicon, fold
 from netdesign.site.columns.unit_names import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
@@ -29,6 +21,7 @@ from netdesign.site.columns.unit_names import (
 )
 from netdesign.site.readings import IN_CELLS, refuse_stored
 from netdesign.site.titles import Meaning, Title, is_asked, list_titles, understand
+from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
@@ -394,7 +387,7 @@ def _find_unit(
 
 def _have_units(cells: list[Cell], field: Field) -> bool:
     """The first numbers of a column have their units in their cells."""
-    units = [normalise_unit(find_typed_unit(cell)) for cell in cells]
+    units = [normalise_unit(cell.own_unit) for cell in cells]
     return any(unit in field.units for unit in units)
 
 

@@ -8,7 +8,7 @@ from netdesign.panel.assumed import Ends, find_stiffness, list_panels
 from netdesign.panel.inputs import CUTS
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import BorderRope, RowPanel
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Row, refuse
 from netdesign.site.type_resistances import find_breaking
 from netdesign.words.message import Message, say
 
@@ -56,11 +56,6 @@ def read_panel(
     return _build_panel(row, ropes), lack
 
 
-def list_ropes(row: Row) -> list[Reading]:
-    """Cells that name a border rope."""
-    return [row[key] for key in _ROPES if row[key].word]
-
-
 def _build_panel(row: Row, ropes: Mapping[str, Row]) -> RowPanel:
     ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
     mid = row["mid_anchors"].word
@@ -81,7 +76,7 @@ def _build_panel(row: Row, ropes: Mapping[str, Row]) -> RowPanel:
 def _list_assumed(row: Row, ropes: Mapping[str, Row]) -> list[Message]:
     keys = ("panel_system", *_OPTIONAL)
     lacking = [row[key].field.name for key in keys if row[key].state != "given"]
-    named = dict.fromkeys(one.word for one in list_ropes(row))
+    named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
     return lacking + [
         say("panel.stiffness_of", id=one)
         for one in named

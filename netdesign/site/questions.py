@@ -21,14 +21,14 @@ from netdesign.site.columns.all_tables import (
     ROPES,
     SHEETS,
 )
-from netdesign.site.columns.fields import Language, SheetPlan
+from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.headings import count_known
 from netdesign.site.mapping import SCHEMA, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
 from netdesign.site.tables import Table, find_table
 from netdesign.site.titles import UNANSWERED, Title, list_titles
-from netdesign.words.catalogue import render
+from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 # Findings that an answer to a heading or to an item of a line can settle.
@@ -205,7 +205,7 @@ def _name_field(table: Table, address: str) -> str:
         if place and table.cell(1, field.key):
             cell = table.sheet.cell(1, place.number)
             if re.sub(r"\d", "", cell.address) == column:
-                return field.wording(table.language).label
+                return field.label_in(table.language)
     return UNANSWERED
 
 

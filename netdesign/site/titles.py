@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from netdesign.site.cells.cells import IGNORE, Cell, Sheet, name_column
 from netdesign.site.columns.fields import Field, normalise, split_heading
-from netdesign.site.columns.heading_text import find_unit
-from netdesign.site.columns.lexicon import UNKNOWN, Lexicon, Match
+from netdesign.site.columns.lexicon import UNKNOWN, Lexicon, Match, find_unit
 
 _COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
 UNANSWERED = "?"

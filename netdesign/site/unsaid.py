@@ -62,22 +62,6 @@ def check_statements(
                 refuse(row[key], rule, say("accepted.one_of_two"), findings)
 
 
-def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:
-    """Refuse neighbours of a row that are no other net rows of the sheet."""
-    ids = {row["id"].word for row in rows}
-    for row in rows:
-        for name in list_neighbours(row):
-            if name not in ids or name == row["id"].word:
-                rule = say("nets.no_neighbour", id=name)
-                refuse(row["neighbour"], rule, say("nets.other_ids"), findings)
-
-
-def list_neighbours(row: Row) -> list[str]:
-    """Ids of the rows that a line says it goes on into."""
-    text = row["neighbour"].word.replace(";", ",")
-    return [one.strip() for one in text.split(",") if one.strip()]
-
-
 def _check_layers(said: Reading, lines: Sequence[Row], findings: list[Finding]) -> None:
     has_temperatures = any(one["temperature"].state == "given" for one in lines)
     expected = _LAYERED[has_temperatures] if lines else "uniform"

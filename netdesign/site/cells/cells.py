@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from netdesign.site.cells.findings import Finding, Refusal, Severity
-from netdesign.site.cells.numbers import DecimalMark
+from netdesign.site.cells.numbers import DecimalMark, split_unit
 from netdesign.words.message import Message
 
 
@@ -98,6 +98,13 @@ class Cell:
     def is_blank(self) -> bool:
         """Nothing but spaces was typed."""
         return not self.text.strip()
+
+    @property
+    def own_unit(self) -> str:
+        """Unit that it shows itself: typed behind its number or set by its format."""
+        if isinstance(self.value, str):
+            return split_unit(self.value)[1]
+        return "%" if self.is_percent else self.shown_unit
 
     def finding(
         self,
