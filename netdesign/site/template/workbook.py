@@ -13,8 +13,8 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from netdesign.checks import list_standards
+from netdesign.edge.given_files import find_resource
 from netdesign.edge.output import require_free, write_files
-from netdesign.edge.resources import find_resource
 from netdesign.site.columns.all_tables import (
     NETS,
     PROJECT,
