@@ -15,11 +15,12 @@ from netdesign.checks import Declaration
 from netdesign.site.cells.cells import Cell, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
+from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.replaced import find_cell, split_replacement
-from netdesign.site.tables import Table, read_rows
+from netdesign.site.tables import read_rows
 from netdesign.structure.members import Member
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import Message, say

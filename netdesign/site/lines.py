@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.headings import Table
 from netdesign.site.ranges import RangesSheet
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import Table
 from netdesign.words.message import Message, say
 
 TYPE_SHEETS = ("Anchors", "Ropes", "Posts")

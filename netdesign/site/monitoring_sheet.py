@@ -7,10 +7,11 @@ from datetime import datetime, timedelta
 from itertools import pairwise
 
 from netdesign.site.cells.findings import Finding
+from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import MonitoringSeries
 from netdesign.site.readings import Row, refuse
-from netdesign.site.tables import Table, read_rows
+from netdesign.site.tables import read_rows
 from netdesign.words.message import say
 
 _EPOCH = datetime(1970, 1, 1)

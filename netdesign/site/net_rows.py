@@ -10,12 +10,7 @@ from netdesign.coupling.scene import is_overtopped
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.cells.limits import MAX_NET_ROWS
-from netdesign.site.end_supports import (
-    check_ends,
-    echo_ends,
-    has_same_types,
-    replace_types,
-)
+from netdesign.site.headings import Table
 from netdesign.site.lines import (
     Lines,
     Types,
@@ -29,13 +24,20 @@ from netdesign.site.model import (
     InputEcho,
     NetRow,
 )
-from netdesign.site.panel_inputs import check_panel, read_panel
 from netdesign.site.ranges import fill_in_ranges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
     build_layers,
     echo_layers,
     settle_thickness,
+)
+from netdesign.site.statements import (
+    check_statements,
+    echo_ends,
+    has_same_types,
+    list_unsaid,
+    read_panel,
+    replace_types,
 )
 from netdesign.site.support_types import (
     build_row_end,
@@ -45,8 +47,6 @@ from netdesign.site.support_types import (
     read_axes,
     read_guys,
 )
-from netdesign.site.tables import Table
-from netdesign.site.unsaid import check_statements, list_unsaid
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
     GROUND_KINDS,
@@ -85,7 +85,7 @@ def build_net_rows(
         In the order of the sheet.
     """
     if refusal := _judge_count(len(lines.nets)):
-        findings.append(table.sheet.finding(refusal))
+        findings.append(table.sheet.finding(*refusal))
     index_lines(lines.nets, "id", say("nets.ids_once"), findings)
     check_neighbours(lines.nets, findings)
     built = [_build_net_row(row, lines, findings) for row in lines.nets]
@@ -118,9 +118,6 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     named: list[Row] = [row, end] if end else [row]
     for one in named:
         refuse_unknown_types(one, lines, findings)
-    check_panel(row, findings)
-    if end is not None:
-        check_ends(end, row["panel_system"], findings)
     is_refused = any(one.severity == "error" for one in findings[count_before:])
     if is_refused or _is_faulty(named, lines.unreadable):
         return None

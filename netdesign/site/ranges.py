@@ -10,17 +10,16 @@ from netdesign.envelope.parameters import ONE_QUANTITY
 from netdesign.envelope.ranges import MOST_GRID_CASES, Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.cells import Cell
-from netdesign.site.cells.findings import Finding, Refusal, quote
+from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.cells.numbers import split_range
 from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, NETS, USUAL_QUANTITIES
 from netdesign.site.columns.fields import Field, SheetPlan, split_heading
-from netdesign.site.columns.lexicon import find_unit
+from netdesign.site.columns.lexicon import Meaning, find_unit
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
-from netdesign.site.headings import name_units, quote_title
+from netdesign.site.headings import Table, name_units, quote_title
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, read_cell, refuse
-from netdesign.site.tables import Table, match_item, read_field, refuse_unused_answers
-from netdesign.site.titles import Meaning
+from netdesign.site.tables import match_item, read_field, refuse_unused_answers
 from netdesign.words.message import Message, say
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
@@ -95,7 +94,7 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
             continue
         if one.required:
             rule = say("range.lacks", heading=one.title)
-            findings.append(table.sheet.finding(Refusal(rule, one.accepted)))
+            findings.append(table.sheet.finding(rule, one.accepted))
             found[one.key] = None
         else:
             found[one.key] = _default_inclination(one)
@@ -144,8 +143,9 @@ def refuse_large_grid(
     count = n_rows * ranges.grid_cases
     if count > MOST_GRID_CASES:
         accepted = say("range.most_cases", most=MOST_GRID_CASES)
-        refusal = Refusal(say("range.large_grid", count=count), accepted)
-        findings.append(table.sheet.finding(refusal))
+        findings.append(
+            table.sheet.finding(say("range.large_grid", count=count), accepted)
+        )
 
 
 def _refuse_doubles(names: Mapping[str, Reading], findings: list[Finding]) -> list[str]:
@@ -235,7 +235,7 @@ def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:
     beside = next((one for one in (low, high) if one and not one.is_blank), None)
     if beside is not None:
         rule = say("range.twice_in_line", place=beside.place)
-        findings.append(span.finding(Refusal(rule, say("range.one_or_both"))))
+        findings.append(span.finding(rule, say("range.one_or_both")))
         return None
     if not isinstance(span.value, str):
         return span, span  # a single number, or what is refused as none

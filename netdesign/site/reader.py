@@ -30,6 +30,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.declared_sheet import read_declared
+from netdesign.site.headings import Table
 from netdesign.site.lines import (
     TYPE_SHEETS,
     Lines,
@@ -57,7 +58,6 @@ from netdesign.site.replaced import replace_cells, tell_replaced
 from netdesign.site.snow_layers import check_layers, read_layers
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.tables import (
-    Table,
     find_table,
     is_absent,
     is_near,

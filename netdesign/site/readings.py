@@ -126,7 +126,7 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
         return _read_with_own_unit(cell, field, findings)
     understood = _understand(cell, field, unit)
     if isinstance(understood, Refusal):
-        findings.append(cell.finding(understood, field.title_in(unit)))
+        findings.append(cell.finding(*understood, field.title_in(unit)))
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
     if understood is None:
         return read_nothing(field, cell)
@@ -150,7 +150,7 @@ def _read_with_own_unit(cell: Cell, field: Field, findings: list[Finding]) -> Re
     if unit in UNCLEAR_UNITS:
         rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[unit])
     units = say("accepted.units", units=tuple(f"[{one}]" for one in field.units))
-    findings.append(cell.finding(Refusal(rule, units), field.name))
+    findings.append(cell.finding(rule, units, field.name))
     return Reading(field=field, state="faulty", text=cell.text, cell=cell)
 
 
@@ -185,8 +185,7 @@ def refuse(
     if reading.cell is not None:
         field = reading.field
         title = field.title_in(unit) if unit else field.title
-        refusal = Refusal(rule, accepted)
-        finding = reading.cell.finding(refusal, title, severity=severity)
+        finding = reading.cell.finding(rule, accepted, title, severity=severity)
         findings.append(finding)
 
 
@@ -213,7 +212,7 @@ def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Read
         number = refuse_stored(cell) or _take_number(plain, "%")
         refusal = number if isinstance(number, Refusal) else None
     if refusal:
-        findings.append(cell.finding(refusal, field.name))
+        findings.append(cell.finding(*refusal, field.name))
     return Reading(field=field, state="faulty", text=cell.text, cell=cell)
 
 

@@ -8,9 +8,10 @@ from dataclasses import replace
 
 from netdesign.envelope.ranges import Ranges
 from netdesign.site.cells.findings import Finding
+from netdesign.site.headings import Table
 from netdesign.site.model import InputEcho, NetRow
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import Table, read_rows
+from netdesign.site.tables import read_rows
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.snowpack import THINNEST_LAYER, Layer
 from netdesign.words.message import say

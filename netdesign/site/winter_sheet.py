@@ -13,10 +13,11 @@ from netdesign.site.cells.findings import Finding, fold_findings
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
+from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import StationWinter
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import Table, find_table, read_rows
+from netdesign.site.tables import find_table, read_rows
 from netdesign.snowpack.series import (
     LONGEST_GAP,
     HeightSeries,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from netdesign.site.cells.findings import Finding, Refusal, Severity
+from netdesign.site.cells.findings import Finding, Severity
 from netdesign.site.cells.numbers import DecimalMark, split_unit
 from netdesign.words.message import Message
 
@@ -54,7 +54,6 @@ class Answers:
 
 
 UNASKED = Answers()
-IGNORE = "ignore"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,7 +107,8 @@ class Cell:
 
     def finding(
         self,
-        refusal: Refusal,
+        rule: Message,
+        accepted: Message | str = "",
         field: Message | str = "",
         *,
         severity: Severity = "error",
@@ -120,8 +120,8 @@ class Cell:
             cell=self.address,
             field=field,
             text=self.text,
-            rule=refusal.rule,
-            accepted=refusal.accepted,
+            rule=rule,
+            accepted=accepted,
             severity=severity,
         )
 
@@ -175,13 +175,19 @@ class Sheet:
         cells = self.rows.get(number, {}).values()
         return tuple(cell for cell in cells if not cell.is_blank)
 
-    def finding(self, refusal: Refusal, *, severity: Severity = "error") -> Finding:
+    def finding(
+        self,
+        rule: Message,
+        accepted: Message | str = "",
+        *,
+        severity: Severity = "error",
+    ) -> Finding:
         """Say what is wrong with the whole sheet."""
         return Finding(
             file=self.file,
             sheet=self.name,
-            rule=refusal.rule,
-            accepted=refusal.accepted,
+            rule=rule,
+            accepted=accepted,
             severity=severity,
         )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from netdesign.edge.given_files import make_printable
 from netdesign.errors import SiteDataError
@@ -19,8 +19,7 @@ _ALIKE = ("number.ambiguous",)  # rules that repeat the text of their cell
 _MOST_ALIKE = 12  # named after the first
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
+class Refusal(NamedTuple):
     """Reason against a value, before its place is known.
 
     Attributes

@@ -15,8 +15,6 @@ from importlib.resources import files
 from typing import Any, get_args
 
 from netdesign.site.columns.fields import (
-    Beside,
-    Empty,
     Field,
     Kind,
     SheetPlan,
@@ -89,7 +87,7 @@ def _read_field(data: Data, table: str, key: str) -> Field:
     if "units" in entry:
         values["units"] = tuple(_find(data["units"], entry["units"], place))
     if "empty" in entry:
-        values["empty"] = Empty(**_find(data["empty"], entry["empty"], place))
+        values["empty"] = _find(data["empty"], entry["empty"], place)
     return Field(
         key=key,
         table=table,
@@ -141,8 +139,8 @@ def _read_usual(value: list[Any]) -> Usual:
     return Usual(*_read_span(span), source)
 
 
-def _read_beside(values: list[Any]) -> tuple[Beside, ...]:
-    return tuple(Beside(*_read_span(span), powers) for *span, powers in values)
+def _read_beside(values: list[Any]) -> tuple[Usual, ...]:
+    return tuple(Usual(*_read_span(span), powers=powers) for *span, powers in values)
 
 
 # Reader of a key's value, where it is not taken as it is.

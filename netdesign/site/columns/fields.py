@@ -21,31 +21,16 @@ _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 
 @dataclass(frozen=True, slots=True)
 class Usual:
-    """Least and largest number that is built or measured, in the first unit.
+    """Least and largest number that is built or measured.
 
-    ``source`` is the key of a text in area ``plausible``.
+    Alone it is in the first unit, and ``source`` is the key of a text in area
+    ``plausible``. Beside others it is over the product of ``powers`` of them, in SI.
     """
 
     least: float
     most: float
-    source: str
-
-
-@dataclass(frozen=True, slots=True)
-class Beside:
-    """Least and largest number over the product of powers of other columns, in SI."""
-
-    least: float
-    most: float
-    powers: Mapping[str, int]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Empty:
-    """Meaning of an empty cell, and why it is never better than a filled one."""
-
-    means: str
-    why: str
+    source: str = ""
+    powers: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +52,7 @@ class Field:
         Least and largest accepted value, in the first unit.
     usual : Usual or None
         Numbers that are not asked for.
-    beside : tuple of Beside
+    beside : tuple of Usual
         The same beside other columns of the line.
     zero_says_none : bool
         Whether a zero is a statement, and no number to ask for.
@@ -89,8 +74,9 @@ class Field:
         Key of the column in whose stead it stands, alone or with others.
     column : str
         Key of the column of sheet Nets in whose stead a quantity ranges.
-    empty : Empty or None
-        What an empty cell means.
+    empty : mapping of str to str
+        What an empty cell means, and why it is never better than a filled one; empty
+        of a required column.
     is_offered : bool
         Whether the template has it.
     headings : mapping of str to tuple of str
@@ -110,7 +96,7 @@ class Field:
     units: tuple[str, ...] = ()
     bounds: tuple[float, float] = (0.0, 0.0)
     usual: Usual | None = None
-    beside: tuple[Beside, ...] = ()
+    beside: tuple[Usual, ...] = ()
     zero_says_none: bool = False
     scatters: bool = False
     of_product: tuple[str, ...] = ()
@@ -121,7 +107,7 @@ class Field:
     refers_to: str = ""
     alternative_to: str = ""
     column: str = ""
-    empty: Empty | None = None
+    empty: Mapping[str, str] = field(default_factory=dict)
     is_offered: bool = True
     headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     notes: Mapping[Language, str] = field(default_factory=dict)

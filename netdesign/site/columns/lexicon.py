@@ -186,32 +186,52 @@ _UNCLEAR: _Keys = frozenset(("?",))
 _NARROW = frozenset(("post", "anchor", "guy"))  # groups of parts of a net row
 
 
+# Answers to a heading: it is not to be read; it is not yet answered.
+IGNORE, UNANSWERED = "ignore", "?"
+
+
 @dataclass(frozen=True, slots=True)
-class Match:
-    """Meaning of a heading.
+class Meaning:
+    """Meaning of a heading, and what it follows from.
 
     Attributes
     ----------
     field : Field or None
-        The one field that it means.
+        The one field that it means; None where it is unknown, unclear or ignored.
     readings : tuple of Field
         Where it is unclear, the fields that it may mean; perhaps none.
     contrary : str
         Where it is unclear because two parts differ, the part that says otherwise: a
         symbol of another quantity, or the group above.
+    answer : str
+        Text of the answer to it; empty where none was needed or none is there.
+    unit : str
+        That of the answer; empty where it gives none.
     """
 
     field: Field | None = None
     readings: tuple[Field, ...] = ()
     contrary: str = ""
+    answer: str = ""
+    unit: str = ""
 
     @property
     def is_unclear(self) -> bool:
         """The heading has to be asked for."""
         return bool(self.readings or self.contrary)
 
+    @property
+    def is_ignored(self) -> bool:
+        """Somebody answered that it is not to be read."""
+        return self.answer == IGNORE
 
-UNKNOWN = Match()
+    @property
+    def is_wrong_answer(self) -> bool:
+        """The answer names no heading, or more than one."""
+        return bool(self.answer) and not self.is_ignored and self.field is None
+
+
+UNKNOWN = Meaning()
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,14 +271,14 @@ class Lexicon:
                 _add(folded, read_part(name), frozenset((key,)), is_sure=True)
         return cls(by_key, names, folded)
 
-    def match(self, text: str, group: str = "") -> Match:
+    def match(self, text: str, group: str = "") -> Meaning:
         """Meaning of a heading, under the text of a group or none."""
         grouped = self._match_grouped(text, group) if group else _NOTHING
         if grouped:
             return self._conclude(grouped)
         found = self._match_alone(text)
         if found.field and group and not self._may_stand_under(group, text):
-            return Match(readings=(found.field,), contrary=group)
+            return Meaning(readings=(found.field,), contrary=group)
         return found
 
     def _may_stand_under(self, group: str, text: str) -> bool:
@@ -284,14 +304,14 @@ class Lexicon:
                 return keys
         return _NOTHING
 
-    def _match_alone(self, text: str) -> Match:
+    def _match_alone(self, text: str) -> Meaning:
         own, bracket = split_heading(text)
         before = re.split(r"[\[(]", text)[0]  # where its signs do not count: "? / high"
         if own in self.names and not find_words_apart(before):
             found = self._conclude(self.names[own])
             field = found.field
             if field and not self._may_stand_behind(bracket, field):
-                return Match(readings=(field,), contrary=bracket)
+                return Meaning(readings=(field,), contrary=bracket)
             return found
         readings = _NOTHING
         for parts in split_languages(text):
@@ -313,7 +333,7 @@ class Lexicon:
         is_same = field.key in keys
         return not bracket or bool(field.units) or bracket in KNOWN_UNITS or is_same
 
-    def _agree(self, known: list[tuple[_Keys, str]]) -> Match:
+    def _agree(self, known: list[tuple[_Keys, str]]) -> Meaning:
         """Meaning that all parts of a heading share."""
         every = [keys for keys, _ in known]
         contrary = next((sign for _, sign in known if sign), "")
@@ -353,11 +373,11 @@ class Lexicon:
         contrary = "" if known.intersection(meant) else symbol
         return (known | _UNCLEAR, contrary) if known else (_NOTHING, "")
 
-    def _conclude(self, keys: _Keys, contrary: str = "") -> Match:
+    def _conclude(self, keys: _Keys, contrary: str = "") -> Meaning:
         fields = tuple(one for key, one in self.fields.items() if key in keys)
         if len(fields) == 1 and not keys & _UNCLEAR:
-            return Match(field=fields[0])
-        return Match(readings=fields, contrary=contrary)
+            return Meaning(field=fields[0])
+        return Meaning(readings=fields, contrary=contrary)
 
 
 def _add(
@@ -394,8 +414,3 @@ def _find_topics(group: str) -> frozenset[str]:
     return frozenset(
         topic for topic, names in topics.items() if words & set(map(fold, names))
     )
-
-
-def unit_of(text: str, group: str = "") -> str:
-    """Unit in the brackets of a heading, or in those of its group."""
-    return split_heading(text)[1] or find_unit(text) or split_heading(group)[1]
