@@ -43,7 +43,7 @@ from netdesign.site.mapping import (
     judge_answers,
     read_answers,
 )
-from netdesign.site.model import Project, Site
+from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.plausible import ask
@@ -111,34 +111,28 @@ def read_site(
     tables, ranges = _find_tables(workbook, findings)
     project, project_cells = _read_project(tables[PROJECT.name], findings)
     lines = _read_lines(workbook, tables, ranges, findings)
-    nets, ranged = tables[NETS.name], tables[RANGES.name]
-    net_rows = build_net_rows(nets, lines, findings) if nets else ()
-    findings.extend(ranges.findings)
-    if ranged and ranges.ranges:
-        refuse_large_grid(ranged, ranges.ranges, len(net_rows), findings)
-        check_layers(net_rows, lines.snow, ranges.ranges, findings)
+    net_rows = _build_rows(tables, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
     winter = read_winter(tables[WINTER.name], lines.places, findings)
-    declared, confirmed = read_declared(
-        tables[DECLARED.name], workbook, lines.places, findings
-    )
+    said = tables[DECLARED.name]
+    declared, confirmed = read_declared(said, workbook, lines.places, findings)
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
         raise SiteDataError(findings, fold_findings(findings))
-    notes = fold_findings([_shorten(one) for one in findings])
+    notes = fold_findings(list(map(_shorten, findings)))
     questions = ask(lines, confirmed, findings)
-    rows = (tell_replaced(row, replaced) for row in net_rows)
+    rows = tuple(
+        replace(
+            tell_replaced(row, replaced),
+            unsaid=row.unsaid + ranges.unsaid,
+            questions=questions.get(row.id, ()),
+        )
+        for row in net_rows
+    )
     return Site(
         project=project,
         ranges=ranges.ranges,
-        rows=tuple(
-            replace(
-                one,
-                unsaid=one.unsaid + ranges.unsaid,
-                questions=questions.get(one.id, ()),
-            )
-            for one in rows
-        ),
+        rows=rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
         notes=(*notes, *(one.message for one in confirmed)),
@@ -195,6 +189,19 @@ def _read_lines(
         named = (one["row"] for one in lines.ends.values())
         refuse_unknown_ids(named, lines.places, findings)
     return lines
+
+
+def _build_rows(
+    tables: Mapping[str, Table | None], lines: Lines, findings: list[Finding]
+) -> tuple[NetRow, ...]:
+    """Net rows without a fault, held against what ranges over the whole site."""
+    nets, ranged, ranges = tables[NETS.name], tables[RANGES.name], lines.ranges
+    rows = build_net_rows(nets, lines, findings) if nets else ()
+    findings.extend(ranges.findings)
+    if ranged and ranges.ranges:
+        refuse_large_grid(ranged, ranges.ranges, len(rows), findings)
+        check_layers(rows, lines.snow, ranges.ranges, findings)
+    return rows
 
 
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
