@@ -169,17 +169,18 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     if sheet.is_hidden:
         findings.append(sheet.finding(say("table.hidden_sheet"), severity="note"))
     hidden = [
-        *((sheet.row(row)[0], "row") for row in table.rows if row in sheet.hidden_rows),
         *(
-            (sheet.cell(table.heading_row, number), "column")
+            (sheet.row(row)[0], say("table.hidden_row"))
+            for row in table.rows
+            if row in sheet.hidden_rows
+        ),
+        *(
+            (sheet.cell(table.heading_row, number), say("table.hidden_column"))
             for number in read
             if number in sheet.hidden_columns
         ),
     ]
-    findings.extend(
-        cell.finding(say(f"table.hidden_{kind}"), severity="note")
-        for cell, kind in hidden
-    )
+    findings.extend(cell.finding(rule, severity="note") for cell, rule in hidden)
     findings.extend(_note_lines_above(table))
     _judge_columns_without_heading(table, findings)
 
