@@ -18,8 +18,8 @@ import pytest
 
 from netdesign import __version__, cli
 from netdesign.commands.running import EXIT_CODES
+from netdesign.edge.given_files import find_resource
 from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
-from netdesign.edge.resources import find_resource
 from netdesign.envelope.ranges import MOST_GRID_CASES
 from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.reader import read_site

@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import pytest
 
 import netdesign
-from netdesign.edge import open_elsewhere
+from netdesign.edge import locks
 from netdesign.edge.locks import LOCK_FILE
 from netdesign.edge.output import require_free, write_files
 from netdesign.edge.streams import _spell_sign
@@ -161,7 +161,7 @@ def test_an_open_report_is_refused_before_any_work(tmp_path, monkeypatch):
     (tmp_path / "~$report.xlsx").write_bytes(b"owner")
     deny(monkeypatch, report, "open")
     require_free([report], overwrite=True)  # elsewhere than on Windows it is replaced
-    monkeypatch.setattr(open_elsewhere, "_holds_open_files", lambda: True)
+    monkeypatch.setattr(locks, "_holds_open_files", lambda: True)
     with pytest.raises(OutputError, match=r"close it there first: .*report\.xlsx"):
         require_free([report], overwrite=True)
 
@@ -179,7 +179,7 @@ def test_a_report_opened_meanwhile_is_told_and_kept(tmp_path, monkeypatch):
 def test_a_sharing_violation_is_an_open_file():
     error = PermissionError(errno.EACCES, "in use")
     error.winerror = 32
-    assert open_elsewhere.is_held(error, Path("report.xlsx"))
+    assert locks.is_held(error, Path("report.xlsx"))
 
 
 @pytest.mark.parametrize("page", ["cp850", "cp437", "cp1252"])

@@ -28,11 +28,11 @@ from netdesign.checks.schema import (
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import (
     MAX_TOML_BYTES,
+    find_resource,
     is_there,
     parse_toml,
     read_bounded,
 )
-from netdesign.edge.resources import find_resource
 from netdesign.errors import StandardError
 from netdesign.units import radian_from_degree
 from netdesign.words.message import Message, say

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.commands.report_options import choose_style, list_wanted
 from netdesign.commands.sizing import Sized, mark_names, mark_paths, render_sized
-from netdesign.edge.file_names import PROFILES_FILE, STUDY_FILE
+from netdesign.edge.output import PROFILES_FILE, STUDY_FILE
 
 if TYPE_CHECKING:
     from netdesign.report.files import ReportStyle

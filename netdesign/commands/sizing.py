@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.usage import UsageRefusal, ValueRefusal
-from netdesign.edge.file_names import WHAT_IF_MARK
+from netdesign.edge.output import WHAT_IF_MARK
 from netdesign.words.message import say
 
 if TYPE_CHECKING:

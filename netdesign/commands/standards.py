@@ -97,8 +97,8 @@ def validate_profile(folder: Path, *, language: Language) -> None:
 def copy_profile(name: str, folder: Path, *, language: Language) -> None:
     """Copy a profile to edit; its id becomes the name of the folder."""
     from netdesign.checks import load_standard
+    from netdesign.edge.given_files import find_resource
     from netdesign.edge.output import require_free, write_files
-    from netdesign.edge.resources import find_resource
 
     profile = load_standard(name)
     source = find_resource("standards") / name

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from netdesign.errors import ContentError
+from netdesign.errors import ContentError, NetDesignError
 from netdesign.words.message import Message, say
 
 # A scene, a profile's file and a set of defaults have a few kilobytes.
@@ -122,3 +122,18 @@ def list_faults(faults: Sequence[Message]) -> Message:
         return say("text.lines", lines=tuple(faults))
     left = say("text.more_faults", count=len(faults) - _MOST_FAULTS)
     return say("text.lines", lines=(*faults[:_MOST_FAULTS], left))
+
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+def find_resource(name: str, package: Path = _PACKAGE) -> Path:
+    """Folder ``name`` of the installed package or of the checkout around it.
+
+    A wheel carries the two folders as ``netdesign/_data/<name>``; a checkout
+    and an editable install have them beside the package.
+    """
+    for candidate in (package / "_data" / name, package.parent / name):
+        if candidate.is_dir():
+            return candidate
+    raise NetDesignError(say("program.folder_missing", name=name))

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import lru_cache
-from json.encoder import encode_basestring
-from math import isfinite
-from operator import attrgetter
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from netdesign.errors import ContentError
 from netdesign.words.message import say
@@ -26,7 +23,6 @@ MAX_JSON_BYTES = 384 * 2**20
 MAX_VALUES = 14_000_000
 MAX_OBJECTS = 2_800_000
 _SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
-_FEW = 4  # values below which the encoder takes longer to set up than to write
 _MOST_KEYS = 200  # of one object
 
 
@@ -37,10 +33,20 @@ def write_json(document: object, depth: int = 0) -> str:
     dataclass is an object with its fields in their order. ``depth`` is the number of
     lists and objects that the text will stand in.
 
+    pydantic would be quicker, but spells numbers otherwise, and not alike from version
+    to version (1e-07 as 1e-7, 1e+22 as 1e22); studies have the same bytes.
+
     >>> write_json("\\x9b2J")
     '"\\\\u009b2J"'
     """
-    text = _write_value(document, _indent(depth))
+    text = json.dumps(
+        document,
+        ensure_ascii=False,
+        allow_nan=False,
+        check_circular=False,  # what is written is made of frozen values
+        indent=1,
+        default=list_fields,
+    ).replace("\n", _indent(depth))
     if text.replace("\n", "").isprintable():
         return text
     return "".join(
@@ -86,7 +92,10 @@ def join_items(parts: Sequence[JsonPart], depth: int) -> JsonPart:
 def join_members(parts: Mapping[str, JsonPart], depth: int) -> JsonPart:
     """Object with parts by their keys, itself in so many lists and objects."""
     pairs = [
-        tuple(f"{_write_key(key)}: {one}" for one in (part.text, part.values))
+        tuple(
+            f"{json.dumps(key, ensure_ascii=False)}: {one}"
+            for one in (part.text, part.values)
+        )
         for key, part in parts.items()
     ]
     return _join("{", pairs, "}", depth)
@@ -105,102 +114,25 @@ def _join(
     )
 
 
-def _write_value(value: Any, margin: str) -> str:
-    """JSON of a value whose last line begins with ``margin``.
-
-    The quick encoder knows no margins, but any separator: so it writes lists and
-    objects of plain values, in which most of a document lies. pydantic would be
-    quicker, but spells numbers otherwise, and not alike from version to version
-    (1e-07 as 1e-7, 1e-05 as 0.00001, 1e+22 as 1e22); studies have the same bytes.
-    """
-    inside = f"{margin} "
-    if not isinstance(value, dict | list | tuple):
-        if not (is_dataclass(value) or isinstance(value, MappingProxyType)):
-            return _build_encoder(inside).encode(value)
-        value = list_fields(value)
-    is_object = isinstance(value, dict)
-    if not value:
-        return "{}" if is_object else "[]"
-    parts = value.values() if is_object else value
-    if len(value) > _FEW and _PLAIN.issuperset(map(type, parts)):
-        flat = _build_encoder(inside).encode(value)
-        return f"{flat[0]}{inside}{flat[1:-1]}{margin}{flat[-1]}"
-    written = [
-        write(one) if (write := _WRITE.get(type(one))) else _write_value(one, inside)
-        for one in parts
-    ]
-    if not is_object:
-        return f"[{inside}{f',{inside}'.join(written)}{margin}]"
-    members = [
-        f"{_write_key(key)}: {text}" for key, text in zip(value, written, strict=True)
-    ]
-    return f"{{{inside}{f',{inside}'.join(members)}{margin}}}"
-
-
-def _write_float(value: float) -> str:
-    """Text as the encoder writes it, without what it sets up for each value."""
-    return repr(value) if isfinite(value) else _build_encoder("").encode(value)
-
-
-_WRITE: dict[type, Callable[[Any], str]] = {
-    str: encode_basestring,
-    float: _write_float,
-    int: repr,
-    bool: {True: "true", False: "false"}.__getitem__,
-    type(None): lambda _: "null",
-}
-_PLAIN = frozenset(_WRITE)
-
-
-@lru_cache(maxsize=1024, typed=True)
-def _write_key(key: str) -> str:
-    """Key as the encoder writes it, in quotes whatever it is."""
-    return json.dumps({key: None}, ensure_ascii=False)[1 : -len(": null}")]
-
-
 def list_fields(value: Any) -> dict[str, Any]:
-    """Fields of a dataclass as they are; quicker than a copy of all that is in them.
+    """Fields of a dataclass as they are, not copies of all that is in them.
 
     Of a mapping that cannot be changed, its members. A class with a true
     ``LEAVES_OUT_NONE`` has no field that is None.
+
+    Raises
+    ------
+    TypeError
+        If the value is something else, which JSON does not have.
     """
     if isinstance(value, MappingProxyType):
         return dict(value)
-    shape: type = type(value)
-    names, read, leaves_out = _open_shape(shape)
-    pairs = zip(names, read(value), strict=True)
-    if leaves_out:
-        return {name: one for name, one in pairs if one is not None}
-    return dict(pairs)
-
-
-class _Shape(NamedTuple):
-    """Names of a dataclass's fields, and what reads all their values."""
-
-    names: tuple[str, ...]
-    read: Callable[[object], Any]
-    leaves_out_none: bool
-
-
-@lru_cache(maxsize=256)
-def _open_shape(shape: type) -> _Shape:
-    names = tuple(one.name for one in fields(shape))
-    leaves_out = bool(getattr(shape, "LEAVES_OUT_NONE", False))
-    if len(names) > 1:
-        return _Shape(names, attrgetter(*names), leaves_out)
-    return _Shape(
-        names, lambda value: [getattr(value, name) for name in names], leaves_out
-    )
-
-
-@lru_cache
-def _build_encoder(margin: str) -> json.JSONEncoder:
-    return json.JSONEncoder(
-        ensure_ascii=False,
-        allow_nan=False,
-        check_circular=False,  # what is written is made of frozen values
-        separators=(f",{margin}", ": "),
-    )
+    if not is_dataclass(value):
+        raise TypeError(f"{type(value).__name__} is not JSON serializable")
+    found = {one.name: getattr(value, one.name) for one in fields(value)}
+    if getattr(value, "LEAVES_OUT_NONE", False):
+        return {name: one for name, one in found.items() if one is not None}
+    return found
 
 
 def read_json(shape: type, text: str) -> Any:

@@ -10,10 +10,14 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from netdesign.edge.causes import explain_system, explain_with_file
-from netdesign.edge.locks import lock_folder
-from netdesign.edge.open_elsewhere import is_open_elsewhere
+from netdesign.edge.locks import is_open_elsewhere, lock_folder
 from netdesign.errors import OutputError
 from netdesign.words.message import say
+
+# Names of outputs, for those who plan files and for those who write them.
+STUDY_FILE = "study.json"
+PROFILES_FILE = "profiles.html"  # the page that compares several profiles
+WHAT_IF_MARK = "what-if-"  # before the name of every file of a what-if
 
 _OLD = ".old"
 _RANDOM_END = re.compile(r"\.[a-z0-9_]{8}(\.old)?")  # what mkstemp adds to a name

@@ -1,22 +1,29 @@
-"""Sheet Declared: checks that the engineer declares as proven elsewhere."""
+"""Sheet Declared: checks that are proven elsewhere, and numbers that are meant.
+
+A line that confirms a number has ``Posts!C2 = 3175`` in the place of a check.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 from datetime import date
 from functools import lru_cache
 from itertools import product
 
 from netdesign.checks import Declaration
-from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.cells.cells import Cell, Workbook
+from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
-from netdesign.site.confirmed_values import is_confirmation
+from netdesign.site.headings import Table
+from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import Table, read_rows
+from netdesign.site.replaced import find_cell, split_replacement
+from netdesign.site.tables import read_rows
 from netdesign.structure.members import Member
 from netdesign.words.catalogue import LANGUAGES, render
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
 # Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and
@@ -44,40 +51,51 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
 _ALL_ROWS = ("all", "alle", "toutes")  # in place of an id
 
 _Subject = tuple[str, str, str]  # member, mode, position of its support or ""
-_Check = tuple[str, _Subject]  # net row ("" for all)
 
 
 def read_declared(
-    table: Table | None, row_ids: Collection[str], findings: list[Finding]
-) -> tuple[Declaration, ...]:
-    """Declarations of the sheet; none without the sheet.
+    table: Table | None,
+    workbook: Workbook,
+    places: Mapping[str, str],
+    findings: list[Finding],
+) -> tuple[tuple[Declaration, ...], tuple[Confirmation, ...]]:
+    """Declared checks and confirmed numbers; none without the sheet.
 
     Parameters
     ----------
     table : Table or None
         Sheet Declared, if there is one.
-    row_ids : collection of str
-        Ids of sheet Nets.
+    workbook : Workbook
+        As read; a number that is no longer there is not confirmed.
+    places : mapping of str to str
+        Cells of the ids of sheet Nets.
     findings : list of Finding
-        Appended to: unknown rows and checks, what is no date, a check declared twice.
-        A line without document or author is a finding of its cell already.
+        Appended to: unknown rows and checks, what is no date, a check declared twice,
+        cells that hold something else than what is confirmed. A line without document
+        or author is a finding of its cell already.
     """
-    declared: dict[_Check, Declaration] = {}
-    for line in read_rows(table, findings) if table else ():
-        count = len(findings)
-        if is_confirmation(line):
-            _check_row(line["row"], row_ids, findings)
+    declared: list[Declaration] = []
+    confirmed: list[Confirmation] = []
+    lines = list(read_rows(table, findings)) if table else []
+    if places:
+        named = (one["row"] for one in lines if not _is_of_all(one["row"], places))
+        refuse_unknown_ids(named, places, findings, "declared.id_or_all")
+    for line in lines:
+        replacement = split_replacement(line["check"].word)
+        if replacement is not None:
+            confirmation = _read_confirmation(line, replacement, workbook, findings)
+            confirmed += [confirmation] if confirmation else []
             continue
-        found = _read_line(line, row_ids, findings)
-        if found is None or len(findings) > count:
+        found = _read_line(line, places, findings)
+        if found is None:
             continue
-        twice = next((one for one in declared.values() if _meet(one, found)), None)
+        twice = next((one for one in declared if _meet(one, found)), None)
         if twice:
             rule = say("declared.twice", place=twice.source)
             refuse(line["check"], rule, say("declared.once"), findings)
-            continue
-        declared[found.row_id, _name_subject(found)] = found
-    return tuple(declared.values())
+        else:
+            declared.append(found)
+    return tuple(declared), tuple(confirmed)
 
 
 def _meet(one: Declaration, other: Declaration) -> bool:
@@ -91,12 +109,10 @@ def _name_subject(one: Declaration) -> _Subject:
 
 
 def _read_line(
-    line: Row, row_ids: Collection[str], findings: list[Finding]
+    line: Row, places: Mapping[str, str], findings: list[Finding]
 ) -> Declaration | None:
-    row, check, day = line["row"], line["check"], line["date"]
-    is_of_all = _check_row(row, row_ids, findings)
-    names = _list_names()
-    subject = names.get(normalise(check.word))
+    check, day, count = line["check"], line["date"], len(findings)
+    subject = _list_names().get(normalise(check.word))
     if check.word and subject is None:
         shown = tuple(name_check(*one) for one in DECLARABLE)
         end = say("check.of_end", check="...")
@@ -104,10 +120,11 @@ def _read_line(
         refuse(check, say("declared.unknown"), accepted, findings)
     if day.word and not _is_date(day.word):
         refuse(day, say("measured.no_date"), say("declared.such_as"), findings)
-    if subject is None or any(reading.state == "faulty" for reading in line.values()):
+    is_faulty = any(reading.state == "faulty" for reading in line.values())
+    if subject is None or is_faulty or len(findings) > count:
         return None
     return Declaration(
-        row_id="" if is_of_all else row.word,
+        row_id="" if _is_of_all(line["row"], places) else line["row"].word,
         member=subject[0],
         mode=subject[1],
         position=subject[2],
@@ -118,15 +135,9 @@ def _read_line(
     )
 
 
-def _check_row(row: Reading, row_ids: Collection[str], findings: list[Finding]) -> bool:
-    """Refuse an unknown net row; True of a line that holds for all of them."""
-    is_of_all = row.word not in row_ids and normalise(row.word) in _ALL_ROWS
-    if row.word and row_ids and row.word not in row_ids and not is_of_all:
-        sheet = say("sheet.Nets")
-        accepted = say("declared.id_or_all", sheet=sheet)
-        accepted = add_nearest(accepted, row.word, row_ids)
-        refuse(row, say("nets.no_id", sheet=sheet), accepted, findings)
-    return is_of_all
+def _is_of_all(row: Reading, places: Mapping[str, str]) -> bool:
+    """A line holds for all net rows, none of which has that name."""
+    return row.word not in places and normalise(row.word) in _ALL_ROWS
 
 
 def _is_date(text: str) -> bool:
@@ -151,3 +162,79 @@ def _list_names() -> Mapping[str, _Subject]:
         spellings = [spelt, *(render(title, one) for one in LANGUAGES)]
         names |= dict.fromkeys(map(normalise, spellings), subject)
     return names
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Confirmation:
+    """A number that looks like a slip of the pen, and is none.
+
+    Attributes
+    ----------
+    cell, value : str
+        Its place, such as ``Posts!C2``, and what is typed there.
+    document, author, date : str
+        What confirms it, who, and when.
+    """
+
+    cell: str
+    value: str
+    document: str
+    author: str
+    date: str
+
+    @property
+    def message(self) -> Message:
+        """The sentence on it in the reports."""
+        return say(
+            "plausible.confirmed",
+            cell=self.cell,
+            value=self.value,
+            document=self.document,
+            author=self.author,
+            date=self.date,
+        )
+
+
+def _read_confirmation(
+    line: Row,
+    replacement: tuple[str, str],
+    workbook: Workbook,
+    findings: list[Finding],
+) -> Confirmation | None:
+    """Number that a line confirms by its place and text; None with a finding."""
+    place, text = replacement
+    sheet_name, _, address = place.rpartition("!")
+    sheets = {sheet.name.casefold(): sheet for sheet in workbook.sheets}
+    sheet = sheets.get(sheet_name.casefold())
+    cell = find_cell(sheet, address) if sheet else None
+    if cell is None or not _holds(cell, text):
+        held = show_value(cell) if cell else ""
+        rule = say("plausible.holds_other", cell=place, held=held)
+        refuse(line["check"], rule, say("plausible.such_as"), findings)
+        return None
+    if not line["date"].word:
+        refuse(line["date"], say("cell.empty"), say("declared.such_as"), findings)
+        return None
+    return Confirmation(
+        cell=cell.place,
+        value=show_value(cell),
+        document=line["document"].word,
+        author=line["author"].word,
+        date=line["date"].word,
+    )
+
+
+def show_value(cell: Cell) -> str:
+    """Content of a cell as text; of a formula its result."""
+    is_number = isinstance(cell.value, int | float)
+    return f"{cell.value:.10g}" if is_number else cell.text
+
+
+def _holds(cell: Cell, typed: str) -> bool:
+    """A cell holds what is confirmed, as text or as number."""
+    if typed in (cell.text, show_value(cell)):
+        return True
+    try:
+        return float(typed.replace(",", ".")) == float(show_value(cell))
+    except ValueError:
+        return False

@@ -4,23 +4,15 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number
-from netdesign.site.cells.typed_units import find_typed_unit
-from netdesign.site.columns.fields import (
-    Field,
-    Language,
-    SheetPlan,
-    normalise,
-    split_heading,
-)
-from netdesign.site.columns.heading_text import fold
-from netdesign.site.columns.lexicon import Lexicon
+from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
+from netdesign.site.columns.lexicon import Lexicon, Meaning, fold
 from netdesign.site.columns.unit_names import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
@@ -28,7 +20,8 @@ from netdesign.site.columns.unit_names import (
     normalise_unit,
 )
 from netdesign.site.readings import IN_CELLS, refuse_stored
-from netdesign.site.titles import Meaning, Title, is_asked, list_titles, understand
+from netdesign.site.titles import Title, is_asked, list_titles, understand
+from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
@@ -51,45 +44,50 @@ class Column:
     unit: str | None
 
 
+Titles = Sequence[tuple[Title, Meaning]]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Headings:
-    """Rows and columns of the headings.
+class Table:
+    """A sheet whose headings were table.
 
     Attributes
     ----------
-    row : int
-        The row that names the fields; groups may stand above it.
-    first_data_row : int
-        Below headings and units.
-    columns : mapping of str to Column
-        By field key; absent headings are absent.
-    language : str
-        That of most of the headings.
+    sheet, plan
+        As read, and what it should hold.
+    titles : sequence of Title and Meaning
+        Its headings with what each is taken for.
+    heading_row, first_data_row : int
+        The row that names the fields, below groups; the first below headings and units.
+    units_row : int or None
+        A row of units below the headings.
     group_rows : frozenset of int
         Rows above that hold merged groups of headings, or headings merged downwards.
+    language : str
+        That of most of the headings.
+    columns : mapping of str to Column
+        By field key; absent headings are absent.
+    rows : tuple of int
+        Numbers of the lines that hold something.
     """
-
-    row: int
-    first_data_row: int
-    columns: Mapping[str, Column]
-    language: Language
-    group_rows: frozenset[int] = frozenset()
-
-
-Titles = list[tuple[Title, Meaning]]
-
-
-@dataclass(frozen=True, slots=True)
-class _Found:
-    """Headings of a sheet with what they mean, and the rows around them."""
 
     sheet: Sheet
     plan: SheetPlan
     titles: Titles
+    heading_row: int
     units_row: int | None
     first_data_row: int
+    group_rows: frozenset[int]
+    language: Language
+    columns: Mapping[str, Column]
+    rows: tuple[int, ...] = ()
 
-    def below(self, column: int) -> list[Cell]:
+    def cell(self, row: int, key: str) -> Cell | None:
+        """Cell of a field in a row; None without such a heading."""
+        column = self.columns.get(key)
+        return self.sheet.cell(row, column.number) if column else None
+
+    def examples(self, column: int) -> list[Cell]:
         """The first filled cells of a column below its heading."""
         rows = (row for row in self.sheet.rows if row >= self.first_data_row)
         cells = (self.sheet.cell(row, column) for row in rows)
@@ -98,7 +96,7 @@ class _Found:
 
 def find_headings(
     sheet: Sheet, plan: SheetPlan, findings: list[Finding]
-) -> Headings | None:
+) -> Table | None:
     """Find the headings of a planned sheet.
 
     Parameters
@@ -112,16 +110,15 @@ def find_headings(
 
     Returns
     -------
-    Headings or None
-        None if there is no row of headings; that is a finding.
+    Table or None
+        Without its lines; None if there is no row of headings, which is a finding.
     """
     lexicon = Lexicon.of(plan.fields, plan)
     row = _find_row(sheet, lexicon)
     if row is None:
         wanted = tuple(quote_title(field) for field in plan.fields[:3])
         accepted = say("heading.such_as", headings=wanted)
-        refusal = Refusal(say("heading.no_row"), accepted)
-        findings.append(sheet.finding(refusal))
+        findings.append(sheet.finding(say("heading.no_row"), accepted))
         return None
     titles = [
         (title, understand(title, lexicon, sheet.answers))
@@ -135,14 +132,16 @@ def find_headings(
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     first_data_row += _is_numbering(sheet.row(first_data_row))
-    found = _Found(sheet, plan, titles, units_row, first_data_row)
-    columns = _find_columns(found, findings)
     names = {split_heading(title.text)[0] for title, _ in titles}
-    return Headings(
-        row=row,
+    table = Table(
+        sheet=sheet,
+        plan=plan,
+        titles=titles,
+        heading_row=row,
+        units_row=units_row,
         first_data_row=first_data_row,
-        columns=columns,
         language=plan.find_language(names),
+        columns={},
         group_rows=frozenset(
             above
             for merged in sheet.merged
@@ -150,6 +149,7 @@ def find_headings(
             if merged.last_row >= row - 1 and above < row
         ),
     )
+    return replace(table, columns=_find_columns(table, findings))
 
 
 def count_known(sheet: Sheet, plan: SheetPlan) -> int:
@@ -176,7 +176,7 @@ def _is_known(title: Title, lexicon: Lexicon, sheet: Sheet) -> bool:
     if not isinstance(title.cell.value, str):
         return False
     meaning = understand(title, lexicon, sheet.answers)
-    return bool(meaning.field or meaning.match.readings or meaning.answer)
+    return bool(meaning.field or meaning.readings or meaning.answer)
 
 
 def _last_row(sheet: Sheet) -> int:
@@ -211,8 +211,7 @@ def _find_units_row(
     for cell in strangers:
         if normalise(str(cell.value)) not in _UNITS_WORDS:
             rule = say("heading.in_units_row")
-            refusal = Refusal(rule, say("heading.units_or_empty"))
-            findings.append(cell.finding(refusal))
+            findings.append(cell.finding(rule, say("heading.units_or_empty")))
     return heading_row + 1
 
 
@@ -243,39 +242,38 @@ def _read_unit(cell: Cell) -> tuple[str, bool]:
     return normalise_unit(bracketed[1] if bracketed else text), bracketed is not None
 
 
-def _find_columns(found: _Found, findings: list[Finding]) -> dict[str, Column]:
+def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     columns: dict[str, Column] = {}
     claimed: set[str] = set()  # by headings that are refused as unclear
     unknown: list[Title] = []
-    for title, meaning in found.titles:
+    for title, meaning in table.titles:
         cell, field = title.cell, meaning.field
         if field is None:
-            claimed |= {one.key for one in meaning.match.readings}
-            refusal = _explain(meaning, found.sheet)
+            claimed |= {one.key for one in meaning.readings}
+            refusal = _explain(meaning, table.sheet)
             if refusal:
                 severity: Severity = "note" if meaning.is_ignored else "error"
-                findings.append(cell.finding(refusal, severity=severity))
+                findings.append(cell.finding(*refusal, severity=severity))
             else:
                 unknown.append(title)
         elif field.key in columns:
             first = name_column(columns[field.key].number)
             rule = say("heading.twice", name=field.name, column=first)
-            refusal = Refusal(rule, say("heading.one_column"))
-            findings.append(cell.finding(refusal))
+            findings.append(cell.finding(rule, say("heading.one_column")))
         else:
-            unit = _find_unit(found, title, meaning, field, findings)
+            unit = _find_unit(table, title, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
             if meaning.answer:
-                file = found.sheet.answered_in
+                file = table.sheet.answered_in
                 rule = say("heading.answered", name=field.name, file=file)
-                findings.append(cell.finding(Refusal(rule), severity="note"))
-    plan = found.plan
+                findings.append(cell.finding(rule, severity="note"))
+    plan = table.plan
     missing = [field for field in plan.fields if field.key not in columns]
     judged = _judge_all_unknown(unknown, missing)
     findings.extend(finding for finding, _ in judged)
     claimed |= {field.key for _, field in judged if field}
-    _report_missing(found, unknown, {*columns, *claimed}, findings)
-    findings.extend(_refuse_unused_answers(found))
+    _report_missing(table, unknown, {*columns, *claimed}, findings)
+    findings.extend(_refuse_unused_answers(table))
     return columns
 
 
@@ -286,24 +284,24 @@ def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
     if meaning.is_wrong_answer:
         rule = say("heading.wrong_answer", answer=quote(meaning.answer))
         return Refusal(rule, say("heading.answer_wanted", file=sheet.answered_in))
-    if not meaning.match.is_unclear:
+    if not meaning.is_unclear:
         return None
-    readings = tuple(quote_title(one) for one in meaning.match.readings)
+    readings = tuple(quote_title(one) for one in meaning.readings)
     rule = say("heading.ambiguous", readings=readings)
-    if meaning.match.contrary:
-        says = quote(meaning.match.contrary)
+    if meaning.contrary:
+        says = quote(meaning.contrary)
         rule = say("heading.contrary", readings=readings, contrary=says)
     return Refusal(rule, say("heading.one_of_these"))
 
 
-def _refuse_unused_answers(found: _Found) -> Iterator[Finding]:
+def _refuse_unused_answers(table: Table) -> Iterator[Finding]:
     """Answers to headings that the sheet does not have: it has changed since."""
-    titles = [title for title, _ in found.titles]
-    for key in found.sheet.answers:
+    titles = [title for title, _ in table.titles]
+    for key in table.sheet.answers:
         is_used = any(is_asked(title, key) for title in titles)
-        if not is_used and not found.plan.items:
-            rule = say("heading.unused_answer", file=found.sheet.answered_in)
-            yield found.sheet.finding(Refusal(rule, quote(key)))
+        if not is_used and not table.plan.items:
+            rule = say("heading.unused_answer", file=table.sheet.answered_in)
+            yield table.sheet.finding(rule, quote(key))
 
 
 def _judge_all_unknown(
@@ -325,14 +323,13 @@ def _judge_all_unknown(
 def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | None]:
     """Note a column that is not read; refuse one that seems a missing one, misspelt."""
     if stored := refuse_stored(cell):
-        return cell.finding(stored), None
+        return cell.finding(*stored), None
     near = find_near(str(cell.value), missing)
     if near:
         rule = say("heading.close_to_missing", meant=quote_title(near[0]))
         accepted = say("heading.or_unlike", meant=quote_title(near[0]))
-        return cell.finding(Refusal(rule, accepted)), near[0]
-    refusal = Refusal(say("heading.unknown"))
-    return cell.finding(refusal, severity="note"), None
+        return cell.finding(rule, accepted), near[0]
+    return cell.finding(say("heading.unknown"), severity="note"), None
 
 
 def find_near(text: str, fields: Iterable[Field]) -> list[Field]:
@@ -354,7 +351,7 @@ def quote_title(field: Field) -> Message:
 
 
 def _find_unit(
-    found: _Found,
+    table: Table,
     title: Title,
     meaning: Meaning,
     field: Field,
@@ -364,37 +361,37 @@ def _find_unit(
     if not field.units:
         if title.unit in KNOWN_UNITS and title.unit != "-":  # a number of another field
             rule = say("heading.unit_not_wanted", unit=title.unit, name=field.name)
-            findings.append(title.cell.finding(Refusal(rule, field.name)))
+            findings.append(title.cell.finding(rule, field.name))
         return ""
     column, unit, cell = title.cell.column, title.unit, title.cell
-    below = found.sheet.cell(found.units_row, column) if found.units_row else None
+    below = table.sheet.cell(table.units_row, column) if table.units_row else None
     if below is not None and not below.is_blank:
         unit_below, _ = _read_unit(below)
         if unit not in ("", unit_below):
             rule = say("heading.other_unit", heading=quote(cell.text))
-            findings.append(below.finding(Refusal(rule, say("accepted.one_unit"))))
+            findings.append(below.finding(rule, say("accepted.one_unit")))
             return None
         unit, cell = unit_below, below
     if meaning.unit and unit in ("", *UNCLEAR_UNITS):
         unit = meaning.unit
     elif meaning.unit and meaning.unit != unit:
         rule = say("heading.other_unit", heading=quote(meaning.answer))
-        findings.append(cell.finding(Refusal(rule, say("accepted.one_unit"))))
+        findings.append(cell.finding(rule, say("accepted.one_unit")))
         return None
     if not unit and "-" in field.units:
         return "-"
     if unit in field.units:
         return unit
-    if not unit and _have_units(found.below(column), field):
+    if not unit and _have_units(table.examples(column), field):
         return IN_CELLS
-    refusal = _refuse_unit(unit, found.below(column), field)
-    findings.append(cell.finding(refusal, field.name))
+    refusal = _refuse_unit(unit, table.examples(column), field)
+    findings.append(cell.finding(*refusal, field.name))
     return None
 
 
 def _have_units(cells: list[Cell], field: Field) -> bool:
     """The first numbers of a column have their units in their cells."""
-    units = [normalise_unit(find_typed_unit(cell)) for cell in cells]
+    units = [normalise_unit(cell.own_unit) for cell in cells]
     return any(unit in field.units for unit in units)
 
 
@@ -451,21 +448,21 @@ def _tell_reading(typed: tuple[float, str], own: tuple[float, str]) -> Message:
 
 
 def _report_missing(
-    found: _Found, unknown: list[Title], known: set[str], findings: list[Finding]
+    table: Table, unknown: list[Title], known: set[str], findings: list[Finding]
 ) -> None:
-    plan = found.plan
+    plan = table.plan
     for field in plan.fields:
         is_given = field.key in known or _has_instead(field, known)
         if field.required and not is_given:
             rule = say("heading.lacks", heading=field.title)
             accepted = _name_likely(unknown, field)
-            findings.append(found.sheet.finding(Refusal(rule, accepted)))
+            findings.append(table.sheet.finding(rule, accepted))
     if plan.one_of and known.isdisjoint(plan.one_of):
         fields = [field for field in plan.fields if field.key in plan.one_of]
         rule = say("heading.lacks_one_of", headings=tuple(map(quote_title, fields)))
         likely = (_name_likely(unknown, field) for field in fields)
         accepted = next((one for one in likely if one), "")
-        findings.append(found.sheet.finding(Refusal(rule, accepted)))
+        findings.append(table.sheet.finding(rule, accepted))
 
 
 def _name_likely(unknown: list[Title], field: Field) -> Message | str:

@@ -20,7 +20,7 @@ from netdesign.edge.given_files import (
     read_bounded,
 )
 from netdesign.errors import ContentError
-from netdesign.site.cells.cells import IGNORE, UNASKED, Answers, Sheet, Workbook
+from netdesign.site.cells.cells import UNASKED, Answers, Sheet, Workbook
 from netdesign.site.cells.findings import (
     Finding,
     note_file,
@@ -29,6 +29,7 @@ from netdesign.site.cells.findings import (
 )
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.columns.lexicon import IGNORE
 from netdesign.words.message import Message, say
 
 SCHEMA = "netdesign.map/1"

@@ -105,10 +105,10 @@ class Resistance:
 
     member: Member | EndMember
     mode: str
-    value: float | None
-    basis: str  # "tested", "computed", "declared" or "" where nothing is given
-    type_id: str  # id of the anchor, rope or post type; "" where none is named
     source: str
+    value: float | None = None
+    basis: str = ""  # "tested", "computed", "declared"; "" where nothing is given
+    type_id: str = ""  # id of the anchor, rope or post type; "" where none is named
     derivation: Message | None = None  # how it follows from dimensions
     tests: PullOutTests | None = None  # instead of a value
     dimensions: AnchorType | PostSection | BaseFriction | None = None

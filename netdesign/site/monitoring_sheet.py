@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Mapping
 from datetime import datetime, timedelta
 from itertools import pairwise
 
-from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.cells.findings import Finding
+from netdesign.site.headings import Table
+from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import MonitoringSeries
 from netdesign.site.readings import Row, refuse
-from netdesign.site.tables import Table, read_rows
+from netdesign.site.tables import read_rows
 from netdesign.words.message import say
 
 _EPOCH = datetime(1970, 1, 1)
 
 
 def read_monitoring(
-    table: Table | None, row_ids: Collection[str], findings: list[Finding]
+    table: Table | None, places: Mapping[str, str], findings: list[Finding]
 ) -> tuple[MonitoringSeries, ...]:
     """Series of the sheet, one for each net row and member; none without the sheet.
 
@@ -24,22 +26,18 @@ def read_monitoring(
     ----------
     table : Table or None
         Sheet Monitoring, if there is one.
-    row_ids : collection of str
-        Ids of sheet Nets.
+    places : mapping of str to str
+        Cells of the ids of sheet Nets.
     findings : list of Finding
         Appended to: unknown rows, lines without a time or a measurement, times that
         do not ascend.
     """
     series: dict[tuple[str, str], list[tuple[float, Row]]] = {}
-    unknown: set[str] = set()  # told once each, not once a line
-    for line in read_rows(table, findings) if table else ():
+    lines = list(read_rows(table, findings)) if table else []
+    if places:
+        refuse_unknown_ids((line["row"] for line in lines), places, findings)
+    for line in lines:
         name, member = line["row"], line["member"]
-        if row_ids and name.word not in {"", *row_ids, *unknown}:
-            unknown.add(name.word)
-            sheet = say("sheet.Nets")
-            accepted = say("accepted.id_of_sheet", sheet=sheet)
-            accepted = add_nearest(accepted, name.word, row_ids)
-            refuse(name, say("nets.no_id", sheet=sheet), accepted, findings)
         time = _read_time(line, findings)
         if time is None or not name.word or not member.word:
             continue

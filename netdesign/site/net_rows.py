@@ -3,58 +3,50 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from types import MappingProxyType
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.cells.limits import MAX_NET_ROWS
-from netdesign.site.end_supports import (
-    EndsByRow,
-    check_ends,
-    echo_ends,
-    has_same_types,
-    refuse_unknown_ends,
-    replace_types,
-)
-from netdesign.site.model import (
-    END_MODES,
-    MEMBER_MODES,
-    NAMED_BY,
-    AnchorType,
-    InputEcho,
-    NetRow,
-    Resistance,
-    RowEnd,
-)
-from netdesign.site.panel_inputs import check_panel, read_panel
-from netdesign.site.ranged_columns import Ends, fill_in_ranges
-from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.snow_layers import (
-    LayersByRow,
-    build_layers,
-    echo_layers,
-    refuse_unknown_rows,
-    settle_thickness,
-)
-from netdesign.site.support_types import (
-    lacks_inner,
-    list_dependent,
-    read_anchor_types,
-    read_axes,
-    read_guys,
-)
-from netdesign.site.tables import Table
-from netdesign.site.type_references import (
-    TypeSheets,
+from netdesign.site.headings import Table
+from netdesign.site.lines import (
+    Lines,
+    Types,
+    check_neighbours,
+    index_lines,
     list_references,
     refuse_missing_sheets,
     refuse_unknown_types,
 )
-from netdesign.site.type_resistances import find_tests
-from netdesign.site.unsaid import check_neighbours, check_statements, list_unsaid
+from netdesign.site.model import (
+    InputEcho,
+    NetRow,
+)
+from netdesign.site.ranges import fill_in_ranges
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.snow_layers import (
+    build_layers,
+    echo_layers,
+    settle_thickness,
+)
+from netdesign.site.statements import (
+    check_statements,
+    echo_ends,
+    has_same_types,
+    list_unsaid,
+    read_panel,
+    replace_types,
+)
+from netdesign.site.support_types import (
+    build_row_end,
+    find_end_resistances,
+    find_resistances,
+    read_anchor_types,
+    read_axes,
+    read_guys,
+)
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
     GROUND_KINDS,
@@ -68,29 +60,13 @@ from netdesign.structure.layout import (
     DEFAULT_UPHILL_RATIO,
     SupportLayout,
 )
-from netdesign.structure.members import EndMember, Member
 from netdesign.words.message import Message, say
 
 _GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
-# By type sheet: a member that takes its types, and what these may fail by.
-_CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = MappingProxyType(
-    {
-        "Anchors": (Member.FOOT_ANCHOR, ("tendon", "pull_out")),
-        "Ropes": (Member.UPHILL_GUY, ("rope",)),
-        "Posts": (Member.POST, ("compression",)),
-    }
-)
 
 
 def build_net_rows(
-    table: Table,
-    rows: list[Row],
-    type_sheets: TypeSheets,
-    snow: LayersByRow,
-    findings: list[Finding],
-    absent: Iterable[str] = (),
-    ends: EndsByRow = MappingProxyType({}),
-    ranged: Ends = MappingProxyType({}),
+    table: Table, lines: Lines, findings: list[Finding]
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -98,44 +74,22 @@ def build_net_rows(
     ----------
     table : Table
         Sheet Nets.
-    rows : list of Row
-        Its lines.
-    type_sheets : mapping of str to mapping of str to Row
-        Types of anchors, ropes and posts by sheet name and id.
-    snow : mapping of str to tuple of Row
-        Lines of sheet Snow by net row, from the ground up.
+    lines : Lines
+        Of all sheets.
     findings : list of Finding
         Appended to.
-    absent : iterable of str
-        Type sheets that the workbook does not have, under whatever name.
-    ends : mapping of str to Row
-        Lines of sheet Ends by net row.
-    ranged : mapping of str to tuple of Reading, or None
-        Ends of what ranges over all rows, by its name in sheet Ranges.
 
     Returns
     -------
     tuple of NetRow
         In the order of the sheet.
     """
-    if refusal := _judge_count(len(rows)):
-        findings.append(table.sheet.finding(refusal))
-    by_id = index_by_id(rows, findings)
-    refuse_unknown_rows(snow, by_id, findings)
-    refuse_unknown_ends(ends, by_id, findings)
-    check_neighbours(rows, findings)
-    built = [
-        _build_net_row(
-            row,
-            type_sheets,
-            snow.get(row["id"].word, ()),
-            ends.get(row["id"].word),
-            ranged,
-            findings,
-        )
-        for row in rows
-    ]
-    refuse_missing_sheets(table, [*rows, *ends.values()], absent, findings)
+    if refusal := _judge_count(len(lines.nets)):
+        findings.append(table.sheet.finding(*refusal))
+    index_lines(lines.nets, "id", say("nets.ids_once"), findings)
+    check_neighbours(lines.nets, findings)
+    built = [_build_net_row(row, lines, findings) for row in lines.nets]
+    refuse_missing_sheets(table, lines, findings)
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -149,48 +103,23 @@ def _judge_count(count: int) -> Refusal | None:
     return None
 
 
-def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
-    """Lines by their id; an id used again is a finding that names the first."""
-    by_id: dict[str, Row] = {}
-    for row in rows:
-        reading = row["id"]
-        if not reading.word:
-            continue
-        if reading.word in by_id:
-            first = by_id[reading.word]["id"].place
-            rule = say("nets.used_twice", place=first)
-            refuse(reading, rule, say("nets.ids_once"), findings)
-        else:
-            by_id[reading.word] = row
-    return by_id
-
-
-def _build_net_row(
-    line: Row,
-    type_sheets: TypeSheets,
-    lines: tuple[Row, ...],
-    end: Row | None,
-    ranged: Ends,
-    findings: list[Finding],
-) -> NetRow | None:
-    count_before = len(findings)
+def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow | None:
+    count_before, ranged = len(findings), lines.ranges.ends
+    snow, end = lines.snow.get(line["id"].word, ()), lines.ends.get(line["id"].word)
     line = _fill_in_distances(line)
     row = fill_in_ranges(line, ranged, findings)
-    law = _read_ground_law(row)
-    line, row = _with_law(line, law), _with_law(row, law)
-    check_statements(line, lines, end, findings)
-    layers = build_layers(lines, row["slope_angle"], findings)
+    law = {"ground_law": _read_ground_law(row)}
+    line, row = {**line, **law}, {**row, **law}
+    check_statements(row, snow, end, findings)
+    layers = build_layers(snow, row["slope_angle"], findings)
     is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
-    thickness = _understand_thickness(row, lines, layers, findings, is_ranged=is_ranged)
+    thickness = _understand_thickness(row, snow, layers, findings, is_ranged=is_ranged)
     ground = _understand_ground(row, thickness, findings)
-    named = [row, end] if end else [row]
+    named: list[Row] = [row, end] if end else [row]
     for one in named:
-        refuse_unknown_types(one, type_sheets, findings)
-    check_panel(row, findings)
-    if end is not None:
-        check_ends(end, row["panel_system"], findings)
+        refuse_unknown_types(one, lines, findings)
     is_refused = any(one.severity == "error" for one in findings[count_before:])
-    if is_refused or _is_faulty(named, type_sheets):
+    if is_refused or _is_faulty(named, lines.unreadable):
         return None
     if thickness is None or ground is None:
         return None
@@ -201,33 +130,31 @@ def _build_net_row(
     return _compose_net_row(
         row,
         end,
-        type_sheets,
+        lines.types,
         snow=(thickness, layers, ground),
-        inputs=(*echoes, *echo_layers(lines), *echo_ends(end)),
+        inputs=(*echoes, *echo_layers(snow), *echo_ends(end)),
     )
 
 
-def _is_faulty(named: list[Row], type_sheets: TypeSheets) -> bool:
+def _is_faulty(named: list[Row], unreadable: Iterable[str]) -> bool:
     """A cell is faulty, or names a type of a sheet whose ids cannot be read."""
     readings = (reading for one in named for reading in one.values())
     return any(reading.state == "faulty" for reading in readings) or any(
-        list_references(named, name)
-        for name, types in type_sheets.items()
-        if types is None
+        list_references(named, sheet) for sheet in unreadable
     )
 
 
 def _compose_net_row(
     row: Row,
     end: Row | None,
-    type_sheets: TypeSheets,
+    types: Types,
     *,
     snow: tuple[float, tuple[Layer, ...], GroundLaw],
     inputs: tuple[InputEcho, ...],
 ) -> NetRow:
     """Net row of a line without a fault; ``snow`` is thickness, layers, ground."""
     thickness, layers, ground = snow
-    panel, panel_lack = read_panel(row, type_sheets["Ropes"] or {})
+    panel, panel_lack = read_panel(row, types["Ropes"])
     gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
     has_end = gap is None or gap > 0.0
     has_ropes = row["panel_system"].word != "none"
@@ -244,21 +171,19 @@ def _compose_net_row(
         net_stiffness_per_m=row["net_stiffness"].si,
         slack=row["slack"].si,
         layout=_build_layout(row),
-        resistances=_find_resistances(row, type_sheets),
-        end_resistances=_find_end_resistances(at_end, type_sheets)
-        if is_other
-        else None,
-        end_anchors=_find_anchors(at_end, type_sheets) if is_other else None,
+        resistances=find_resistances(row, types),
+        end_resistances=find_end_resistances(at_end, types) if is_other else None,
+        end_anchors=read_anchor_types(at_end, types) if is_other else None,
         inputs=inputs,
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
-        glide_factor=_find_glide_factor(row),
+        glide_factor=row["glide_factor"].given_si,
         guys=read_guys(row),
-        axes=tuple(read_axes(row).items()),
+        axes=read_axes(row),
         drills_along_pull=row["anchor_axes"].word == "along the pull",
-        anchors=_find_anchors(row, type_sheets),
+        anchors=read_anchor_types(row, types),
         panel=panel,
-        row_end=_build_row_end(end, type_sheets) if has_end and has_ropes else None,
+        row_end=build_row_end(end, types) if has_end and has_ropes else None,
         panel_lack=panel_lack,
         unsaid=list_unsaid(row),
     )
@@ -283,7 +208,7 @@ def _fill_in_distances(row: Row) -> Row:
 
 def _understand_thickness(
     row: Row,
-    lines: tuple[Row, ...],
+    lines: Sequence[Row],
     layers: tuple[Layer, ...],
     findings: list[Finding],
     *,
@@ -330,10 +255,6 @@ def _read_ground_law(row: Row) -> Reading:
     return replace(law, state="given", value="sliding", cell=glide.cell, derivation=how)
 
 
-def _with_law(row: Row, law: Reading) -> Row:
-    return {**row, "ground_law": law}
-
-
 def _understand_ground(
     row: Row, thickness: float | None, findings: list[Finding]
 ) -> GroundLaw | None:
@@ -363,11 +284,6 @@ def _understand_ground(
     return _build_sliding_ground(glide, thickness, findings)
 
 
-def _find_glide_factor(row: Row) -> float | None:
-    glide = row["glide_factor"]
-    return glide.number if glide.state == "given" else None
-
-
 def _build_sliding_ground(
     glide: Reading, thickness: float | None, findings: list[Finding]
 ) -> GroundLaw | None:
@@ -387,116 +303,6 @@ def _build_layout(row: Row) -> SupportLayout:
         uphill_anchor_distance=row["uphill_anchor_distance"].si,
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
         post_base_distance=row["post_base_distance"].given_si,
-    )
-
-
-def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:
-    """Members that hold a row along itself, all of them, given or not."""
-    return RowEnd(
-        guy_angle=end["end_guy_angle"].given_si if end else None,
-        resistances=tuple(
-            _find_resistance(end[member], mode, member, type_sheets)
-            if end
-            else _lack_resistance(member, mode, "Ends", say("row_end.no_members"))
-            for member, mode in END_MODES
-        ),
-    )
-
-
-def _find_anchors(
-    row: Row, type_sheets: TypeSheets
-) -> tuple[tuple[Member, AnchorType], ...]:
-    return tuple(read_anchor_types(row, type_sheets["Anchors"] or {}).items())
-
-
-def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
-    """Resistance of every member in every mode, given or not."""
-    needed = (
-        _find_resistance(row[NAMED_BY.get(member, member)], mode, member, type_sheets)
-        for member, mode in MEMBER_MODES
-    )
-    dependent = list_dependent(
-        row, type_sheets["Anchors"] or {}, type_sheets["Posts"] or {}
-    )
-    return (*needed, *dependent)
-
-
-def _find_end_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
-    """The same at the row's end; types that are not named there are told together."""
-    lack = say("row_end.no_types")
-    return tuple(
-        one if one.type_id else replace(one, source="Ends", lack=lack)
-        for one in _find_resistances(row, type_sheets)
-    )
-
-
-def _find_resistance(
-    reading: Reading, mode: str, member: Member | EndMember, type_sheets: TypeSheets
-) -> Resistance:
-    """Resistance of a member in one mode; no type or no value gives None."""
-    if not reading.word:
-        return _lack_resistance(member, mode, reading.place or "Nets")
-    sheet = reading.field.refers_to
-    kind = (type_sheets[sheet] or {})[reading.word]
-    return _describe_type(kind, mode, member, sheet)
-
-
-def list_catalogue(type_sheets: TypeSheets) -> tuple[Resistance, ...]:
-    """Resistances of every type of the workbook, of some member that may have it.
-
-    Those that follow the demand have no place here: they need a member.
-    """
-    by_sheet = {name: types or {} for name, types in type_sheets.items()}
-    return tuple(
-        _describe_type(kind, mode, member, sheet)
-        for sheet, (member, modes) in _CATALOGUE.items()
-        for kind in by_sheet.get(sheet, {}).values()
-        for mode in modes
-    )
-
-
-def _describe_type(
-    kind: Row, mode: str, member: Member | EndMember, sheet: str
-) -> Resistance:
-    """Resistance of a type in one mode, given or not."""
-    resistance = kind[mode]
-    tests = find_tests(kind) if mode == "pull_out" else None
-    is_given = resistance.state == "given"
-    is_derived = is_given and resistance.derivation is not None
-    # A pull-out resistance says how it is known; the others are makers' values.
-    basis = kind["basis"].word if mode == "pull_out" else "declared"
-    if is_derived:
-        basis = "computed"
-    is_strut = is_derived and mode == "compression"
-    place = kind["test_least"].place if tests else resistance.place
-    is_open = mode == "tendon" and not is_given and lacks_inner(kind)
-    return Resistance(
-        member=member,
-        mode=mode,
-        value=resistance.si if is_given and not tests else None,
-        basis="tested" if tests else basis if is_given else "",
-        type_id=kind["id"].word,
-        source=place or sheet,
-        derivation=resistance.derivation if is_given else None,
-        tests=tests,
-        lack=say("type.no_inner", id=kind["id"].word) if is_open else None,
-        buckling_length=kind["buckling_length"].si if is_strut else None,
-        ground=kind["ground"].word if "ground" in kind else "",
-    )
-
-
-def _lack_resistance(
-    member: Member | EndMember, mode: str, source: str, lack: Message | None = None
-) -> Resistance:
-    """Resistance of a member whose type is not named."""
-    return Resistance(
-        member=member,
-        mode=mode,
-        value=None,
-        basis="",
-        type_id="",
-        source=source,
-        lack=lack,
     )
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from netdesign.edge.given_files import make_printable
 from netdesign.errors import SiteDataError
-from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
+from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
@@ -21,14 +21,15 @@ from netdesign.site.columns.all_tables import (
     ROPES,
     SHEETS,
 )
-from netdesign.site.columns.fields import Language, SheetPlan
-from netdesign.site.headings import count_known
+from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.columns.lexicon import UNANSWERED
+from netdesign.site.headings import Table, count_known
 from netdesign.site.mapping import SCHEMA, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
-from netdesign.site.tables import Table, find_table
-from netdesign.site.titles import UNANSWERED, Title, list_titles
-from netdesign.words.catalogue import render
+from netdesign.site.tables import find_table
+from netdesign.site.titles import Title
+from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 # Findings that an answer to a heading or to an item of a line can settle.
@@ -176,7 +177,7 @@ def _ask(table: Table, finding: Finding) -> Question | None:
 
 def _name_heading(table: Table, address: str) -> str:
     """Heading of the column of a cell, as the file names it."""
-    titles = list_titles(table.sheet, table.heading_row)
+    titles = [title for title, _ in table.titles]
     column = re.sub(r"\d", "", address)
     own = next((one for one in titles if _letters(one) == column), None)
     if own is None:
@@ -205,7 +206,7 @@ def _name_field(table: Table, address: str) -> str:
         if place and table.cell(1, field.key):
             cell = table.sheet.cell(1, place.number)
             if re.sub(r"\d", "", cell.address) == column:
-                return field.wording(table.language).label
+                return field.label_in(table.language)
     return UNANSWERED
 
 
@@ -254,7 +255,7 @@ def _list_headings(
         column = table.columns.get(field.key)
         if column is None or column.unit is None:
             continue
-        heading = _find_title(table.sheet, table.heading_row, column.number)
+        heading = _find_title(table, column.number)
         label = render(field.name, language)
         is_given = column.unit not in ("", IN_CELLS)
         unit = f" [{column.unit}]" if is_given else ""
@@ -273,8 +274,8 @@ def _list_unread(
                 yield f'# {_quote(name)} = "ignore"'
 
 
-def _find_title(sheet: Sheet, row: int, column: int) -> str:
-    titles = list_titles(sheet, row)
+def _find_title(table: Table, column: int) -> str:
+    titles = (title for title, _ in table.titles)
     return next((one.asked for one in titles if one.cell.column == column), "")
 
 

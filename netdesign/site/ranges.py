@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as of_dataclass
 
@@ -10,18 +10,16 @@ from netdesign.envelope.parameters import ONE_QUANTITY
 from netdesign.envelope.ranges import MOST_GRID_CASES, Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.cells import Cell
-from netdesign.site.cells.findings import Finding, Refusal, quote
-from netdesign.site.cells.typed_units import find_typed_unit, split_range
-from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, USUAL_QUANTITIES
-from netdesign.site.columns.fields import Field, split_heading
-from netdesign.site.columns.heading_text import find_unit
+from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.cells.numbers import split_range
+from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, NETS, USUAL_QUANTITIES
+from netdesign.site.columns.fields import Field, SheetPlan, split_heading
+from netdesign.site.columns.lexicon import Meaning, find_unit
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
-from netdesign.site.headings import name_units, quote_title
-from netdesign.site.items import match_item, refuse_unused_answers
+from netdesign.site.headings import Table, name_units, quote_title
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, read_cell, refuse
-from netdesign.site.tables import Table, read_field
-from netdesign.site.titles import Meaning
+from netdesign.site.tables import match_item, read_field, refuse_unused_answers
 from netdesign.words.message import Message, say
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
@@ -55,24 +53,27 @@ class RangesSheet:
         Quantities that have no line, and range as they usually do.
     lines : tuple of Row
         Both ends of each range, one a line.
+    findings : sequence of Finding
+        About the sheet; they are told behind those of sheet Nets.
     """
 
     ranges: Ranges | None = None
     inputs: tuple[InputEcho, ...] = ()
     unsaid: tuple[Message, ...] = ()  # quantities that nobody gives
     lines: tuple[Row, ...] = ()
+    findings: Sequence[Finding] = ()
     ends: Mapping[str, tuple[Reading, Reading] | None] = of_dataclass(
         default_factory=dict
     )
 
 
-def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
+def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     """Build the usual three ranges and those of further quantities.
 
     Parameters
     ----------
-    table : Table
-        Sheet Ranges, one quantity a line.
+    table : Table or None
+        Sheet Ranges, one quantity a line, if it was found.
     findings : list of Finding
         Appended to.
 
@@ -81,6 +82,8 @@ def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
     RangesSheet
         Without ranges where a fault went to ``findings``.
     """
+    if table is None:
+        return RangesSheet()
     found: dict[str, _Range | None] = {}
     names: dict[str, Reading] = {}
     for row in table.rows:
@@ -91,7 +94,7 @@ def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
             continue
         if one.required:
             rule = say("range.lacks", heading=one.title)
-            findings.append(table.sheet.finding(Refusal(rule, one.accepted)))
+            findings.append(table.sheet.finding(rule, one.accepted))
             found[one.key] = None
         else:
             found[one.key] = _default_inclination(one)
@@ -140,8 +143,9 @@ def refuse_large_grid(
     count = n_rows * ranges.grid_cases
     if count > MOST_GRID_CASES:
         accepted = say("range.most_cases", most=MOST_GRID_CASES)
-        refusal = Refusal(say("range.large_grid", count=count), accepted)
-        findings.append(table.sheet.finding(refusal))
+        findings.append(
+            table.sheet.finding(say("range.large_grid", count=count), accepted)
+        )
 
 
 def _refuse_doubles(names: Mapping[str, Reading], findings: list[Finding]) -> list[str]:
@@ -231,7 +235,7 @@ def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:
     beside = next((one for one in (low, high) if one and not one.is_blank), None)
     if beside is not None:
         rule = say("range.twice_in_line", place=beside.place)
-        findings.append(span.finding(Refusal(rule, say("range.one_or_both"))))
+        findings.append(span.finding(rule, say("range.one_or_both")))
         return None
     if not isinstance(span.value, str):
         return span, span  # a single number, or what is refused as none
@@ -244,7 +248,7 @@ def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:
 def _find_typed(ends: _Ends | None, meaning: Meaning) -> str:
     """Unit that both ends have in their cells, or that was answered; else none."""
     filled = [one for one in ends or () if one and not one.is_blank]
-    units = {normalise_unit(find_typed_unit(one)) for one in filled}
+    units = {normalise_unit(one.own_unit) for one in filled}
     return meaning.unit or (units.pop() if len(units) == 1 else "")
 
 
@@ -374,3 +378,78 @@ def _build_range(field: Field, line: _Line) -> _Range:
     labelled = replace(samples, field=replace(samples.field, named=named))
     inputs = (low.echo(), high.echo(), labelled.echo())
     return _Range(interval=interval, inputs=inputs, low=low, high=high)
+
+
+Ends = Mapping[str, tuple[Reading, Reading] | None]  # as `ranges.RangesSheet` has them
+
+_SNOW = ("snow_thickness", "snow_height")
+_GLIDE = ("slip_length", "glide_factor")
+
+
+def _list_columns(own: str) -> tuple[str, ...]:
+    """Column of sheet Nets, then the one that gives the same otherwise, if any."""
+    beside = [
+        one.key if one.alternative_to == own else one.alternative_to
+        for one in NETS.fields
+        if one.alternative_to and own in (one.key, one.alternative_to)
+    ]
+    return (own, *beside)
+
+
+# Columns by the quantity that ranges, its own first; none of them may be filled in.
+_COLUMNS: Mapping[str, tuple[str, ...]] = {
+    one.key: _list_columns(one.column) for one in FURTHER_QUANTITIES
+}
+_SEVERE_IS_LOW = ("slack",)
+
+
+def free_columns(plan: SheetPlan, ends: Ends) -> SheetPlan:
+    """Plan of sheet Nets without the need for columns that sheet Ranges gives."""
+    given = {column for name in ends for column in _COLUMNS[name]}
+    fields = tuple(
+        replace(one, required=False, default=None) if one.key in given else one
+        for one in plan.fields
+    )
+    is_sized = given.isdisjoint(_SNOW)
+    return replace(plan, fields=fields, one_of=plan.one_of if is_sized else ())
+
+
+def fill_in_ranges(row: Row, ends: Ends, findings: list[Finding]) -> Row:
+    """Line of sheet Nets with the severe end of every range.
+
+    Parameters
+    ----------
+    row : Row
+        Line as read.
+    ends : mapping of str to tuple of Reading, or None
+        Of the quantities that range; None where the range has a fault.
+    findings : list of Finding
+        Appended to, where the line gives what ranges, or where glide ranges and its
+        ground does not slide.
+    """
+    filled = dict(row)
+    for name, pair in ends.items():
+        own, *_ = columns = _COLUMNS[name]
+        given = [row[column] for column in columns if row[column].state == "given"]
+        for reading in given:
+            place = pair[0].place if pair else say("sheet.Ranges")
+            rule = say("range.beside", place=place)
+            refuse(reading, rule, say("range.empty_or_no_range"), findings)
+        if pair is None or given or not _can_glide(row, name, pair, findings):
+            filled[own] = replace(row[own], state="faulty")
+            continue
+        severe = pair[0 if name in _SEVERE_IS_LOW else 1]
+        filled[own] = replace(severe, field=row[own].field, state="given")
+    return filled
+
+
+def _can_glide(
+    row: Row, name: str, pair: tuple[Reading, Reading], findings: list[Finding]
+) -> bool:
+    """True if the ground slides, or its glide does not range."""
+    own, ground = _COLUMNS[name][0], row["ground_law"]
+    if own not in _GLIDE or ground.word in ("sliding", ""):
+        return True
+    rule = say("range.not_sliding", place=pair[0].place, name=row[own].field.name)
+    refuse(ground, rule, say("range.sliding_or_none"), findings)
+    return False

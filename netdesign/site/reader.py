@@ -29,10 +29,14 @@ from netdesign.site.columns.all_tables import (
     WINTER,
 )
 from netdesign.site.columns.fields import split_heading
-from netdesign.site.confirmed_values import read_confirmed
 from netdesign.site.declared_sheet import read_declared
-from netdesign.site.end_supports import read_ends
-from netdesign.site.items import match_item, refuse_unused_answers
+from netdesign.site.headings import Table
+from netdesign.site.lines import (
+    TYPE_SHEETS,
+    Lines,
+    index_lines,
+    refuse_unknown_ids,
+)
 from netdesign.site.mapping import (
     give_answers,
     is_meant,
@@ -41,28 +45,37 @@ from netdesign.site.mapping import (
 )
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
-from netdesign.site.net_rows import build_net_rows, index_by_id, list_catalogue
-from netdesign.site.plausible.questions import Lines, ask
-from netdesign.site.ranged_columns import free_columns
-from netdesign.site.ranges import RangesSheet, build_ranges, refuse_large_grid
+from netdesign.site.net_rows import build_net_rows
+from netdesign.site.plausible import ask
+from netdesign.site.ranges import (
+    RangesSheet,
+    build_ranges,
+    free_columns,
+    refuse_large_grid,
+)
 from netdesign.site.readings import Row, refuse
 from netdesign.site.replaced import replace_cells, tell_replaced
 from netdesign.site.snow_layers import check_layers, read_layers
-from netdesign.site.support_types import check_support_types
+from netdesign.site.support_types import list_catalogue
 from netdesign.site.tables import (
-    Table,
     find_table,
     is_absent,
     is_near,
+    match_item,
     read_rows,
+    refuse_unused_answers,
 )
-from netdesign.site.type_resistances import check_tests, fill_in_resistances
+from netdesign.site.type_resistances import (
+    check_support_types,
+    check_tests,
+    fill_in_resistances,
+)
 from netdesign.site.winter_sheet import read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import say
 
 _LAWS = tuple(CREEP_LAWS)
-_TYPE_SHEETS = (ANCHORS, ROPES, POSTS)
+_TYPE_PLANS = (ANCHORS, ROPES, POSTS)
 
 
 def read_site(
@@ -95,67 +108,100 @@ def read_site(
     """
     workbook, replaced = replace_cells(read_cells(path, text_format), instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
-    ranged = _read_ranges(find_table(workbook, RANGES_AS_TYPED, []), []).ends
-    as_typed = {NETS.name: free_columns(NETS, ranged), RANGES.name: RANGES_AS_TYPED}
-    plans = [as_typed.get(plan.name, plan) for plan in SHEETS]
-    tables = {plan.name: find_table(workbook, plan, findings) for plan in plans}
+    tables, ranges = _find_tables(workbook, findings)
     project, project_cells = _read_project(tables[PROJECT.name], findings)
-    type_sheets = {
-        plan.name: _read_types(tables[plan.name], findings) for plan in _TYPE_SHEETS
-    }
-    snow = read_layers(tables[SNOW.name], findings)
-    ends = read_ends(tables[ENDS.name], findings)
-    nets, ranges = tables[NETS.name], tables[RANGES.name]
-    absent = [plan.name for plan in _TYPE_SHEETS if is_absent(workbook, plan)]
-    net_rows: tuple[NetRow, ...] = ()
-    lines = list(read_rows(nets, findings)) if nets else []
-    if nets:
-        net_rows = build_net_rows(
-            nets, lines, type_sheets, snow, findings, absent, ends, ranged
-        )
-    built = _read_ranges(ranges, findings)
-    if ranges and built.ranges:
-        refuse_large_grid(ranges, built.ranges, len(net_rows), findings)
-        check_layers(net_rows, snow, built.ranges, findings)
-    ids = {line["id"].word for line in lines} - {""}
-    monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
-    winter = read_winter(tables[WINTER.name], ids, findings)
-    declared = read_declared(tables[DECLARED.name], ids, findings)
-    confirmed = read_confirmed(tables[DECLARED.name], workbook, findings)
+    lines = _read_lines(workbook, tables, ranges, findings)
+    net_rows = _build_rows(tables, lines, findings)
+    monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
+    winter = read_winter(tables[WINTER.name], lines.places, findings)
+    said = tables[DECLARED.name]
+    declared, confirmed = read_declared(said, workbook, lines.places, findings)
     findings.extend(_note_unread(workbook, findings))
-    if built.ranges is None or any(finding.severity == "error" for finding in findings):
+    if ranges.ranges is None or any(one.severity == "error" for one in findings):
         raise SiteDataError(findings, fold_findings(findings))
-    notes = fold_findings([_shorten(one) for one in findings])
-    stated = Lines(
-        nets=lines, ends=ends, snow=snow, types=type_sheets, ranges=built.lines
+    notes = fold_findings(list(map(_shorten, findings)))
+    questions = ask(lines, confirmed, findings)
+    rows = tuple(
+        replace(
+            tell_replaced(row, replaced),
+            unsaid=row.unsaid + ranges.unsaid,
+            questions=questions.get(row.id, ()),
+        )
+        for row in net_rows
     )
-    questions = ask(stated, confirmed, findings)
-    rows = (tell_replaced(row, replaced) for row in net_rows)
     return Site(
         project=project,
-        ranges=built.ranges,
-        rows=tuple(
-            replace(
-                one,
-                unsaid=one.unsaid + built.unsaid,
-                questions=questions.get(one.id, ()),
-            )
-            for one in rows
-        ),
+        ranges=ranges.ranges,
+        rows=rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
         notes=(*notes, *(one.message for one in confirmed)),
         findings=tuple(findings),
-        range_inputs=built.inputs,
+        range_inputs=ranges.inputs,
         project_cells=project_cells,
         monitoring=monitoring,
         winter=winter,
         declared=declared,
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
-        catalogue=list_catalogue(type_sheets),
+        catalogue=list_catalogue(lines.types),
         what_if=replaced,
     )
+
+
+def _find_tables(
+    workbook: Workbook, findings: list[Finding]
+) -> tuple[Mapping[str, Table | None], RangesSheet]:
+    """Tables by the name of their sheet, and what ranges: other sheets need it less."""
+    told: list[Finding] = []
+    table = find_table(workbook, RANGES_AS_TYPED, told)
+    ranges = replace(build_ranges(table, told), findings=told)
+    nets = free_columns(NETS, ranges.ends)
+    plans = [nets if one is NETS else one for one in SHEETS if one is not RANGES]
+    tables = {plan.name: find_table(workbook, plan, findings) for plan in plans}
+    return {RANGES.name: table, **tables}, ranges
+
+
+def _read_lines(
+    workbook: Workbook,
+    tables: Mapping[str, Table | None],
+    ranges: RangesSheet,
+    findings: list[Finding],
+) -> Lines:
+    types = {sheet: _read_types(tables[sheet], findings) for sheet in TYPE_SHEETS}
+    snow = read_layers(tables[SNOW.name], findings)
+    ends, nets = (
+        list(read_rows(table, findings)) if (table := tables[one.name]) else []
+        for one in (ENDS, NETS)
+    )
+    lines = Lines(
+        nets=nets,
+        ends=index_lines(ends, "row", say("ends.one_line"), findings),
+        snow=snow,
+        types={sheet: found or {} for sheet, found in types.items()},
+        absent=[plan.name for plan in _TYPE_PLANS if is_absent(workbook, plan)],
+        unreadable=[sheet for sheet, found in types.items() if found is None],
+        ranges=ranges,
+    )
+    if tables[NETS.name]:
+        for lines_of in snow.values():
+            refuse_unknown_ids([lines_of[0]["row"]], lines.places, findings)
+        named = (one["row"] for one in lines.ends.values())
+        refuse_unknown_ids(named, lines.places, findings)
+    return lines
+
+
+def _build_rows(
+    tables: Mapping[str, Table | None], lines: Lines, findings: list[Finding]
+) -> tuple[NetRow, ...]:
+    """Net rows without a fault, held against what ranges over the whole site."""
+    nets, ranged, ranges = tables[NETS.name], tables[RANGES.name], lines.ranges
+    rows = build_net_rows(nets, lines, findings) if nets else ()
+    findings.extend(ranges.findings)
+    if ranged and ranges.ranges:
+        refuse_large_grid(ranged, ranges.ranges, len(rows), findings)
+        check_layers(rows, lines.snow, ranges.ranges, findings)
+    return rows
 
 
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
@@ -232,10 +278,6 @@ def _read_project(
     return Project(**values), cells
 
 
-def _read_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
-    return build_ranges(table, findings) if table else RangesSheet()
-
-
 def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] | None:
     """Lines of a type sheet by id; a faulty line keeps its id known.
 
@@ -253,5 +295,5 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] 
     filled = [fill_in_resistances(row, findings) for row in rows]
     for row in filled:  # a computed resistance beside tests is one too many, too
         check_tests(row, findings)
-    by_id = index_by_id(filled, findings)
+    by_id = index_lines(filled, "id", say("nets.ids_once"), findings)
     return by_id if "id" in table.columns else None

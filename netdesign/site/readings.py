@@ -11,8 +11,11 @@ from typing import Literal
 from netdesign.errors import ModelError
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, Severity, add_nearest
-from netdesign.site.cells.numbers import DecimalMark, parse_number
-from netdesign.site.cells.typed_units import find_typed_unit, split_unit
+from netdesign.site.cells.numbers import (
+    DecimalMark,
+    parse_number,
+    split_unit,
+)
 from netdesign.site.columns.fields import Field, normalise
 from netdesign.site.columns.unit_names import (
     KNOWN_UNITS,
@@ -123,7 +126,7 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
         return _read_with_own_unit(cell, field, findings)
     understood = _understand(cell, field, unit)
     if isinstance(understood, Refusal):
-        findings.append(cell.finding(understood, field.title_in(unit)))
+        findings.append(cell.finding(*understood, field.title_in(unit)))
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
     if understood is None:
         return read_nothing(field, cell)
@@ -138,7 +141,7 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
 
 def _read_with_own_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
     """Read a cell below a heading without unit, whose neighbours have one each."""
-    unit = normalise_unit(find_typed_unit(cell))
+    unit = normalise_unit(cell.own_unit)
     if cell.is_blank or refuse_stored(cell):
         return read_cell(cell, field, field.unit, findings)
     if unit in field.units:
@@ -147,13 +150,13 @@ def _read_with_own_unit(cell: Cell, field: Field, findings: list[Finding]) -> Re
     if unit in UNCLEAR_UNITS:
         rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[unit])
     units = say("accepted.units", units=tuple(f"[{one}]" for one in field.units))
-    findings.append(cell.finding(Refusal(rule, units), field.name))
+    findings.append(cell.finding(rule, units, field.name))
     return Reading(field=field, state="faulty", text=cell.text, cell=cell)
 
 
 def _describe_typed(cell: Cell, field: Field, unit: str) -> str:
     """Text as typed; with its unit where that is another than the field's."""
-    if unit == field.unit or (isinstance(cell.value, str) and find_typed_unit(cell)):
+    if unit == field.unit or (isinstance(cell.value, str) and cell.own_unit):
         return cell.text
     shown = _take_number(cell, unit) if _is_percentage(cell) else cell.text
     return f"{shown:g} {unit}" if isinstance(shown, float) else f"{cell.text} {unit}"
@@ -182,8 +185,7 @@ def refuse(
     if reading.cell is not None:
         field = reading.field
         title = field.title_in(unit) if unit else field.title
-        refusal = Refusal(rule, accepted)
-        finding = reading.cell.finding(refusal, title, severity=severity)
+        finding = reading.cell.finding(rule, accepted, title, severity=severity)
         findings.append(finding)
 
 
@@ -203,14 +205,14 @@ def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Read
     else:
         # a percentage is a number, whether or not it can be one in this column
         value = cell.value
-        own = normalise_unit(find_typed_unit(cell))
+        own = normalise_unit(cell.own_unit)
         if isinstance(value, str) and own in KNOWN_UNITS and own != "%":
             value = split_unit(value)[0]
         plain = replace(cell, shown_unit="", value=value)
         number = refuse_stored(cell) or _take_number(plain, "%")
         refusal = number if isinstance(number, Refusal) else None
     if refusal:
-        findings.append(cell.finding(refusal, field.name))
+        findings.append(cell.finding(*refusal, field.name))
     return Reading(field=field, state="faulty", text=cell.text, cell=cell)
 
 
@@ -330,7 +332,9 @@ def _understand_word(cell: Cell, field: Field) -> str | Refusal:
         words = {spellings.get(normalise(part)) for part in parts}
         word = words.pop() if len(words) == 1 else None
     if word is None:
-        accepted = add_nearest(field.accepted, str(cell.value), field.spellings)
+        accepted = add_nearest(
+            field.accepted, str(cell.value), dict.fromkeys(field.spellings, "")
+        )
         return Refusal(say("cell.unknown_word"), accepted)
     return word
 

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from netdesign.envelope.ranges import Ranges
-from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.cells.findings import Finding
+from netdesign.site.headings import Table
 from netdesign.site.model import InputEcho, NetRow
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import Table, read_rows
+from netdesign.site.tables import read_rows
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.snowpack import THINNEST_LAYER, Layer
 from netdesign.words.message import say
 
-LayersByRow = Mapping[str, tuple[Row, ...]]  # lines from the ground up, by net row
+LayersByRow = Mapping[str, Sequence[Row]]  # lines from the ground up, by net row
 
 # Layers may miss the thickness of their net row by rounding to the centimetre.
 _SUM_TOLERANCE = 0.0101  # [m]
@@ -34,28 +35,14 @@ def read_layers(table: Table | None, findings: list[Finding]) -> LayersByRow:
     return {name: tuple(lines) for name, lines in by_row.items()}
 
 
-def refuse_unknown_rows(
-    snow: LayersByRow, net_rows: Mapping[str, Row], findings: list[Finding]
-) -> None:
-    """Refuse layers of a net row that sheet Nets does not have."""
-    places = {name: row["id"].place for name, row in net_rows.items()}
-    for name, lines in snow.items():
-        if name not in net_rows:
-            sheet = say("sheet.Nets")
-            accepted = say("accepted.id_of_sheet", sheet=sheet)
-            accepted = add_nearest(accepted, name, net_rows, places)
-            rule = say("nets.no_id", sheet=sheet)
-            refuse(lines[0]["row"], rule, accepted, findings)
-
-
 def build_layers(
-    lines: tuple[Row, ...], slope_angle: Reading, findings: list[Finding]
+    lines: Sequence[Row], slope_angle: Reading, findings: list[Finding]
 ) -> tuple[Layer, ...]:
     """Layers of one net row, from the ground up; none if a line is faulty.
 
     Parameters
     ----------
-    lines : tuple of Row
+    lines : sequence of Row
         As ``read_layers`` gives them.
     slope_angle : Reading
         Turns vertical heights into thicknesses normal to the slope.
@@ -127,7 +114,7 @@ def check_layers(
     ----------
     rows : tuple of NetRow
         Built rows.
-    snow : mapping of str to tuple of Row
+    snow : mapping of str to sequence of Row
         Lines of sheet Snow.
     ranges : Ranges
         Of the site.
@@ -153,7 +140,7 @@ def check_layers(
 
 
 def _check_sum(
-    row: NetRow, lines: tuple[Row, ...], ranges: Ranges, findings: list[Finding]
+    row: NetRow, lines: Sequence[Row], ranges: Ranges, findings: list[Finding]
 ) -> None:
     """Refuse layers whose thickness lies outside its range."""
     total = sum(layer.thickness for layer in row.layers)
@@ -169,7 +156,7 @@ def _check_sum(
             refuse(_size_of(lines[0]), rule, say("range.sum_or_wider"), findings)
 
 
-def echo_layers(lines: tuple[Row, ...]) -> tuple[InputEcho, ...]:
+def echo_layers(lines: Sequence[Row]) -> tuple[InputEcho, ...]:
     """Every input of the layers of a net row."""
     echoes = []
     for line in lines:

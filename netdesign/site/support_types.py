@@ -1,27 +1,38 @@
-"""Dimensions of anchors, guys and posts, where a resistance follows the demand.
+"""From lines of the type sheets to what each member of a row bears.
 
-How an anchor bends depends on where the pull points, how much compression a post bears
-on the snow against it, how its base slides on what presses it: what is read here is
-what the study needs to work such a resistance out.
+A resistance that follows the demand stays open: how an anchor bends depends on where
+the pull points, how much compression a post bears on the snow against it, how its base
+slides on what presses it. Here stand the dimensions that the study works it out from.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 from netdesign.errors import ModelError
-from netdesign.resistance.catalogue import find_imperfection, load_catalogue
-from netdesign.resistance.post import (
-    BucklingResistance,
-    PostSection,
-    compute_buckling_resistance,
-)
+from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import RoundSection
-from netdesign.site.cells.findings import Finding
-from netdesign.site.model import AnchorType, BaseFriction, Resistance
-from netdesign.site.readings import Reading, Row, refuse
-from netdesign.structure.members import Member
+from netdesign.site.lines import Types
+from netdesign.site.model import (
+    END_MODES,
+    MEMBER_MODES,
+    NAMED_BY,
+    AnchorType,
+    BaseFriction,
+    Resistance,
+    RowEnd,
+)
+from netdesign.site.readings import Reading, Row
+from netdesign.site.type_resistances import (
+    SECTION,
+    compute_buckling,
+    find_tests,
+    lacks_inner,
+    read_inner,
+)
+from netdesign.structure.members import EndMember, Member
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, say
 
@@ -30,10 +41,15 @@ _AXES = {
     Member.UPHILL_ANCHOR: "uphill_axis",
     Member.DOWNHILL_ANCHOR: "downhill_axis",
 }
-_BENT, _SOLID = ("bar", "micropile"), "bar"
-_DEFAULT_CURVE = "d"
-_SECTION = ("area", "second_moment", "buckling_length", "yield_strength")
-_BENT_POST = ("post_width", "section_modulus", *_SECTION)
+_BENT_POST = ("post_width", "section_modulus", *SECTION)
+# By type sheet: a member that takes its types, and what these may fail by.
+_CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = MappingProxyType(
+    {
+        "Anchors": (Member.FOOT_ANCHOR, ("tendon", "pull_out")),
+        "Ropes": (Member.UPHILL_GUY, ("rope",)),
+        "Posts": (Member.POST, ("compression",)),
+    }
+)
 
 
 def read_guys(row: Row) -> Guys:
@@ -45,23 +61,28 @@ def read_guys(row: Row) -> Guys:
     )
 
 
-def read_axes(row: Row) -> dict[Member, float]:
+def read_axes(row: Row) -> tuple[tuple[Member, float], ...]:
     """Inclinations of those anchors that have one given [rad]."""
-    return {m: row[key].si for m, key in _AXES.items() if row[key].state == "given"}
+    given = ((member, row[key].given_si) for member, key in _AXES.items())
+    return tuple((member, axis) for member, axis in given if axis is not None)
 
 
-def read_anchor_types(row: Row, types: Mapping[str, Row]) -> dict[Member, AnchorType]:
+def read_anchor_types(row: Row, types: Types) -> tuple[tuple[Member, AnchorType], ...]:
     """Kind and steel of each anchor whose type is in its sheet."""
-    return {m: _read_anchor(types[row[m].word]) for m in _AXES if row[m].word in types}
+    lines = types["Anchors"]
+    return tuple(
+        (member, _read_anchor(lines[row[member].word]))
+        for member in _AXES
+        if row[member].word in lines
+    )
 
 
 def _read_anchor(line: Row) -> AnchorType:
     outer, strength = line["bar_diameter"], line["bar_strength"]
+    is_known = outer.state == strength.state == "given" and not lacks_inner(line)
     return AnchorType(
         kind=line["kind"].word,
-        section=_build_section(line)
-        if outer.state == strength.state == "given" and not lacks_inner(line)
-        else None,
+        section=_build_section(line) if is_known else None,
         lever=line["lever_arm"].given_si,
     )
 
@@ -78,55 +99,118 @@ def _build_section(line: Row) -> RoundSection | None:
         return None
 
 
-def lacks_inner(line: Row) -> bool:
-    """Lack of an inner diameter of an anchor that may be hollow."""
-    is_solid = line["kind"].word == _SOLID
-    return (
-        line["bar_diameter"].state == "given"
-        and line["inner_diameter"].state != "given"
-        and not is_solid
-    )
-
-
-def read_inner(line: Row) -> float:
-    """Inner diameter of an anchor's steel [m]; 0 of a solid bar."""
-    return line["inner_diameter"].given_si or 0.0
-
-
-def list_dependent(
-    row: Row, anchors: Mapping[str, Row], posts: Mapping[str, Row]
-) -> tuple[Resistance, ...]:
-    """Resistances of a net row that follow the demand, their values still open.
+def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
+    """Resistances of all members of a row in every mode, given or not.
 
     Parameters
     ----------
     row : mapping of str to Reading
-        Line of sheet Nets.
-    anchors, posts : mapping of str to mapping of str to Reading
-        Lines of the type sheets by id.
+        Line of sheet Nets, or one with the types of the row's end.
+    types : mapping of str to mapping of str to Row
+        Lines of the type sheets.
     """
-    types = read_anchor_types(row, anchors)
-    bent = [
-        _read_bent_anchor(row[member], member, types.get(member)) for member in _AXES
-    ]
-    post = row[Member.POST]
-    line = posts.get(post.word)
-    found = (one for one in bent if one is not None)
-    return (*found, _read_bent_post(post, line), _read_sliding(post, line))
+    anchors, post = dict(read_anchor_types(row, types)), row[Member.POST]
+    line = types["Posts"].get(post.word)
+    bent = (_bend_anchor(row[one], one, anchors.get(one)) for one in _AXES)
+    return (
+        *(
+            _find_resistance(row[NAMED_BY.get(member, member)], mode, member, types)
+            for member, mode in MEMBER_MODES
+        ),
+        *(one for one in bent if one is not None),
+        _bend_post(post, line),
+        _slide(post, line),
+    )
 
 
-def _read_bent_anchor(
+def find_end_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
+    """The same at the row's end; types that are not named there are told together."""
+    lack = say("row_end.no_types")
+    return tuple(
+        one if one.type_id else replace(one, source="Ends", lack=lack)
+        for one in find_resistances(row, types)
+    )
+
+
+def build_row_end(end: Row | None, types: Types) -> RowEnd:
+    """Members that hold a row along itself, all of them, given or not."""
+    lack = say("row_end.no_members")
+    return RowEnd(
+        guy_angle=end["end_guy_angle"].given_si if end else None,
+        resistances=tuple(
+            _find_resistance(end[member], mode, member, types)
+            if end
+            else Resistance(member=member, mode=mode, source="Ends", lack=lack)
+            for member, mode in END_MODES
+        ),
+    )
+
+
+def list_catalogue(types: Types) -> tuple[Resistance, ...]:
+    """Resistances of every type of the workbook, of some member that may have it.
+
+    Those that follow the demand have no place here: they need a member.
+    """
+    return tuple(
+        _describe_type(kind, mode, member, sheet)
+        for sheet, (member, modes) in _CATALOGUE.items()
+        for kind in types[sheet].values()
+        for mode in modes
+    )
+
+
+def _find_resistance(
+    reading: Reading, mode: str, member: Member | EndMember, types: Types
+) -> Resistance:
+    """Resistance of a member in one mode; no type or no value gives None."""
+    if not reading.word:
+        return Resistance(member=member, mode=mode, source=reading.place or "Nets")
+    sheet = reading.field.refers_to
+    return _describe_type(types[sheet][reading.word], mode, member, sheet)
+
+
+def _describe_type(
+    kind: Row, mode: str, member: Member | EndMember, sheet: str
+) -> Resistance:
+    """Resistance of a type in one mode, given or not."""
+    resistance = kind[mode]
+    tests = find_tests(kind) if mode == "pull_out" else None
+    is_given = resistance.state == "given"
+    is_derived = is_given and resistance.derivation is not None
+    # A pull-out resistance says how it is known; the others are makers' values.
+    basis = kind["basis"].word if mode == "pull_out" else "declared"
+    if is_derived:
+        basis = "computed"
+    is_strut = is_derived and mode == "compression"
+    place = kind["test_least"].place if tests else resistance.place
+    is_open = mode == "tendon" and not is_given and lacks_inner(kind)
+    return Resistance(
+        member=member,
+        mode=mode,
+        value=resistance.si if is_given and not tests else None,
+        basis="tested" if tests else basis if is_given else "",
+        type_id=kind["id"].word,
+        source=place or sheet,
+        derivation=resistance.derivation if is_given else None,
+        tests=tests,
+        lack=say("type.no_inner", id=kind["id"].word) if is_open else None,
+        buckling_length=kind["buckling_length"].si if is_strut else None,
+        ground=kind["ground"].word if "ground" in kind else "",
+    )
+
+
+def _bend_anchor(
     named: Reading, member: Member, anchor: AnchorType | None
 ) -> Resistance | None:
     """Resistance of an anchor to bending; None of a rope anchor, which turns."""
     if anchor is None:
-        return _open(named, member, "bending", None)
+        return _open(named, member, "bending")
     if anchor.kind == "rope anchor":
         return None
     if not anchor.kind:
-        return _open(named, member, "bending", None, say("bending.no_kind"))
+        return _open(named, member, "bending", lack=say("bending.no_kind"))
     if anchor.lever is None:
-        return _open(named, member, "bending", None, say("bending.no_lever"))
+        return _open(named, member, "bending", lack=say("bending.no_lever"))
     return _open(named, member, "bending", anchor)
 
 
@@ -134,7 +218,7 @@ def _open(
     named: Reading,
     member: Member,
     mode: str,
-    dimensions: AnchorType | PostSection | BaseFriction | None,
+    dimensions: AnchorType | PostSection | BaseFriction | None = None,
     lack: Message | None = None,
     source: str = "",
 ) -> Resistance:
@@ -142,7 +226,6 @@ def _open(
     return Resistance(
         member=member,
         mode=mode,
-        value=None,
         basis="computed" if dimensions else "",
         type_id=named.word,
         source=source or named.place or "Nets",
@@ -151,15 +234,16 @@ def _open(
     )
 
 
-def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
+def _bend_post(named: Reading, line: Row | None) -> Resistance:
+    """Resistance of a post to compression and the snow against it."""
     mode = "compression_bending"
     if line is None:
-        return _open(named, Member.POST, mode, None)
+        return _open(named, Member.POST, mode)
     blank = [key for key in _BENT_POST if line[key].state != "given"]
     if blank:
         names = tuple(line[key].field.name for key in blank)
         lack = say("check.bent_post_needs", names=names)
-        return _open(named, Member.POST, mode, None, lack)
+        return _open(named, Member.POST, mode, lack=lack)
     buckling = compute_buckling(line)
     section = PostSection(
         width=line["post_width"].si,
@@ -174,74 +258,17 @@ def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
     return replace(found, buckling_length=section.length)
 
 
-def compute_buckling(line: Row) -> BucklingResistance:
-    """Buckling resistance of a post by its dimensions, all of them given."""
-    return compute_buckling_resistance(
-        area=line["area"].si,
-        second_moment=line["second_moment"].si,
-        length=line["buckling_length"].si,
-        yield_strength=line["yield_strength"].si,
-        modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
-        imperfection=find_imperfection(name_curve(line)).value,
-    )
-
-
-def name_curve(line: Row) -> str:
-    """Buckling curve of a post; the lowest where none is given."""
-    return line["buckling_curve"].word or _DEFAULT_CURVE
-
-
-def _read_sliding(named: Reading, line: Row | None) -> Resistance:
+def _slide(named: Reading, line: Row | None) -> Resistance:
+    """Resistance of a post's base to sliding: by its friction, or as declared."""
     friction = line["base_friction"] if line else None
     given = line["sliding"] if line else None
     if friction is not None and friction.state == "given":
         base = BaseFriction(coefficient=friction.si)
-        place = friction.place
-        return _open(named, Member.POST_BASE, "sliding", base, source=place)
+        return _open(named, Member.POST_BASE, "sliding", base, source=friction.place)
     lack = say("check.no_sliding_resistance")
-    found = _open(named, Member.POST_BASE, "sliding", None, lack)
+    found = _open(named, Member.POST_BASE, "sliding", lack=lack)
     if given is None or given.state != "given":
         return found
-    return Resistance(
-        member=found.member,
-        mode=found.mode,
-        value=given.si,
-        basis="declared",
-        type_id=found.type_id,
-        source=given.place,
+    return replace(
+        found, value=given.si, basis="declared", source=given.place, lack=None
     )
-
-
-def _check_lever(row: Row, findings: list[Finding]) -> None:
-    """Refuse a lever arm of an anchor that is not said to bend."""
-    if "lever_arm" not in row or row["lever_arm"].state != "given":
-        return
-    lever, kind = row["lever_arm"], row["kind"]
-    if kind.state == "faulty" or kind.word in _BENT:
-        return
-    rule = say("type.needs_more", names=(kind.field.name,))
-    if kind.word:
-        rule = say("type.beside", name=kind.field.name, place=kind.place)
-    bent = tuple(kind.field.name_word(word) for word in _BENT)
-    refuse(lever, rule, say("accepted.words", words=bent), findings)
-
-
-def check_support_types(row: Row, findings: list[Finding]) -> None:
-    """Refuse what is given twice, the inside of no tube, the lever of what turns."""
-    _check_lever(row, findings)
-    if "base_friction" in row and row["base_friction"].state == "given":
-        beside = row["sliding"]
-        if beside.state == "given":
-            rule = say("type.beside", name=beside.field.name, place=beside.place)
-            refuse(row["base_friction"], rule, say("accepted.one_of_two"), findings)
-    if "inner_diameter" in row and row["inner_diameter"].state == "given":
-        outer, inner, kind = (
-            row[key] for key in ("bar_diameter", "inner_diameter", "kind")
-        )
-        if kind.word == _SOLID:
-            rule = say("type.beside", name=kind.field.name, place=kind.place)
-            hollow = kind.field.name_word("micropile")
-            refuse(inner, rule, say("accepted.words", words=(hollow,)), findings)
-        if outer.state == "blank":  # a tube without a wall has no tendon resistance
-            rule = say("type.needs_more", names=(outer.field.name,))
-            refuse(inner, rule, say("type.all_or_none"), findings)

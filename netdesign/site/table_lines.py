@@ -6,9 +6,9 @@ import re
 from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet
-from netdesign.site.cells.findings import Finding, Refusal
+from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import SheetPlan, find_item, normalise
-from netdesign.site.headings import Headings
+from netdesign.site.headings import Table
 from netdesign.words.message import Message, say
 
 # What makes a single text below a table a note and not the start of another line.
@@ -33,15 +33,13 @@ _SECTION = re.compile(
 _WIDE = 3  # columns of a merged cell that heads a part of a table
 
 
-def find_data_rows(
-    sheet: Sheet, plan: SheetPlan, headings: Headings, findings: list[Finding]
-) -> tuple[int, ...]:
+def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
     """Rows of a table that hold data.
 
     Parameters
     ----------
-    sheet, plan, headings
-        The sheet, what it should hold, and where its headings are.
+    table : Table
+        The sheet with its headings.
     findings : list of Finding
         Appended to: every filled line that is not read, and gaps in the table.
 
@@ -50,36 +48,29 @@ def find_data_rows(
     tuple of int
         Ascending numbers of rows.
     """
-    first_row = headings.first_data_row
+    sheet, plan, first_row = table.sheet, table.plan, table.first_data_row
     # no line of a table of items may be taken for a note: its value would be lost
-    width = 0 if plan.items else len(headings.columns)
+    width = 0 if plan.items else len(table.columns)
     filled = sorted(row for row in sheet.rows if row >= first_row and sheet.row(row))
     while filled and _is_note(sheet.row(filled[-1]), width):
         cell = sheet.row(filled.pop())[0]
-        refusal = Refusal(say("table.note_below"))
-        findings.append(cell.finding(refusal, severity="note"))
-    passed = {
-        row: rule
-        for row in filled
-        if (rule := _find_other(sheet, plan, headings, row, filled))
-    }
+        findings.append(cell.finding(say("table.note_below"), severity="note"))
+    passed = {row: rule for row in filled if (rule := _find_other(table, row, filled))}
     for row, rule in passed.items():
         cell = sheet.row(row)[0]
-        findings.append(cell.finding(Refusal(rule), severity="note"))
+        findings.append(cell.finding(rule, severity="note"))
     for above, row in pairwise((first_row - 1, *filled)):
         is_at_part = above in passed or row in passed
-        is_whole = not (plan.items or sheet.is_delimited) and _is_whole(
-            sheet, plan, headings, row
-        )
+        is_whole = not (plan.items or sheet.is_delimited) and _is_whole(table, row)
         if row == above + 1 or is_at_part:
             continue
         empty = sheet.cell(above + 1, 1)
         if is_whole:
-            refusal = Refusal(say("table.gap"))
-            findings.append(empty.finding(refusal, severity="note"))
+            findings.append(empty.finding(say("table.gap"), severity="note"))
         else:
-            refusal = Refusal(say("table.empty_row"), say("table.without_gaps"))
-            findings.append(empty.finding(refusal))
+            findings.append(
+                empty.finding(say("table.empty_row"), say("table.without_gaps"))
+            )
     return tuple(row for row in filled if row not in passed)
 
 
@@ -100,26 +91,22 @@ def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
     return bool(_NOTE.match(text)) or len(text.split()) >= _NOTE_WORDS
 
 
-def _find_other(
-    sheet: Sheet, plan: SheetPlan, headings: Headings, row: int, rows: list[int]
-) -> Message | None:
+def _find_other(table: Table, row: int, rows: list[int]) -> Message | None:
     """Rule of a line that holds no data; None of a line of the table."""
-    cells = sheet.row(row)
-    if sheet.is_delimited:  # a line may be cut at wrong places
+    cells = table.sheet.row(row)
+    if table.sheet.is_delimited:  # a line may be cut at wrong places
         return None
-    if _repeats_headings(sheet, headings, cells):
+    if _repeats_headings(table, cells):
         return say("table.headings_again")
-    if _is_part(sheet, plan, cells, rows):
+    if _is_part(table.sheet, table.plan, cells, rows):
         return say("table.part")
-    if _is_total(sheet, plan, headings, row):
+    if _is_total(table, row):
         return say("table.total")
     return None
 
 
-def _repeats_headings(
-    sheet: Sheet, headings: Headings, cells: tuple[Cell, ...]
-) -> bool:
-    above = sheet.rows.get(headings.row, {})
+def _repeats_headings(table: Table, cells: tuple[Cell, ...]) -> bool:
+    above = table.sheet.rows.get(table.heading_row, {})
     return len(cells) > 1 and all(
         cell.column in above
         and normalise(cell.text) == normalise(above[cell.column].text)
@@ -154,28 +141,28 @@ def _is_part(
     )
 
 
-def _is_total(sheet: Sheet, plan: SheetPlan, headings: Headings, row: int) -> bool:
+def _is_total(table: Table, row: int) -> bool:
     """A line sums up others: named so, with less than half of what a line needs."""
-    first = sheet.row(row)[0]
+    first = table.sheet.row(row)[0]
     if not isinstance(first.value, str) or not _TOTAL.match(first.value.strip()):
         return False
-    needed = _list_needed(plan, headings)
-    blank = sum(sheet.cell(row, column).is_blank for column in needed)
+    needed = _list_needed(table)
+    blank = sum(table.sheet.cell(row, column).is_blank for column in needed)
     return 2 * blank > len(needed)
 
 
-def _is_whole(sheet: Sheet, plan: SheetPlan, headings: Headings, row: int) -> bool:
+def _is_whole(table: Table, row: int) -> bool:
     """A line has all that a line of the table needs."""
-    needed = _list_needed(plan, headings)
+    needed = _list_needed(table)
     return len(needed) > 1 and not any(
-        sheet.cell(row, column).is_blank for column in needed
+        table.sheet.cell(row, column).is_blank for column in needed
     )
 
 
-def _list_needed(plan: SheetPlan, headings: Headings) -> list[int]:
+def _list_needed(table: Table) -> list[int]:
     """Columns that every line of a table fills in."""
     return [
-        headings.columns[field.key].number
-        for field in plan.fields
-        if field.required and not field.instead and field.key in headings.columns
+        table.columns[field.key].number
+        for field in table.plan.fields
+        if field.required and not field.instead and field.key in table.columns
     ]

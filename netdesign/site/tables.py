@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import replace
 
-from netdesign.site.cells.cells import Cell, Sheet, Workbook
-from netdesign.site.cells.findings import Finding, Refusal
+from netdesign.site.cells.cells import Sheet, Workbook
+from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import (
     Field,
-    Language,
     SheetPlan,
     find_item,
     normalise,
+    split_heading,
 )
-from netdesign.site.headings import Column, Headings, find_cover, find_headings
+from netdesign.site.columns.lexicon import UNKNOWN, Lexicon, Meaning
+from netdesign.site.headings import Table, find_cover, find_headings
 from netdesign.site.mapping import is_meant
 from netdesign.site.readings import (
     Reading,
@@ -24,30 +25,15 @@ from netdesign.site.readings import (
     read_cell,
     read_nothing,
     read_without_unit,
+    refuse,
 )
 from netdesign.site.table_lines import find_data_rows
-from netdesign.words.catalogue import LANGUAGES
-from netdesign.words.message import say
+from netdesign.site.titles import Title, is_asked, understand
+from netdesign.words.catalogue import LANGUAGES, Language
+from netdesign.words.message import Message, say
 
 # How alike the name of a sheet must be to a missing one to count as that, misspelt.
 _MISSPELT = 0.8
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Table:
-    """A sheet whose headings were understood."""
-
-    sheet: Sheet
-    plan: SheetPlan
-    columns: Mapping[str, Column]  # by field key; absent headings are absent
-    rows: tuple[int, ...]  # numbers of the lines that hold something
-    language: Language  # of its headings
-    heading_row: int = 1
-
-    def cell(self, row: int, key: str) -> Cell | None:
-        """Cell of a field in a row; None without such a heading."""
-        column = self.columns.get(key)
-        return self.sheet.cell(row, column.number) if column else None
 
 
 def find_table(
@@ -73,18 +59,11 @@ def find_table(
     sheet = _find_sheet(workbook, plan, findings)
     if sheet is None:
         return None
-    headings = find_headings(sheet, plan, findings)
-    if headings is None:
+    table = find_headings(sheet, plan, findings)
+    if table is None:
         return None
-    table = Table(
-        sheet=sheet,
-        plan=plan,
-        columns=headings.columns,
-        rows=find_data_rows(sheet, plan, headings, findings),
-        language=headings.language,
-        heading_row=headings.row,
-    )
-    _inspect_layout(table, headings, findings)
+    table = replace(table, rows=find_data_rows(table, findings))
+    _inspect_layout(table, findings)
     return table
 
 
@@ -128,17 +107,15 @@ def _find_sheet(
     ]
     if not sheets:
         findings.extend(_judge_missing(workbook, plan))
-    for double in sheets[1:]:
-        refusal = Refusal(
-            say("table.second_sheet", name=plan.title, first=sheets[0].name)
-        )
-        findings.append(double.finding(refusal))
-    return sheets[0] if sheets else None
+        return None
+    rule = say("table.second_sheet", name=plan.title, first=sheets[0].name)
+    findings.extend(double.finding(rule) for double in sheets[1:])
+    return sheets[0]
 
 
 def is_near(name: str, plan: SheetPlan) -> bool:
     """A name is that of a planned sheet, perhaps misspelt."""
-    known = [normalise(one) for one in (plan.name, *plan.aliases, *plan.names.values())]
+    known = [normalise(one) for one in plan.raw_names]
     stem = name.removesuffix(".csv")  # of a file: "site - Nets.csv"
     words = {normalise(stem), normalise(re.split("[-_]", stem)[-1])}
     return any(
@@ -176,7 +153,7 @@ def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     return [Finding(file=workbook.file, rule=rule, accepted=accepted)]
 
 
-def _inspect_layout(table: Table, headings: Headings, findings: list[Finding]) -> None:
+def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     """Refuse merged cells in the table; note what a reader does not see."""
     sheet = table.sheet
     read = [column.number for column in table.columns.values()]
@@ -188,58 +165,152 @@ def _inspect_layout(table: Table, headings: Headings, findings: list[Finding]) -
         ):
             cell = sheet.cell(merged.row, merged.column)
             rule = say("table.merged", range=merged.text)
-            refusal = Refusal(rule, say("accepted.single_cells"))
-            findings.append(cell.finding(refusal))
+            findings.append(cell.finding(rule, say("accepted.single_cells")))
     if sheet.is_hidden:
-        refusal = Refusal(say("table.hidden_sheet"))
-        findings.append(sheet.finding(refusal, severity="note"))
-    for row in table.rows:
-        if row in sheet.hidden_rows:
-            refusal = Refusal(say("table.hidden_row"))
-            findings.append(sheet.row(row)[0].finding(refusal, severity="note"))
-    for column in table.columns.values():
-        if column.number in sheet.hidden_columns:
-            cell = sheet.cell(headings.row, column.number)
-            refusal = Refusal(say("table.hidden_column"))
-            findings.append(cell.finding(refusal, severity="note"))
-    findings.extend(_note_lines_above(table, headings))
-    _judge_columns_without_heading(table, headings, findings)
+        findings.append(sheet.finding(say("table.hidden_sheet"), severity="note"))
+    hidden = [
+        *(
+            (sheet.row(row)[0], say("table.hidden_row"))
+            for row in table.rows
+            if row in sheet.hidden_rows
+        ),
+        *(
+            (sheet.cell(table.heading_row, number), say("table.hidden_column"))
+            for number in read
+            if number in sheet.hidden_columns
+        ),
+    ]
+    findings.extend(cell.finding(rule, severity="note") for cell, rule in hidden)
+    findings.extend(_note_lines_above(table))
+    _judge_columns_without_heading(table, findings)
 
 
-def _note_lines_above(table: Table, headings: Headings) -> Iterator[Finding]:
+def _note_lines_above(table: Table) -> Iterator[Finding]:
     """Lines above the headings: a title block, or lines of a table put too high."""
-    for row in range(1, headings.row):
+    for row in range(1, table.heading_row):
         cells = table.sheet.row(row)
-        if len(cells) < 2 or row in headings.group_rows:
+        if len(cells) < 2 or row in table.group_rows:
             continue
         item = find_item(str(cells[0].value), table.plan.items)
-        refusal = Refusal(
+        yield cells[0].finding(
             say("table.above_headings"),
             say("table.below_headings") if item else "",
+            severity="error" if item else "note",
         )
-        yield cells[0].finding(refusal, severity="error" if item else "note")
 
 
-def _judge_columns_without_heading(
-    table: Table, headings: Headings, findings: list[Finding]
-) -> None:
+def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> None:
     known = {column.number for column in table.columns.values()}
-    known |= {cell.column for cell in table.sheet.row(headings.row)}
+    known |= {cell.column for cell in table.sheet.row(table.heading_row)}
     for row in table.rows:
         for cell in table.sheet.row(row):
             if cell.column in known:
                 continue
             known.add(cell.column)
-            cover = find_cover(table.sheet, headings.row, cell.column)
+            cover = find_cover(table.sheet, table.heading_row, cell.column)
             if cover:
                 rule = say("table.below_merged", range=cover.text)
-                refusal = Refusal(rule, say("table.heading_each"))
-                findings.append(cell.finding(refusal))
+                findings.append(cell.finding(rule, say("table.heading_each")))
             elif table.sheet.is_delimited or table.plan.items:
                 # a delimiter too many: what stands here may belong to the left of it
                 rule = say("table.no_heading")
-                refusal = Refusal(rule, say("table.as_many_cells"))
-                findings.append(cell.finding(refusal))
+                findings.append(cell.finding(rule, say("table.as_many_cells")))
             else:
-                refusal = Refusal(say("table.no_heading_unread"))
-                findings.append(cell.finding(refusal, severity="note"))
+                findings.append(
+                    cell.finding(say("table.no_heading_unread"), severity="note")
+                )
+
+
+_MARKS = re.compile(r"[;,|:=\t]")  # what may stand between an item and its value
+
+
+def match_item(
+    name: Reading, table: Table, what: str, findings: list[Finding]
+) -> Meaning:
+    """Item that a line names.
+
+    Parameters
+    ----------
+    name : Reading
+        Cell with the item's name.
+    table : Table
+        Its plan lists the items.
+    what : str
+        ``item`` or ``quantity``; for the finding.
+    findings : list of Finding
+        Appended to, where no item has that name: a line that cannot be read must
+        not end as a default.
+
+    Returns
+    -------
+    Meaning
+        Without a field where there is a finding.
+    """
+    if name.cell is None:
+        return UNKNOWN
+    lexicon = Lexicon.of(table.plan.items, table.plan)
+    meaning = understand(Title(name.cell), lexicon, table.sheet.answers)
+    if meaning.is_ignored:
+        rule = say("item.ignored", file=table.sheet.answered_in)
+        refuse(name, rule, "", findings, severity="note")
+    elif meaning.answer and meaning.field:
+        file = table.sheet.answered_in
+        rule = say("heading.answered", name=meaning.field.name, file=file)
+        refuse(name, rule, "", findings, severity="note")
+    elif meaning.field is None:
+        refuse(name, *_explain(name.word, table, what, meaning), findings)
+    return meaning
+
+
+def refuse_unused_answers(table: Table, key: str, findings: list[Finding]) -> None:
+    """Refuse answers to headings and lines that a table of items does not have."""
+    cells = [table.cell(row, key) for row in table.rows]
+    titles = [Title(cell) for cell in cells if cell is not None and not cell.is_blank]
+    titles += [title for title, _ in table.titles]
+    for one in table.sheet.answers:
+        if not any(is_asked(title, one) for title in titles):
+            rule = say("heading.unused_answer", file=table.sheet.answered_in)
+            findings.append(table.sheet.finding(rule, quote(one)))
+
+
+def _explain(
+    text: str, table: Table, what: str, meaning: Meaning
+) -> tuple[Message, Message]:
+    """Rule and what is accepted, with names in the language of the table's headings."""
+    if meaning.is_wrong_answer:
+        rule = say("heading.wrong_answer", answer=quote(meaning.answer))
+        return rule, say("heading.answer_wanted", file=table.sheet.answered_in)
+    start, language = _MARKS.split(text)[0], table.language
+    unclear = meaning.readings or table.plan.find_unclear(split_heading(start)[0])
+    if unclear:
+        labels = tuple(_label(one, language) for one in unclear)
+        readings, contrary = tuple(map(quote, labels)), meaning.contrary
+        rule = say("heading.ambiguous", readings=readings)
+        if contrary:
+            rule = say("heading.contrary", readings=readings, contrary=quote(contrary))
+        return rule, say("item.accepted", names=labels)
+    both = find_item(start, table.plan.items)
+    if both and start != text:
+        is_item = what == "item"
+        rule = say("item.in_one_cell" if is_item else "item.quantity_in_one_cell")
+        return rule, say("item.alone", name=quote(_label(both, language)))
+    rule = say("item.unknown" if what == "item" else "item.unknown_quantity")
+    names = tuple(_label(field, language) for field in table.plan.items)
+    near = _find_nearest(start, table.plan.items)
+    if near is None:
+        return rule, say("item.accepted", names=names)
+    return rule, say(
+        "item.accepted_near", names=names, near=quote(_label(near, language))
+    )
+
+
+def _label(field: Field, language: Language) -> str:
+    return field.heading_for(language)
+
+
+def _find_nearest(text: str, items: tuple[Field, ...]) -> Field | None:
+    """Item with the name most like a text, in whatever language."""
+    names = {name: field for field in items for name in field.names}
+    key, _ = split_heading(text)
+    near = difflib.get_close_matches(key, names, n=1)
+    return names[near[0]] if near else None

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from netdesign.site.cells.cells import IGNORE, Cell, Sheet, name_column
-from netdesign.site.columns.fields import Field, normalise, split_heading
-from netdesign.site.columns.heading_text import find_unit
-from netdesign.site.columns.lexicon import UNKNOWN, Lexicon, Match
+from netdesign.site.cells.cells import Cell, Sheet, name_column
+from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.columns.lexicon import (
+    IGNORE,
+    UNANSWERED,
+    Lexicon,
+    Meaning,
+    find_unit,
+)
 
 _COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
-UNANSWERED = "?"
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,56 +44,19 @@ class Title:
         return find_unit(self.text) or split_heading(self.text)[1] or group
 
 
-@dataclass(frozen=True, slots=True)
-class Meaning:
-    """Field that a heading is taken for, and by what.
-
-    Attributes
-    ----------
-    match : Match
-        Of its text, or of the answer to it.
-    answer : str
-        Text of the answer; empty where none was needed or none is there.
-    unit : str
-        That of the answer; empty where it gives none.
-    """
-
-    match: Match
-    answer: str = ""
-    unit: str = ""
-
-    @property
-    def field(self) -> Field | None:
-        """The field; None where it is unknown, unclear or ignored."""
-        return self.match.field
-
-    @property
-    def is_ignored(self) -> bool:
-        """Somebody answered that it is not to be read."""
-        return self.answer == IGNORE
-
-    @property
-    def is_wrong_answer(self) -> bool:
-        """The answer names no heading, or more than one."""
-        return bool(self.answer) and not self.is_ignored and self.field is None
-
-
 def understand(title: Title, lexicon: Lexicon, answers: Mapping[str, str]) -> Meaning:
-    """Meaning of a heading: as answered, else by its text."""
+    """Meaning of a heading: as answered, else by its text.
+
+    An answer names a field by its key, or by a heading of any language.
+    """
     answer = find_answer(title, answers)
     if not answer:
-        return Meaning(lexicon.match(title.text, title.group))
+        return lexicon.match(title.text, title.group)
     if answer in (IGNORE, UNANSWERED):
-        return Meaning(UNKNOWN, answer)
-    return Meaning(match_answer(answer, lexicon), answer, find_unit(answer))
-
-
-def match_answer(answer: str, lexicon: Lexicon) -> Match:
-    """Field that an answer names, by its key or by a heading of any language."""
-    name = answer.partition("[")[0].strip()
-    if name in lexicon.fields:
-        return Match(field=lexicon.fields[name])
-    return lexicon.match(answer)
+        return Meaning(answer=answer)
+    field = lexicon.fields.get(answer.partition("[")[0].strip())
+    meaning = Meaning(field) if field else lexicon.match(answer)
+    return replace(meaning, answer=answer, unit=find_unit(answer))
 
 
 def find_answer(title: Title, answers: Mapping[str, str]) -> str:

@@ -14,23 +14,23 @@ from netdesign.resistance.catalogue import (
     find_termination,
     load_catalogue,
 )
-from netdesign.resistance.post import compute_bearing_resistance
+from netdesign.resistance.post import (
+    BucklingResistance,
+    compute_bearing_resistance,
+    compute_buckling_resistance,
+)
 from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Row, refuse
-from netdesign.site.support_types import (
-    compute_buckling,
-    lacks_inner,
-    name_curve,
-    read_inner,
-)
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 _ALONE = "ground"  # says something without the columns beside it
-_DEFAULT_GROUTING, _DEFAULT_TERMINATION = "A", "clips"
+_DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
+_BENT, _SOLID = ("bar", "micropile"), "bar"
+SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
 
 
@@ -275,7 +275,7 @@ _RULES: tuple[_Rule, ...] = (
     ),
     _Rule(
         key="compression",
-        needed=("area", "second_moment", "buckling_length", "yield_strength"),
+        needed=SECTION,
         optional=("buckling_curve",),
         compute=_buckling,
     ),
@@ -286,3 +286,70 @@ _RULES: tuple[_Rule, ...] = (
         compute=_bearing,
     ),
 )
+
+
+def lacks_inner(line: Row) -> bool:
+    """Lack of an inner diameter of an anchor that may be hollow."""
+    is_solid = line["kind"].word == _SOLID
+    return (
+        line["bar_diameter"].state == "given"
+        and line["inner_diameter"].state != "given"
+        and not is_solid
+    )
+
+
+def read_inner(line: Row) -> float:
+    """Inner diameter of an anchor's steel [m]; 0 of a solid bar."""
+    return line["inner_diameter"].given_si or 0.0
+
+
+def compute_buckling(line: Row) -> BucklingResistance:
+    """Buckling resistance of a post by its dimensions, all of them given."""
+    return compute_buckling_resistance(
+        area=line["area"].si,
+        second_moment=line["second_moment"].si,
+        length=line["buckling_length"].si,
+        yield_strength=line["yield_strength"].si,
+        modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
+        imperfection=find_imperfection(name_curve(line)).value,
+    )
+
+
+def name_curve(line: Row) -> str:
+    """Buckling curve of a post; the lowest where none is given."""
+    return line["buckling_curve"].word or _DEFAULT_CURVE
+
+
+def _check_lever(row: Row, findings: list[Finding]) -> None:
+    """Refuse a lever arm of an anchor that is not said to bend."""
+    if "lever_arm" not in row or row["lever_arm"].state != "given":
+        return
+    lever, kind = row["lever_arm"], row["kind"]
+    if kind.state == "faulty" or kind.word in _BENT:
+        return
+    rule = say("type.needs_more", names=(kind.field.name,))
+    if kind.word:
+        rule = say("type.beside", name=kind.field.name, place=kind.place)
+    bent = tuple(kind.field.name_word(word) for word in _BENT)
+    refuse(lever, rule, say("accepted.words", words=bent), findings)
+
+
+def check_support_types(row: Row, findings: list[Finding]) -> None:
+    """Refuse what is given twice, the inside of no tube, the lever of what turns."""
+    _check_lever(row, findings)
+    if "base_friction" in row and row["base_friction"].state == "given":
+        beside = row["sliding"]
+        if beside.state == "given":
+            rule = say("type.beside", name=beside.field.name, place=beside.place)
+            refuse(row["base_friction"], rule, say("accepted.one_of_two"), findings)
+    if "inner_diameter" in row and row["inner_diameter"].state == "given":
+        outer, inner, kind = (
+            row[key] for key in ("bar_diameter", "inner_diameter", "kind")
+        )
+        if kind.word == _SOLID:
+            rule = say("type.beside", name=kind.field.name, place=kind.place)
+            hollow = kind.field.name_word("micropile")
+            refuse(inner, rule, say("accepted.words", words=(hollow,)), findings)
+        if outer.state == "blank":  # a tube without a wall has no tendon resistance
+            rule = say("type.needs_more", names=(outer.field.name,))
+            refuse(inner, rule, say("type.all_or_none"), findings)

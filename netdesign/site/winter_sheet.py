@@ -13,10 +13,11 @@ from netdesign.site.cells.findings import Finding, fold_findings
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
+from netdesign.site.headings import Table
+from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import StationWinter
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.row_factors import read_factors
-from netdesign.site.tables import Table, find_table, read_rows
+from netdesign.site.tables import find_table, read_rows
 from netdesign.snowpack.series import (
     LONGEST_GAP,
     HeightSeries,
@@ -30,7 +31,7 @@ _MOST_LISTED = 8  # days in one remark
 
 
 def read_winter(
-    table: Table | None, row_ids: Collection[str], findings: list[Finding]
+    table: Table | None, places: Mapping[str, str], findings: list[Finding]
 ) -> StationWinter | None:
     """Series of the sheet; None without it, or where it is refused.
 
@@ -38,8 +39,8 @@ def read_winter(
     ----------
     table : Table or None
         Sheet Winter, if there is one.
-    row_ids : collection of str
-        Ids of sheet Nets; with none, any row may be named.
+    places : mapping of str to str
+        Cells of the ids of sheet Nets; with none, any row may be named.
     findings : list of Finding
         Appended to: days that are none or come twice, gaps inside snow, and remarks on
         what was filled and on steep rises.
@@ -60,7 +61,7 @@ def read_winter(
             refuse(lines[0]["date"], rule, say("winter_sheet.heights"), findings)
         return None
     _check_gaps(heights, days, findings)
-    factor, row_factors = read_factors(lines, row_ids, findings)
+    factor, row_factors = _read_factors(lines, places, findings)
     warm = {
         day: line["temperature"].si
         for day, line in days.items()
@@ -111,7 +112,7 @@ def read_height_file(
     sheets = tuple(replace(one, name=WINTER.name) for one in workbook.sheets)
     findings = list(workbook.remarks)
     table = find_table(replace(workbook, sheets=sheets), WINTER, findings)
-    winter = read_winter(table, row_ids, findings)
+    winter = read_winter(table, dict.fromkeys(row_ids, ""), findings)
     is_refused = any(one.severity == "error" for one in findings)
     if winter is None or is_refused:
         if not is_refused:
@@ -226,3 +227,28 @@ def _note_oddities(
         first = next(iter(days.values()))["snow_height"]
         refuse(first, notes[-1], "", findings, severity="note")
     return tuple(notes)
+
+
+def _read_factors(
+    lines: Sequence[Row], places: Mapping[str, str], findings: list[Finding]
+) -> tuple[float | None, Mapping[str, float]]:
+    """Height factor of all rows [-], None without one, and those of single rows."""
+    first = lines[0]
+    general = None if first["row"].word else first["height_factor"].given_si
+    factors: dict[str, float | None] = {}
+    if places:
+        refuse_unknown_ids((line["row"] for line in lines), places, findings)
+    for line in lines:
+        row, factor = line["row"], line["height_factor"]
+        if row.word in factors:
+            rule = say("winter_sheet.row_twice")
+            refuse(row, rule, say("winter_sheet.one_a_row"), findings)
+        elif row.word:
+            factors[row.word] = factor.given_si
+            if factor.state == "blank":
+                rule = say("winter_sheet.row_without_factor")
+                refuse(row, rule, say("winter_sheet.one_a_row"), findings)
+        elif factor.given_si not in (None, general):
+            rule = say("winter_sheet.factor_of_none")
+            refuse(factor, rule, say("winter_sheet.factor_place"), findings)
+    return general, {row: one for row, one in factors.items() if one is not None}

@@ -18,7 +18,7 @@ from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from netdesign.edge.resources import find_resource
+from netdesign.edge.given_files import find_resource
 from netdesign.solving.identity import identify_program
 from netdesign.solving.store import BUSY_S, seal_entry, write_parts
 from netdesign.words.message import Message, say

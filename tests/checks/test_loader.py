@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from netdesign.checks.loader import CONFIRM, list_standards, load_standard
-from netdesign.edge.resources import find_resource
+from netdesign.edge.given_files import find_resource
 from netdesign.errors import StandardError
 
 NF_STYLE = "nf-p-95-304-style"

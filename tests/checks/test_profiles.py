@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import list_standards, load_standard
+from netdesign.edge.given_files import find_resource
 from netdesign.edge.json_text import write_json
-from netdesign.edge.resources import find_resource
 from netdesign.errors import StandardError
 from netdesign.outcome import Verdict
 from tests.checks.given_pulls import judge_row, study_row

@@ -1,6 +1,6 @@
 import pytest
 
-from netdesign.edge.resources import find_resource
+from netdesign.edge.given_files import find_resource
 from netdesign.errors import NetDesignError
 
 

@@ -34,7 +34,7 @@ from hypothesis import strategies as st
 from netdesign import cli
 from netdesign.checks import load_standard
 from netdesign.coupling.solution import FailedSolution
-from netdesign.edge.resources import find_resource
+from netdesign.edge.given_files import find_resource
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.files.scene import read_scene
 from netdesign.outcome import Outcome

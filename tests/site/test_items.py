@@ -7,8 +7,9 @@ import pytest
 
 from netdesign.errors import SiteDataError
 from netdesign.site.columns.all_tables import PROJECT, PROJECT_ITEMS, RANGE_QUANTITIES
-from netdesign.site.columns.fields import LANGUAGES, find_item
+from netdesign.site.columns.fields import find_item
 from netdesign.site.reader import read_site
+from netdesign.words.catalogue import LANGUAGES
 from tests.site.cells import ods_files
 from tests.site.conftest import SOUND
 
@@ -61,8 +62,8 @@ def test_a_line_that_names_no_item_is_one_finding(tmp_path, line, near):
     ("headings", "sheet", "expected"),
     [
         ("rubrique;valeur", "Projet", "projet, numéro, auteur"),
-        (";".join(PROJECT.fields[k].wording("de").label for k in (0, 1)), "Projekt",
-         ", ".join(field.wording("de").label for field in PROJECT_ITEMS)),
+        (";".join(PROJECT.fields[k].label_in("de") for k in (0, 1)), "Projekt",
+         ", ".join(field.label_in("de") for field in PROJECT_ITEMS)),
     ],
 )  # fmt: skip
 def test_items_are_listed_in_the_language_of_the_headings(
@@ -92,7 +93,7 @@ def test_no_misspelt_item_of_any_language_is_lost(kind, save, sheets, tmp_path):
     rng = random.Random(7)
     for _ in range(12):
         field = rng.choice(PROJECT_ITEMS)
-        word = misspell(field.wording(rng.choice(LANGUAGES)).label, rng)
+        word = misspell(field.label_in(rng.choice(LANGUAGES)), rng)
         if find_item(word, PROJECT_ITEMS):
             continue
         lines = [["item", "value"], ["standard", PROFILE], [word, "something"]]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import netdesign
-from netdesign.edge.resources import find_resource
+from netdesign.edge.given_files import find_resource
 from netdesign.words.catalogue import LANGUAGES, _fill, list_gaps, load_texts, render
 from netdesign.words.message import say
 

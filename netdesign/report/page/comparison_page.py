@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from netdesign.edge.file_names import PROFILES_FILE
 from netdesign.edge.given_files import make_printable
+from netdesign.edge.output import PROFILES_FILE
 from netdesign.report.page.render import build_environment, load_style
 from netdesign.report.view.comparison import compare_profiles
 from netdesign.study.records import Study

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup, escape
 
-from netdesign.edge.resources import find_resource
+from netdesign.edge.given_files import find_resource
 from netdesign.report.words import Words
 from netdesign.words.catalogue import Language
 

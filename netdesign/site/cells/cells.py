@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from netdesign.site.cells.findings import Finding, Refusal, Severity
-from netdesign.site.cells.numbers import DecimalMark
+from netdesign.site.cells.findings import Finding, Severity
+from netdesign.site.cells.numbers import DecimalMark, split_unit
 from netdesign.words.message import Message
 
 
@@ -54,7 +54,6 @@ class Answers:
 
 
 UNASKED = Answers()
-IGNORE = "ignore"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,9 +98,17 @@ class Cell:
         """Nothing but spaces was typed."""
         return not self.text.strip()
 
+    @property
+    def own_unit(self) -> str:
+        """Unit that it shows itself: typed behind its number or set by its format."""
+        if isinstance(self.value, str):
+            return split_unit(self.value)[1]
+        return "%" if self.is_percent else self.shown_unit
+
     def finding(
         self,
-        refusal: Refusal,
+        rule: Message,
+        accepted: Message | str = "",
         field: Message | str = "",
         *,
         severity: Severity = "error",
@@ -113,8 +120,8 @@ class Cell:
             cell=self.address,
             field=field,
             text=self.text,
-            rule=refusal.rule,
-            accepted=refusal.accepted,
+            rule=rule,
+            accepted=accepted,
             severity=severity,
         )
 
@@ -168,13 +175,19 @@ class Sheet:
         cells = self.rows.get(number, {}).values()
         return tuple(cell for cell in cells if not cell.is_blank)
 
-    def finding(self, refusal: Refusal, *, severity: Severity = "error") -> Finding:
+    def finding(
+        self,
+        rule: Message,
+        accepted: Message | str = "",
+        *,
+        severity: Severity = "error",
+    ) -> Finding:
         """Say what is wrong with the whole sheet."""
         return Finding(
             file=self.file,
             sheet=self.name,
-            rule=refusal.rule,
-            accepted=refusal.accepted,
+            rule=rule,
+            accepted=accepted,
             severity=severity,
         )
 

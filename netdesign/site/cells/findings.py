@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from netdesign.edge.given_files import make_printable
 from netdesign.errors import SiteDataError
@@ -19,8 +19,7 @@ _ALIKE = ("number.ambiguous",)  # rules that repeat the text of their cell
 _MOST_ALIKE = 12  # named after the first
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
+class Refusal(NamedTuple):
     """Reason against a value, before its place is known.
 
     Attributes
@@ -154,21 +153,20 @@ def quote(text: str) -> str:
 def add_nearest(
     accepted: Message,
     word: str,
-    known: Iterable[str],
-    places: Mapping[str, str] | None = None,
+    places: Mapping[str, str],
 ) -> Message:
-    """Add near matches of a word to what is accepted, with their cells if given.
+    """Add near matches of a word to what is accepted, each with its cell, if any.
 
     >>> accepted = say("accepted.id_of_sheet", sheet="Ropes")
-    >>> str(add_nearest(accepted, "G81", ["G18"], {"G18": "Ropes!A2"}))
+    >>> str(add_nearest(accepted, "G81", {"G18": "Ropes!A2"}))
     'an id of sheet Ropes (nearest: "G18" in Ropes!A2)'
     """
-    near = difflib.get_close_matches(word, list(known), n=3)
+    near = difflib.get_close_matches(word, list(places), n=3)
     if not near:
         return accepted
     shown = tuple(
         say("finding.near_at", word=quote(match), place=places[match])
-        if places
+        if places[match]
         else quote(match)
         for match in near
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass
 from typing import Literal
 
@@ -120,3 +121,130 @@ def _list_readings(text: str) -> list[_Reading]:
             whole = whole.replace(separator, "")
             readings.append(_Reading(sign, whole, decimals, mark, separator))
     return readings
+
+
+# A format in pieces: quoted and escaped text, blanks of a sign's width and fillers,
+# conditions, colours and currencies in brackets, placeholders of digits, the rest.
+_PIECE = re.compile(
+    r'"(?P<quoted>[^"]*)"|\\(?P<escaped>.)|(?P<filler>[_*].)'
+    r"|\[(?P<bracket>[^\]]*)\]|(?P<general>General)|(?P<digits>E[+-]|[0-9#?.,/@])"
+    r"|(?P<sign>.)",
+    re.DOTALL,
+)
+_SECTION = re.compile(r'(?:"[^"]*"|\\.|\[[^\]]*\]|[^;"\\\[]|.)*?(?:;|$)', re.DOTALL)
+_THOUSANDS = re.compile(r"[0#?],+(?![0#?,])")  # a comma behind the digits divides
+_NUMBER = re.compile(r"\d[\d.,'’\s\u00a0\u202f/]*(?:E[+-]?\d+)?")
+_BLANKS = " \u00a0\u202f[]()+-.,"
+_UNIT_SIGNS = "%°'′″"
+
+
+def show_percent(number_format: str) -> bool:
+    """A format multiplies by 100; a percent sign in quotes does not."""
+    return "%" in _keep_signs(number_format)
+
+
+def show_thousands(number_format: str) -> bool:
+    """A format divides by 1000, as a comma behind the digits does."""
+    return bool(_THOUSANDS.search(_keep_signs(number_format)))
+
+
+def find_format_unit(number_format: str, value: float) -> str:
+    """Unit, currency or other word that a format of xlsx shows beside a number.
+
+    Parameters
+    ----------
+    number_format : str
+        As the file has it: ``0.0" m"``, ``#,##0\\ [$€-407];...``.
+    value : float
+        Its sign chooses among the sections of the format.
+
+    Returns
+    -------
+    str
+        As it is shown; empty where there is none.
+
+    >>> find_format_unit('0.0" m"', 3.5)
+    'm'
+    """
+    shown = "".join(
+        "0" if piece["digits"] or piece["general"] else _show(piece)
+        for piece in _PIECE.finditer(_choose_section(number_format, value))
+    )
+    return find_text_unit(shown)
+
+
+def find_text_unit(shown: str) -> str:
+    """Unit or word that stands behind a number as it is shown, or its currency.
+
+    >>> find_text_unit("3,50 m")
+    'm'
+    """
+    number = _NUMBER.search(shown)
+    if number is None:
+        return ""
+    behind = shown[number.end() :].strip(_BLANKS)
+    before = shown[: number.start()].strip(_BLANKS)
+    if any(sign.isalpha() or sign in _UNIT_SIGNS for sign in behind):
+        return behind
+    signs = (sign for sign in behind + before if unicodedata.category(sign) == "Sc")
+    return next(signs, "")
+
+
+def _show(piece: re.Match[str]) -> str:
+    if piece["bracket"] is not None:  # of [$€-407] the euro, of [Red] nothing
+        bracket = piece["bracket"]
+        return bracket[1:].partition("-")[0] if bracket.startswith("$") else ""
+    return piece["quoted"] or piece["escaped"] or piece["sign"] or ""
+
+
+def _keep_signs(number_format: str) -> str:
+    """Format without its texts: what is left steers how digits are shown."""
+    return "".join(
+        piece["digits"] or piece["sign"] or " "
+        for piece in _PIECE.finditer(number_format)
+    )
+
+
+def _choose_section(number_format: str, value: float) -> str:
+    """Section for positive, negative or zero numbers; the first where none is."""
+    found = [one[0] for one in _SECTION.finditer(number_format) if one[0]]
+    sections = [one.removesuffix(";") for one in found] or [""]
+    place = 0 if value > 0 else 1 if value < 0 else 2
+    return sections[place] if place < min(len(sections), 3) else sections[0]
+
+
+_TYPED = r"[+-]?(?:[\d.,'’\s\u00a0\u202f\u2009]*\d)"
+_WITH_UNIT = re.compile(rf"({_TYPED})\s*([^\d\s.,'’+-].*)")
+# Of the ends no sign is read, so that no minus is taken for a dash nor a dash for one.
+_END = r"\d(?:[\d.,'’\u00a0\u202f\u2009]*\d)?"
+_END_UNIT = r"[^\d\s.,'’+–—÷-][^\d\s]*\d?|"
+_RANGE = re.compile(
+    rf"(?:(?:de|von|from|da)\s+)?({_END})\s*({_END_UNIT})\s*"
+    rf"(?:-|–|—|÷|\.\.\.?|…|à|a|bis|to)\s*({_END})\s*({_END_UNIT})",
+    re.IGNORECASE,
+)
+
+
+def split_unit(text: str) -> tuple[str, str]:
+    """Number and what is typed behind it, both as typed; no unit where there is none.
+
+    >>> split_unit("3,0 m"), split_unit("12 500"), split_unit("about 3 m")
+    (('3,0', 'm'), ('12 500', ''), ('about 3 m', ''))
+    """
+    found = _WITH_UNIT.fullmatch(text.strip())
+    return (found[1].strip(), found[2].strip()) if found else (text, "")
+
+
+def split_range(text: str) -> tuple[str, str, str] | None:
+    """Low end, high end and unit of a range in one cell; None where it is none.
+
+    >>> split_range("250-450"), split_range("20° à 35°"), split_range("-5-10")
+    (('250', '450', ''), ('20', '35', '°'), None)
+    """
+    found = _RANGE.fullmatch(text.strip())
+    if found is None:
+        return None
+    low, low_unit, high, high_unit = (one.strip() for one in found.groups())
+    if low_unit and low_unit != high_unit:
+        return None
+    return low, high, high_unit

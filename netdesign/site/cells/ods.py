@@ -22,8 +22,7 @@ from netdesign.site.cells.limits import (
     require_columns,
     require_rows,
 )
-from netdesign.site.cells.number_formats import find_text_unit
-from netdesign.site.cells.numbers import DecimalMark
+from netdesign.site.cells.numbers import DecimalMark, find_text_unit
 from netdesign.words.message import say
 
 _OFFICE = "{urn:oasis:names:tc:opendocument:xmlns:office:1.0}"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import make_printable, read_bounded
-from netdesign.edge.open_elsewhere import is_held
+from netdesign.edge.locks import is_held
 from netdesign.errors import ContentError
 from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.cells.delimited import read_delimited

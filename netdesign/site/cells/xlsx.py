@@ -20,12 +20,12 @@ from netdesign.site.cells.limits import (
     require_columns,
     require_rows,
 )
-from netdesign.site.cells.number_formats import (
+from netdesign.site.cells.numbers import (
+    DecimalMark,
     find_format_unit,
     show_percent,
     show_thousands,
 )
-from netdesign.site.cells.numbers import DecimalMark
 from netdesign.words.message import say
 
 if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file

@@ -10,54 +10,27 @@ from functools import lru_cache
 from typing import Literal
 
 from netdesign.site.columns.unit_names import normalise_unit
+from netdesign.words.catalogue import LANGUAGES, Language, load_texts
 from netdesign.words.message import Message, say
 
 Kind = Literal["number", "count", "word", "id", "text"]
-Language = Literal["en", "fr", "de"]
-
-LANGUAGES: tuple[Language, ...] = ("en", "fr", "de")
 _LONGEST_HEADING = 100
 _NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
 _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wording:
-    """Words of one language for a field: its heading, other headings, its note."""
-
-    label: str = ""
-    aliases: tuple[str, ...] = ()
-    note: str = ""
-    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-
 @dataclass(frozen=True, slots=True)
 class Usual:
-    """Least and largest number that is built or measured, in the first unit.
+    """Least and largest number that is built or measured.
 
-    ``source`` is the key of a text in area ``plausible``.
+    Alone it is in the first unit, and ``source`` is the key of a text in area
+    ``plausible``. Beside others it is over the product of ``powers`` of them, in SI.
     """
 
     least: float
     most: float
-    source: str
-
-
-@dataclass(frozen=True, slots=True)
-class Beside:
-    """Least and largest number over the product of powers of other columns, in SI."""
-
-    least: float
-    most: float
-    powers: Mapping[str, int]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Empty:
-    """Meaning of an empty cell, and why it is never better than a filled one."""
-
-    means: str
-    why: str
+    source: str = ""
+    powers: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +52,7 @@ class Field:
         Least and largest accepted value, in the first unit.
     usual : Usual or None
         Numbers that are not asked for.
-    beside : tuple of Beside
+    beside : tuple of Usual
         The same beside other columns of the line.
     zero_says_none : bool
         Whether a zero is a statement, and no number to ask for.
@@ -101,16 +74,20 @@ class Field:
         Key of the column in whose stead it stands, alone or with others.
     column : str
         Key of the column of sheet Nets in whose stead a quantity ranges.
-    empty : Empty or None
-        What an empty cell means.
+    empty : mapping of str to str
+        What an empty cell means, and why it is never better than a filled one; empty
+        of a required column.
     is_offered : bool
         Whether the template has it.
-    wordings : mapping of str to Wording
-        Label, aliases, note and words by language.
+    headings : mapping of str to tuple of str
+        Accepted headings by language, its name first; also of a language that the
+        program only reads.
+    notes : mapping of str to str
+        Note on its heading, by language.
+    spellings : mapping of str to str
+        Word by each of its spellings in every language.
     named : Message or None
         Another name than the column's, of a part of it.
-    synonyms, further_words : tuple of str, mapping of str to tuple of str
-        Further headings, and further spellings of its words, in any language.
     """
 
     key: str
@@ -119,7 +96,7 @@ class Field:
     units: tuple[str, ...] = ()
     bounds: tuple[float, float] = (0.0, 0.0)
     usual: Usual | None = None
-    beside: tuple[Beside, ...] = ()
+    beside: tuple[Usual, ...] = ()
     zero_says_none: bool = False
     scatters: bool = False
     of_product: tuple[str, ...] = ()
@@ -130,12 +107,12 @@ class Field:
     refers_to: str = ""
     alternative_to: str = ""
     column: str = ""
-    empty: Empty | None = None
+    empty: Mapping[str, str] = field(default_factory=dict)
     is_offered: bool = True
-    wordings: Mapping[str, Wording] = field(default_factory=dict)
+    headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    notes: Mapping[Language, str] = field(default_factory=dict)
+    spellings: Mapping[str, str] = field(default_factory=dict)
     named: Message | None = None
-    synonyms: tuple[str, ...] = ()
-    further_words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def name(self) -> Message:
@@ -145,7 +122,11 @@ class Field:
     @property
     def label(self) -> str:
         """Name in English, as the example site has it."""
-        return self.wording("en").label
+        return self.label_in("en")
+
+    def label_in(self, language: Language) -> str:
+        """Name in a language."""
+        return self.headings[language][0]
 
     @property
     def title(self) -> Message:
@@ -169,23 +150,7 @@ class Field:
     @property
     def raw_names(self) -> tuple[str, ...]:
         """Accepted headings without unit, as they are written."""
-        wordings = self.wordings.values()
-        names = (name for one in wordings for name in (one.label, *one.aliases))
-        return (*names, *self.synonyms)
-
-    @property
-    def spellings(self) -> dict[str, str]:
-        """Word of the table by each of its spellings in every language."""
-        lists = [one.words for one in self.wordings.values()]
-        found = {word: word for word in self.words}
-        for words in (*lists, self.further_words):
-            for word, names in words.items():
-                found |= dict.fromkeys(names, word)
-        return found
-
-    def wording(self, language: Language) -> Wording:
-        """Texts in a language; English where that language has none."""
-        return self.wordings.get(language) or self.wordings["en"]
+        return tuple(name for names in self.headings.values() for name in names)
 
     @property
     def accepted(self) -> Message:
@@ -201,13 +166,11 @@ class Field:
 
     def name_word(self, word: str) -> Message | str:
         """One of its words; what is alike in all languages stays."""
-        if not any(word in wording.words for wording in self.wordings.values()):
-            return word
-        return say(f"choice.{self.key}.{normalise(word)}")
+        return name_word(self.key, word)
 
     def heading_for(self, language: Language) -> str:
         """Label in a language, with the unit in brackets."""
-        label = self.wording(language).label
+        label = self.label_in(language)
         return f"{label} [{self.unit}]" if self.unit else label
 
 
@@ -216,19 +179,23 @@ class SheetPlan:
     """One sheet: its names, its columns in template order, its alternatives."""
 
     name: str
-    aliases: tuple[str, ...] = ()
     fields: tuple[Field, ...]
     required: bool = False
     one_of: tuple[str, ...] = ()  # keys of which at least one heading must be there
     # Headings that may mean any of several fields: refused with their readings.
     unclear: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    names: Mapping[str, str] = field(default_factory=dict)  # by language
+    # Accepted names by language, the sheet's own first; as the headings of a field.
+    names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     items: tuple[Field, ...] = ()  # what the lines of a table of items may name
 
     def matches(self, sheet_name: str) -> bool:
         """A workbook's sheet of this name is the planned one."""
-        names = (self.name, *self.aliases, *self.names.values())
-        return is_one_of(sheet_name, names)
+        return is_one_of(sheet_name, self.raw_names)
+
+    @property
+    def raw_names(self) -> tuple[str, ...]:
+        """Accepted names, as they are written."""
+        return tuple(name for names in self.names.values() for name in names)
 
     @property
     def title(self) -> Message:
@@ -237,18 +204,17 @@ class SheetPlan:
 
     def name_in(self, language: Language) -> str:
         """Name of the sheet in a language."""
-        return self.names.get(language, self.name)
+        return self.names[language][0]
 
     def find_language(self, names: Iterable[str]) -> Language:
         """Language with the most of these normalised headings; English in a tie."""
         return max(LANGUAGES, key=lambda one: len(self._names_in(one) & set(names)))
 
     def _names_in(self, language: Language) -> set[str]:
-        wordings = [field.wording(language) for field in self.fields]
-        names = {normalise(one.label) for one in wordings}
-        if language != "en":  # such as min or max, which every language uses
-            names |= {normalise(name) for one in wordings for name in one.aliases}
-        return names
+        # other English ones, such as min or max, are those of every language
+        most = 1 if language == "en" else None
+        names = (name for one in self.fields for name in one.headings[language][:most])
+        return set(map(normalise, names))
 
     def find_unclear(self, name: str) -> tuple[Field, ...]:
         """Fields that a normalised heading may mean, if it is an unclear one."""
@@ -269,6 +235,12 @@ def is_one_of(sheet_name: str, names: Iterable[str]) -> bool:
         or normalise(plain) in known
         or (all(parts) and known.issuperset(parts))
     )
+
+
+def name_word(key: str, word: str) -> Message | str:
+    """Word of a column; what is alike in all languages stays."""
+    text = f"choice.{key}.{normalise(word)}"
+    return say(text) if text in load_texts("en") else word
 
 
 @lru_cache(maxsize=4096)

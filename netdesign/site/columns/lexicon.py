@@ -7,22 +7,178 @@ symbols, the group that it stands under. Else it is asked for.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
+from netdesign.site.columns.all_tables import load_file
 from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
-from netdesign.site.columns.heading_text import (
-    Part,
-    find_unit,
-    find_words_apart,
-    fold,
-    is_small,
-    read_part,
-    split_languages,
+from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
+
+LONGEST_HEADING = 100
+# Without brackets these are as often names as units: N is newton and glide factor.
+_SHORT = ("n", "t", "c", "d", "h", "j", "1", "-", "–", "—", "a")
+_BRACKETS = re.compile(r"[\[(]([^\[\]()]*)[\])]")
+_BEHIND = re.compile(r"(?:[,:]|\s(?:en|in))\s*(\S{1,6})\s*$")
+_WORD = re.compile(r"[^\W_]+")
+_SYMBOL = re.compile(
+    r"(?<![^\s,;:(\[/|])([^\W\d_]{1,4}(?:_[^\W\d_]{1,3})?)(?![^\s,;:)\]/|])"
 )
-from netdesign.site.columns.synonyms import load_synonyms
-from netdesign.site.columns.unit_names import KNOWN_UNITS
+# What stands between two languages, the surest first; a stroke may also be part of
+# a name: "Frottement neige/filet".
+_BETWEEN = (r"\n|\s+[/|–—-]\s+|;", r"\n|\s+[/|–—-]\s+|;|/")
+# Wherever a word may stand apart from the others: "de / high", "high (de)", "de, high".
+_APART = re.compile(r"\s+[–—-]\s+|[\n/|,;:()\[\]]")
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One name of a heading, in one language.
+
+    Attributes
+    ----------
+    name : str
+        Folded name without symbols; may be empty. Small words count where they are all
+        that it has: "de" is a heading of its own.
+    symbols : frozenset of str
+        Symbols of the trade beside it, such as ``Dk``.
+    """
+
+    name: str
+    symbols: frozenset[str]
+
+    @property
+    def whole(self) -> str:
+        """Name with its symbols."""
+        return "|".join((self.name, *sorted(self.symbols)))
+
+
+@lru_cache(maxsize=8192)
+def fold(text: str) -> str:
+    """Fold a name so that case, accents, umlauts, articles and signs do not count.
+
+    >>> fold("Hauteur du filet"), fold("Stuetzen-Abstand") == fold("Stützenabstand")
+    ('hauteurfilet', True)
+    """
+    words = (word for word in _list_words(text) if word not in _small_words())
+    joined = "".join(words)
+    for pair in ("ae", "oe", "ue"):
+        joined = joined.replace(pair, pair[0])
+    return joined
+
+
+def find_unit(text: str) -> str:
+    """Unit of a heading, in brackets or behind a comma; empty where there is none.
+
+    Two units that differ are both given: together they are none that anybody knows.
+
+    >>> find_unit("Dk (rechtwinklig) [m]"), find_unit("Pente (deg) [%]")
+    ('m', 'deg, %')
+    """
+    bracketed = [normalise_unit(one) for one in _BRACKETS.findall(text)]
+    known = dict.fromkeys(one for one in bracketed if one in KNOWN_UNITS)
+    if known:
+        return ", ".join(known)
+    behind = _BEHIND.search(text)
+    unit = normalise_unit(behind[1]) if behind else ""
+    return unit if unit in KNOWN_UNITS and behind and not _is_short(behind[1]) else ""
+
+
+def split_languages(text: str) -> Iterator[tuple[Part, ...]]:
+    """Parts of a heading: first all of it as one name, then cut between languages.
+
+    A small word that stands apart says something of its own: all of it as one name
+    would drop the word, and take "de / high" for "high".
+    """
+    plain = text.strip()
+    if len(plain) > LONGEST_HEADING:
+        return
+    without_units = _remove_units(plain)
+    if not find_words_apart(without_units):
+        yield (read_part(without_units),)
+    for between in _BETWEEN:
+        pieces = [one for one in re.split(between, without_units) if one.strip()]
+        if len(pieces) > 1:
+            yield tuple(map(read_part, pieces))
+
+
+def is_small(text: str) -> bool:
+    """A text has nothing but articles and prepositions.
+
+    >>> is_small("de"), is_small("de la"), is_small("high"), is_small("-")
+    (True, True, False, False)
+    """
+    return bool(_WORD.search(text)) and not fold(text)
+
+
+def find_words_apart(text: str) -> tuple[str, ...]:
+    """Pieces of a heading that would not count in a name: small words, "?".
+
+    >>> find_words_apart("de / high"), find_words_apart("hauteur de filet / -")
+    (('de',), ())
+    """
+    pieces = [one.strip() for one in _APART.split(text) if one.strip(" -–—")]
+    named = [
+        one
+        for one in pieces
+        if _WORD.search(one) or normalise_unit(one) not in KNOWN_UNITS
+    ]
+    return tuple(one for one in named if not fold(one)) if len(named) > 1 else ()
+
+
+def _is_short(unit: str) -> bool:
+    return unit.casefold() in _SHORT
+
+
+def _remove_units(text: str) -> str:
+    kept = _BRACKETS.sub(
+        lambda found: "" if normalise_unit(found[1]) in KNOWN_UNITS else found[0], text
+    ).strip()
+    behind = _BEHIND.search(kept)
+    is_unit = behind and not _is_short(behind[1])
+    if behind and is_unit and normalise_unit(behind[1]) in KNOWN_UNITS:
+        return kept[: behind.start()]
+    return kept
+
+
+@lru_cache(maxsize=8192)
+def read_part(text: str) -> Part:
+    """Name and symbols of a text without units."""
+    symbols = _known_symbols()
+    found = {
+        sign: sign.replace("_", "")
+        for sign in _SYMBOL.findall(text)
+        if sign.replace("_", "") in symbols
+    }
+    if not found and is_small(text):
+        return Part("".join(_list_words(text)), frozenset())
+    rest = _SYMBOL.sub(lambda one: "" if one[1] in found else one[0], text)
+    return Part(fold(rest), frozenset(found.values()))
+
+
+def _list_words(text: str) -> list[str]:
+    """Words without case and accents."""
+    plain = text.replace("⊥", " perp ").casefold()
+    decomposed = unicodedata.normalize("NFKD", plain)
+    letters = "".join(one for one in decomposed if not unicodedata.combining(one))
+    return _WORD.findall(letters)
+
+
+@lru_cache(maxsize=1)
+def _small_words() -> frozenset[str]:
+    words = load_file("signs")["small"]["words"]
+    return frozenset(words)
+
+
+@lru_cache(maxsize=1)
+def _known_symbols() -> frozenset[str]:
+    tables = load_file("signs")
+    listed = (tables["symbols"], tables["alone"], tables["unclear"])
+    return frozenset(
+        one for table in listed for names in table.values() for one in names
+    )
+
 
 _Keys = frozenset[str]  # of fields; with _UNCLEAR among them never one for sure
 _NOTHING: _Keys = frozenset()
@@ -30,32 +186,52 @@ _UNCLEAR: _Keys = frozenset(("?",))
 _NARROW = frozenset(("post", "anchor", "guy"))  # groups of parts of a net row
 
 
+# Answers to a heading: it is not to be read; it is not yet answered.
+IGNORE, UNANSWERED = "ignore", "?"
+
+
 @dataclass(frozen=True, slots=True)
-class Match:
-    """Meaning of a heading.
+class Meaning:
+    """Meaning of a heading, and what it follows from.
 
     Attributes
     ----------
     field : Field or None
-        The one field that it means.
+        The one field that it means; None where it is unknown, unclear or ignored.
     readings : tuple of Field
         Where it is unclear, the fields that it may mean; perhaps none.
     contrary : str
         Where it is unclear because two parts differ, the part that says otherwise: a
         symbol of another quantity, or the group above.
+    answer : str
+        Text of the answer to it; empty where none was needed or none is there.
+    unit : str
+        That of the answer; empty where it gives none.
     """
 
     field: Field | None = None
     readings: tuple[Field, ...] = ()
     contrary: str = ""
+    answer: str = ""
+    unit: str = ""
 
     @property
     def is_unclear(self) -> bool:
         """The heading has to be asked for."""
         return bool(self.readings or self.contrary)
 
+    @property
+    def is_ignored(self) -> bool:
+        """Somebody answered that it is not to be read."""
+        return self.answer == IGNORE
 
-UNKNOWN = Match()
+    @property
+    def is_wrong_answer(self) -> bool:
+        """The answer names no heading, or more than one."""
+        return bool(self.answer) and not self.is_ignored and self.field is None
+
+
+UNKNOWN = Meaning()
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,14 +271,14 @@ class Lexicon:
                 _add(folded, read_part(name), frozenset((key,)), is_sure=True)
         return cls(by_key, names, folded)
 
-    def match(self, text: str, group: str = "") -> Match:
+    def match(self, text: str, group: str = "") -> Meaning:
         """Meaning of a heading, under the text of a group or none."""
         grouped = self._match_grouped(text, group) if group else _NOTHING
         if grouped:
             return self._conclude(grouped)
         found = self._match_alone(text)
         if found.field and group and not self._may_stand_under(group, text):
-            return Match(readings=(found.field,), contrary=group)
+            return Meaning(readings=(found.field,), contrary=group)
         return found
 
     def _may_stand_under(self, group: str, text: str) -> bool:
@@ -128,14 +304,14 @@ class Lexicon:
                 return keys
         return _NOTHING
 
-    def _match_alone(self, text: str) -> Match:
+    def _match_alone(self, text: str) -> Meaning:
         own, bracket = split_heading(text)
         before = re.split(r"[\[(]", text)[0]  # where its signs do not count: "? / high"
         if own in self.names and not find_words_apart(before):
             found = self._conclude(self.names[own])
             field = found.field
             if field and not self._may_stand_behind(bracket, field):
-                return Match(readings=(field,), contrary=bracket)
+                return Meaning(readings=(field,), contrary=bracket)
             return found
         readings = _NOTHING
         for parts in split_languages(text):
@@ -157,7 +333,7 @@ class Lexicon:
         is_same = field.key in keys
         return not bracket or bool(field.units) or bracket in KNOWN_UNITS or is_same
 
-    def _agree(self, known: list[tuple[_Keys, str]]) -> Match:
+    def _agree(self, known: list[tuple[_Keys, str]]) -> Meaning:
         """Meaning that all parts of a heading share."""
         every = [keys for keys, _ in known]
         contrary = next((sign for _, sign in known if sign), "")
@@ -191,17 +367,17 @@ class Lexicon:
         meant, is_clear = _find_meant(symbol)
         if is_clear:
             return meant.intersection(self.fields), ""
-        table = load_synonyms("signs")["unclear"]
+        table = load_file("signs")["unclear"]
         keys = frozenset(key for key, names in table.items() if symbol in names)
         known = keys.intersection(self.fields)
         contrary = "" if known.intersection(meant) else symbol
         return (known | _UNCLEAR, contrary) if known else (_NOTHING, "")
 
-    def _conclude(self, keys: _Keys, contrary: str = "") -> Match:
+    def _conclude(self, keys: _Keys, contrary: str = "") -> Meaning:
         fields = tuple(one for key, one in self.fields.items() if key in keys)
         if len(fields) == 1 and not keys & _UNCLEAR:
-            return Match(field=fields[0])
-        return Match(readings=fields, contrary=contrary)
+            return Meaning(field=fields[0])
+        return Meaning(readings=fields, contrary=contrary)
 
 
 def _add(
@@ -214,7 +390,7 @@ def _add(
 
 def _find_meant(symbol: str) -> tuple[_Keys, bool]:
     """Fields that a symbol stands for, and whether it is clear without a name."""
-    tables = load_synonyms("signs")
+    tables = load_file("signs")
     found = frozenset(
         key for key, names in tables["symbols"].items() if symbol in names
     )
@@ -225,7 +401,7 @@ def _find_meant(symbol: str) -> tuple[_Keys, bool]:
 def _goes_with(field: Field, group: str) -> bool:
     """A field may stand under a group, which is not about another subject."""
     topics = _find_topics(group)
-    own = {topic for topic in load_synonyms("signs")["topics"] if topic in field.key}
+    own = {topic for topic in load_file("signs")["topics"] if topic in field.key}
     if not own:
         return topics.isdisjoint(_NARROW)
     return not topics or not topics.isdisjoint(own)
@@ -234,12 +410,7 @@ def _goes_with(field: Field, group: str) -> bool:
 @lru_cache(maxsize=256)
 def _find_topics(group: str) -> frozenset[str]:
     words = {fold(word) for word in group.split()}
-    topics = load_synonyms("signs")["topics"]
+    topics = load_file("signs")["topics"]
     return frozenset(
         topic for topic, names in topics.items() if words & set(map(fold, names))
     )
-
-
-def unit_of(text: str, group: str = "") -> str:
-    """Unit in the brackets of a heading, or in those of its group."""
-    return split_heading(text)[1] or find_unit(text) or split_heading(group)[1]

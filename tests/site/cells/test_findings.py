@@ -39,9 +39,9 @@ def test_long_text_and_line_breaks_are_shortened_only_in_the_message():
 
 def test_near_matches_are_suggested_and_far_ones_are_not():
     accepted = say("accepted.text")
-    near = add_nearest(accepted, "A52", ["A25", "B77"])
+    near = add_nearest(accepted, "A52", dict.fromkeys(["A25", "B77"], ""))
     assert str(near) == 'text (nearest: "A25")'
-    assert add_nearest(accepted, "Q", ["A25", "B77"]) is accepted
+    assert add_nearest(accepted, "Q", {"A25": "", "B77": ""}) is accepted
 
 
 def test_the_exception_carries_every_finding_and_shows_each_on_a_line():

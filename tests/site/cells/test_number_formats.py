@@ -6,7 +6,7 @@ import openpyxl
 import pytest
 
 from netdesign.errors import SiteDataError
-from netdesign.site.cells.number_formats import (
+from netdesign.site.cells.numbers import (
     find_format_unit,
     find_text_unit,
     show_percent,

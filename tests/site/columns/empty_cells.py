@@ -26,7 +26,7 @@ def build_table():
     for plan in SHEETS:
         by_statement = {}
         for one in list_columns(plan):
-            statement = (one.empty.means, one.empty.why)
+            statement = (one.empty["means"], one.empty["why"])
             by_statement.setdefault(statement, []).append(one)
         for (means, why), columns in by_statement.items():
             lines.append(f"| {plan.name} | {join_names(columns)} | {means} | {why} |")

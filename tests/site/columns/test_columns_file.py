@@ -9,9 +9,12 @@ import pytest
 from netdesign.panel.inputs import CUTS, LARGEST_GUY_ANGLE, LARGEST_SAG
 from netdesign.resistance.catalogue import list_terminations, load_catalogue
 from netdesign.resistance.products import find_product
-from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.columns.columns_file import load_data, read_fields, read_plan
-from netdesign.site.columns.languages import load_words
+from netdesign.site.columns.all_tables import (
+    SHEETS,
+    load_file,
+    read_fields,
+    read_plan,
+)
 from netdesign.site.columns.unit_names import KNOWN_UNITS
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.axis import LEAST_AXIS, MOST_AXIS
@@ -33,22 +36,26 @@ def find(table, key):
 
 def test_every_table_of_the_file_is_read():
     lists = {
-        entry["items"] for entry in load_data()["sheets"].values() if "items" in entry
+        entry["items"]
+        for entry in load_file("columns")["sheets"].values()
+        if "items" in entry
     }
-    assert set(load_data()) == {"units", "empty", "sheets", *PLANS, *lists}
-    assert list(load_data()["sheets"]) == list(PLANS)
+    assert set(load_file("columns")) == {"units", "empty", "sheets", *PLANS, *lists}
+    assert list(load_file("columns")["sheets"]) == list(PLANS)
 
 
 def test_no_list_of_units_and_no_statement_is_left_over():
     columns = [
         entry
-        for table, entries in load_data().items()
+        for table, entries in load_file("columns").items()
         if table not in ("units", "empty", "sheets")
         for entry in entries.values()
     ]
     for key in ("units", "empty"):
-        assert {one[key] for one in columns if key in one} == set(load_data()[key])
-    for units in load_data()["units"].values():
+        assert {one[key] for one in columns if key in one} == set(
+            load_file("columns")[key]
+        )
+    for units in load_file("columns")["units"].values():
         assert set(units) <= set(KNOWN_UNITS)
 
 
@@ -95,7 +102,7 @@ def test_words_are_those_of_the_catalogue(table, key, words):
 
 
 def test_the_note_on_the_ground_tells_every_ground_of_the_catalogue():
-    note = load_words("en")["Anchors"]["ground"]["note"]
+    note = load_file("words/en")["Anchors"]["ground"]
     told = (
         f"{name}: {one['text']}" for name, one in CATALOGUE["bond"]["ground"].items()
     )
@@ -146,7 +153,7 @@ def test_a_range_has_the_units_bounds_and_usual_numbers_of_its_column():
     ],
 )
 def test_a_slip_is_refused_by_its_place(table, key, slip, told):
-    data = copy.deepcopy(dict(load_data()))
+    data = copy.deepcopy(dict(load_file("columns")))
     data[table][key] |= slip
     with pytest.raises(ValueError, match=told):
         read_plan(data, key) if table == "sheets" else read_fields(data, table)

@@ -35,7 +35,7 @@ def test_every_optional_column_stands_in_the_table_once(plan):
 def test_every_statement_says_what_is_empty_and_why():
     for plan in SHEETS:
         for one in list_columns(plan):
-            assert len(one.empty.means) > 3 < len(one.empty.why), one.key
+            assert len(one.empty["means"]) > 3 < len(one.empty["why"]), one.key
 
 
 def list_of(meaning):
@@ -43,7 +43,7 @@ def list_of(meaning):
         (plan.name, one.key)
         for plan in SHEETS
         for one in plan.fields
-        if one.empty and one.empty.means.startswith(meaning)
+        if one.empty and one.empty["means"].startswith(meaning)
     ]
 
 

@@ -2,10 +2,15 @@ import re
 
 import pytest
 
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
-from netdesign.site.columns.fields import LANGUAGES, normalise, split_heading
-from netdesign.site.columns.languages import load_words
-from netdesign.site.template.notes_sheet import describe_accepted, describe_field
+from netdesign.site.columns.all_tables import (
+    PROJECT_ITEMS,
+    RANGE_QUANTITIES,
+    SHEETS,
+    load_file,
+)
+from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.template.workbook import describe_accepted
+from netdesign.words.catalogue import LANGUAGES, render
 
 TABLES = {
     **{plan.name: plan.fields for plan in SHEETS},
@@ -23,29 +28,33 @@ SIGNS = {
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_no_text_is_missing_and_none_is_left_over(language):
-    words, english = load_words(language), load_words("en")
+    words, english = load_file(f"words/{language}"), load_file("words/en")
     for table in ("text", "drawing"):
         assert set(words[table]) == set(english[table])
-    missing, idle = [], []
+    for table, texts in english.items():
+        assert set(texts) <= set(words[table])
+    notes = {name: texts for name, texts in words.items() if name in TABLES}
+    assert set(words) == {"text", "drawing", *notes}
+    for table, texts in notes.items():
+        assert set(texts) <= {field.key for field in TABLES[table]}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_words_have_a_name_in_every_language_but_signs_of_the_trade(language):
     for table, fields in TABLES.items():
-        keys = {field.key for field in fields}
-        idle += [key for key in words[table] if key not in keys]
         for field in fields:
-            given = words[table].get(field.key, {})
-            wanted = {"note"} & set(english[table].get(field.key, ()))
-            missing += [f"{table}.{field.key}.{key}" for key in wanted - set(given)]
             is_sign = (table, field.key) in SIGNS
-            wanted_words = set() if is_sign else set(field.words)
-            assert set(given.get("words", ())) == wanted_words, field.key
-    assert (missing, idle) == ([], [])
-    assert set(words) == {"text", "drawing", *TABLES}
+            for word in field.words:
+                assert isinstance(field.name_word(word), str) is is_sign
+                name = render(field.name_word(word), language)
+                assert field.spellings[name] == word
 
 
-def test_an_english_word_is_its_own_first_spelling():
+def test_an_english_word_is_its_own_name():
     for fields in TABLES.values():
         for field in fields:
-            for word, names in field.wording("en").words.items():
-                assert names[0] == word
+            for word in field.words:
+                assert render(field.name_word(word), "en") == word
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -76,18 +85,9 @@ def test_numbers_are_the_same_in_every_language(language):
             assert unitless == pytest.approx(list(field.bounds), rel=1e-9)
 
 
-def test_a_text_that_a_language_lacks_is_english(monkeypatch):
-    from dataclasses import replace
-
-    slope = TABLES["Nets"][1]
-    bare = replace(slope, wordings={"en": slope.wording("en")})
-    assert bare.heading_for("fr") == "slope angle [deg]"
-    assert describe_field(bare, "fr").startswith("against the horizontal\naccepté: ")
-
-
 def test_another_english_name_tells_no_language():
     """Every language uses min or max."""
     ranges = next(plan for plan in SHEETS if plan.name == "Ranges")
     quantity = next(one for one in ranges.fields if one.key == "quantity")
-    label = quantity.wording("fr").label
+    label = quantity.label_in("fr")
     assert ranges.find_language([normalise(label), normalise("min")]) == "fr"

@@ -6,10 +6,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from netdesign.site.columns.all_tables import NETS, RANGES, SHEETS
-from netdesign.site.columns.heading_text import find_unit, fold, read_part
-from netdesign.site.columns.lexicon import Lexicon
-from netdesign.site.columns.synonyms import LANGUAGES, load_synonyms
+from netdesign.site.columns.all_tables import (
+    NETS,
+    RANGES,
+    READ_LANGUAGES,
+    SHEETS,
+    load_file,
+)
+from netdesign.site.columns.lexicon import Lexicon, find_unit, fold, read_part
 
 LISTS = [(plan, plan.fields) for plan in SHEETS]
 LISTS += [(plan, plan.items) for plan in SHEETS if plan.items]
@@ -44,13 +48,13 @@ def test_no_heading_is_sure_and_unclear_at_once(plan, fields):
     assert sure & unclear == set()
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", READ_LANGUAGES)
 def test_synonyms_are_of_fields_that_there_are(language):
     keys = {plan.name: {field.key for field in plan.fields} for plan in SHEETS}
     keys["Ranges"] = {*keys["Ranges"], "span"}
     keys["quantities"] = {field.key for field in RANGES.items}
     keys["sheets"] = {plan.name for plan in SHEETS}
-    tables = load_synonyms(language)
+    tables = load_file(f"headings/{language}")
     for table, entries in tables.items():
         if table in keys:
             assert set(entries) <= keys[table]
@@ -62,7 +66,7 @@ def test_synonyms_are_of_fields_that_there_are(language):
 def test_no_sheet_name_stands_for_two_sheets():
     owners = {}
     for plan in SHEETS:
-        for name in (plan.name, *plan.aliases, *plan.names.values()):
+        for name in plan.raw_names:
             owners.setdefault(fold(name), set()).add(plan.name)
     assert {name: plans for name, plans in owners.items() if len(plans) > 1} == {}
 
@@ -106,7 +110,7 @@ def test_two_headings_in_one_cell_are_taken_only_if_they_agree(one, other):
 
 
 APART = (" / ", "/", "\n", " - ", " – ", "; ", " | ", ", ")
-WORDS_ALONE = load_synonyms("signs")["small"]["words"]
+WORDS_ALONE = load_file("signs")["small"]["words"]
 
 
 @settings(max_examples=800)
@@ -239,7 +243,7 @@ def test_units_stand_in_brackets_or_behind_a_comma():
 
 def test_italian_has_every_required_column():
     required = {field.key for field in NETS.fields if field.required}
-    table = load_synonyms("it")
+    table = load_file("headings/it")
     asked_for = {"net_height"}  # taken with its symbol DK, or as normal to the slope
     assert required - asked_for <= set(table["Nets"])
     assert asked_for <= set(table["unclear"]["Nets"])

@@ -12,10 +12,10 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from netdesign.site.columns.fields import Language
-from netdesign.site.columns.languages import load_words
-from netdesign.site.template import notes_sheet
-from netdesign.site.template.notes_sheet import SYMBOLS, name_picture
+from netdesign.site.columns.all_tables import load_file
+from netdesign.site.template import workbook
+from netdesign.site.template.workbook import SYMBOLS, name_picture
+from netdesign.words.catalogue import Language
 from netdesign.words.numerals import LANGUAGES
 
 if TYPE_CHECKING:
@@ -41,7 +41,10 @@ def draw_geometry(language: Language) -> bytes:
     """PNG of the section, with the words of a language; equal bytes each time."""
     from matplotlib.figure import Figure
 
-    texts = {**load_words("en")["drawing"], **load_words(language).get("drawing", {})}
+    texts = {
+        **load_file("words/en")["drawing"],
+        **load_file(f"words/{language}").get("drawing", {}),
+    }
     figure = Figure(figsize=_SIZE_IN, facecolor="white")
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_axis_off()
@@ -215,7 +218,7 @@ def write_pictures() -> None:
     """The pictures of all languages, of few colours: a quarter of the bytes."""
     from PIL import Image
 
-    folder = Path(notes_sheet.__file__).parent
+    folder = Path(workbook.__file__).parent
     for language in LANGUAGES:
         picture = Image.open(BytesIO(draw_geometry(language))).convert("RGB")
         few = picture.quantize(_COLOURS, dither=Image.Dither.NONE)

@@ -11,11 +11,15 @@ from PIL import Image
 from netdesign.checks import list_standards
 from netdesign.errors import OutputError, SiteDataError
 from netdesign.site.columns.all_tables import NETS, SHEETS
-from netdesign.site.columns.fields import LANGUAGES
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
-from netdesign.site.template.notes_sheet import SYMBOLS, _read_picture
-from netdesign.site.template.workbook import load_example, write_site_workbook
+from netdesign.site.template.workbook import (
+    SYMBOLS,
+    _read_picture,
+    load_example,
+    write_site_workbook,
+)
+from netdesign.words.catalogue import LANGUAGES
 from tests.site.template.geometry import draw_geometry
 
 

@@ -1,0 +1,166 @@
+"""Lines of all sheets of a site, and the ids by which they refer to each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.headings import Table
+from netdesign.site.ranges import RangesSheet
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.words.message import Message, say
+
+TYPE_SHEETS = ("Anchors", "Ropes", "Posts")
+Types = Mapping[str, Mapping[str, Row]]  # lines of the type sheets, by name and id
+
+_MOST_PLACES = 5  # named in one finding
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lines:
+    """Lines of a site's sheets.
+
+    Attributes
+    ----------
+    nets : sequence of Row
+        Of sheet Nets.
+    ends : mapping of str to Row
+        Of sheet Ends, by net row.
+    snow : mapping of str to sequence of Row
+        Of sheet Snow, by net row, from the ground up.
+    types : mapping of str to mapping of str to Row
+        Of the type sheets, by name and id.
+    absent, unreadable : collection of str
+        Type sheets that the workbook does not have, under whatever name; and those,
+        too, whose ids cannot be read.
+    ranges : RangesSheet
+        Of sheet Ranges.
+    """
+
+    nets: Sequence[Row]
+    ends: Mapping[str, Row]
+    snow: Mapping[str, Sequence[Row]]
+    types: Types
+    absent: Sequence[str]
+    unreadable: Sequence[str]
+    ranges: RangesSheet
+
+    @property
+    def places(self) -> dict[str, str]:
+        """Cell of each net row's id."""
+        return {line["id"].word: line["id"].place for line in self.nets}
+
+
+def index_lines(
+    lines: Iterable[Row], key: str, accepted: Message, findings: list[Finding]
+) -> dict[str, Row]:
+    """Lines by the id in a column; one used again is a finding that names the first."""
+    found: dict[str, Row] = {}
+    for line in lines:
+        reading = line[key]
+        if reading.word in found:
+            rule = say("nets.used_twice", place=found[reading.word][key].place)
+            refuse(reading, rule, accepted, findings)
+        elif reading.word:
+            found[reading.word] = line
+    return found
+
+
+def refuse_unknown_ids(
+    readings: Iterable[Reading],
+    places: Mapping[str, str],
+    findings: list[Finding],
+    key: str = "accepted.id_of_sheet",
+) -> None:
+    """Refuse ids that the sheet of their column does not have, each once.
+
+    Parameters
+    ----------
+    readings : iterable of Reading
+        Cells of one column.
+    places : mapping of str to str
+        Cells of the ids that there are.
+    findings : list of Finding
+        Appended to.
+    key : str
+        Text of what is accepted, which names the sheet.
+    """
+    told = {"", *places}
+    for reading in readings:
+        if reading.word in told:
+            continue
+        told.add(reading.word)
+        sheet = say(f"sheet.{reading.field.refers_to}")
+        accepted = add_nearest(say(key, sheet=sheet), reading.word, places)
+        refuse(reading, say("nets.no_id", sheet=sheet), accepted, findings)
+
+
+def refuse_unknown_types(line: Row, lines: Lines, findings: list[Finding]) -> None:
+    """Refuse types of a line of sheet Nets or Ends that their sheet does not have."""
+    for sheet, types in lines.types.items():
+        if sheet in lines.unreadable:
+            continue
+        places = {name: one["id"].place for name, one in types.items()}
+        for reading in list_references([line], sheet):
+            refuse_unknown_ids([reading], places, findings, "nets.id_or_empty")
+
+
+def list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
+    """Cells that name an id of a sheet."""
+    return [
+        reading
+        for row in rows
+        for reading in row.values()
+        if reading.field.refers_to == sheet and reading.word
+    ]
+
+
+def refuse_missing_sheets(table: Table, lines: Lines, findings: list[Finding]) -> None:
+    """One finding for a type sheet that is not there, not one for each of its ids."""
+    for name in lines.absent:
+        named = list_references([*lines.nets, *lines.ends.values()], name)
+        if not named:
+            continue
+        sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
+        ids = list(dict.fromkeys(one.word for one in named))
+        findings.append(
+            Finding(
+                file=table.sheet.file,
+                rule=_refuse_ids(ids, sheet, table.sheet.name),
+                accepted=_ask_for_sheet([one.place for one in named], sheet),
+            )
+        )
+
+
+def _refuse_ids(ids: list[str], sheet: Message, nets: str) -> Message:
+    shown = tuple(map(quote, ids[:_MOST_PLACES]))
+    if len(ids) == 1:
+        return say("nets.lacks_sheet_one", sheet=sheet, id=shown[0], nets=nets)
+    more = ("...",) if len(ids) > _MOST_PLACES else ()
+    return say(
+        "nets.lacks_sheet", sheet=sheet, count=len(ids), ids=(*shown, *more), nets=nets
+    )
+
+
+def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
+    shown, more = tuple(places[:_MOST_PLACES]), len(places) - _MOST_PLACES
+    if more <= 0:
+        return say("nets.sheet_or_empty", sheet=sheet, places=shown)
+    return say("nets.sheet_or_empty_more", sheet=sheet, places=shown, count=more)
+
+
+def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:
+    """Refuse neighbours of a row that are no other net rows of the sheet."""
+    ids = {row["id"].word for row in rows}
+    for row in rows:
+        for name in _list_neighbours(row):
+            if name not in ids or name == row["id"].word:
+                rule = say("nets.no_neighbour", id=name)
+                refuse(row["neighbour"], rule, say("nets.other_ids"), findings)
+
+
+def _list_neighbours(row: Row) -> list[str]:
+    """Ids of the rows that a line says it goes on into."""
+    text = row["neighbour"].word.replace(";", ",")
+    return [one.strip() for one in text.split(",") if one.strip()]

@@ -1,0 +1,344 @@
+"""Questions about numbers that can hardly be meant, by the net rows that rest on them.
+
+A net row with an open question is not proven until somebody changes the number, or
+confirms it on sheet Declared.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from statistics import median
+from typing import TypeAlias
+
+from netdesign.resistance.products import find_product
+from netdesign.site.cells.cells import Cell
+from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.columns.unit_names import from_si
+from netdesign.site.declared_sheet import Confirmation, show_value
+from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.words.message import Message, say
+
+
+def ask(
+    lines: Lines, confirmed: Iterable[Confirmation], findings: list[Finding]
+) -> Mapping[str, tuple[Message, ...]]:
+    """Open questions by net row.
+
+    Parameters
+    ----------
+    lines : Lines
+        Of the whole site.
+    confirmed : iterable of Confirmation
+        Numbers that somebody has confirmed.
+    findings : list of Finding
+        Appended to: each open question once.
+    """
+    settled = {one.cell for one in confirmed}
+    asked: dict[str, Message] = {}  # by cell: one question each
+    by_row: dict[str, dict[Message, None]] = {}
+    for rows, (reading, rule) in _list_all(lines):
+        if reading.cell is None or reading.place in settled or not rows:
+            continue
+        if reading.place not in asked:
+            refuse(
+                reading, rule, _tell_how(reading.cell), findings, severity="question"
+            )
+            asked[reading.place] = _name_question(reading, rule)
+        for row in rows:
+            by_row.setdefault(row, {})[asked[reading.place]] = None
+    return {row: tuple(questions) for row, questions in by_row.items()}
+
+
+def _name_question(reading: Reading, rule: Message) -> Message:
+    """The question as the check of a net row has it."""
+    return say(
+        "plausible.asked",
+        place=reading.place,
+        field=reading.field.name,
+        text=quote(reading.text),
+        rule=rule,
+    )
+
+
+def _tell_how(cell: Cell) -> Message:
+    """The way to settle a question."""
+    sheet, value = say("sheet.Declared"), show_value(cell)
+    return say("plausible.settle", sheet=sheet, place=cell.place, value=value)
+
+
+def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
+    """Doubts, each with the net rows that rest on its number."""
+    every = [line["id"].word for line in lines.nets]
+    for line in lines.nets:
+        yield from _give([line["id"].word], list_doubts(line))
+    place_of = {
+        id(one): line["id"].word for line in lines.nets for one in line.values()
+    }
+    for doubt in list_column_doubts(lines.nets, "Nets"):
+        yield [place_of[id(doubt[0])]], doubt
+    for row, end in lines.ends.items():
+        yield from _give([row], list_doubts(end))
+    for row, layers in lines.snow.items():
+        for layer in layers:
+            yield from _give([row], list_doubts(layer))
+    for line in lines.ranges.lines:
+        yield from _give(every, list_doubts(line))
+    for sheet in TYPE_SHEETS:
+        yield from _list_of_types(lines, sheet)
+
+
+def _give(
+    rows: list[str], doubts: Iterator[Doubt]
+) -> Iterator[tuple[list[str], Doubt]]:
+    return ((rows, doubt) for doubt in doubts)
+
+
+def _list_of_types(lines: Lines, sheet: str) -> Iterator[tuple[list[str], Doubt]]:
+    """Doubts about the types of a sheet, with the net rows that name each."""
+    types = lines.types[sheet]
+    users: dict[str, dict[str, None]] = {name: {} for name in types}
+    for line in lines.nets:
+        row = line["id"].word
+        beside = [lines.ends[row]] if row in lines.ends else []
+        for one in list_references([line, *beside], sheet):
+            users.setdefault(one.word, {})[row] = None
+    owner = {id(one): name for name, line in types.items() for one in line.values()}
+    doubts = [one for line in types.values() for one in list_doubts(line)]
+    for doubt in (*doubts, *list_column_doubts(list(types.values()), sheet)):
+        yield list(users[owner[id(doubt[0])]]), doubt
+
+
+Doubt: TypeAlias = tuple[Reading, Message]
+
+_TOLERANCE = 0.05  # of a value of the catalogue
+_LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
+_FORCES = ("tendon", "rope")
+_TESTED = ("pull_out", "test_mean")
+_MOST_TESTED = 1.12  # times the tendon, whose strength may be given as that of yield
+
+
+def list_doubts(line: Row) -> Iterator[Doubt]:
+    """Doubts about the numbers of a line, each by itself and beside the others.
+
+    Parameters
+    ----------
+    line : mapping of str to Reading
+        Of any sheet.
+    """
+    typed = {key: one for key, one in line.items() if _is_meant(one)}
+    alone = dict(_list_unlike(typed, line))
+    for key, reading in typed.items():
+        told = _doubt_alone(reading)
+        if told and key not in alone:
+            alone[key] = told
+    for key, reading in typed.items():
+        told = alone.get(key) or _doubt_beside(reading, line, alone)
+        told = told or _doubt_tested(reading, key, line)
+        if told:
+            yield reading, told
+
+
+def _is_meant(reading: Reading) -> bool:
+    """A number is typed, and no zero that says that there is none."""
+    says_none = reading.field.zero_says_none and reading.value == 0.0
+    return is_typed(reading) and not says_none
+
+
+def is_typed(reading: Reading) -> bool:
+    """A number stands in the cell; it was not worked out from others."""
+    is_given = reading.state == "given" and reading.derivation is None
+    return is_given and isinstance(reading.value, float)
+
+
+def _doubt_alone(reading: Reading) -> Message | None:
+    usual = reading.field.usual
+    if usual is None or usual.least <= reading.number <= usual.most:
+        return None
+    return say(
+        "plausible.alone",
+        number=reading.number,
+        low=usual.least,
+        high=usual.most,
+        unit=reading.field.unit,
+        source=say(f"plausible.source_{usual.source}"),
+    )
+
+
+def _doubt_beside(
+    reading: Reading, line: Row, doubted: Container[str]
+) -> Message | None:
+    """Doubt by others of the line, none of which is in doubt itself."""
+    for usual in reading.field.beside:
+        others = [line[key] for key in usual.powers]
+        if any(one.state != "given" or not one.number for one in others):
+            continue
+        if any(key in doubted for key in usual.powers):
+            continue
+        scale = math.prod(line[key].si ** power for key, power in usual.powers.items())
+        low, high = usual.least * scale, usual.most * scale
+        if not low <= reading.si <= high:
+            unit = reading.field.unit
+            return say(
+                "plausible.beside",
+                others=tuple(map(_name_with_value, others)),
+                low=from_si(low, unit),
+                high=from_si(high, unit),
+                unit=unit,
+            )
+    return None
+
+
+def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
+    """No test pulls more out of the ground than its tendon bears."""
+    tendon = line.get("tendon")
+    if key not in _TESTED or tendon is None or tendon.state != "given":
+        return None
+    is_tested = key == "test_mean" or line["basis"].word == "tested"
+    if not is_tested or reading.si <= _MOST_TESTED * tendon.si:
+        return None
+    return say("plausible.tested", tendon=_name_with_value(tendon))
+
+
+def _name_with_value(reading: Reading) -> Message:
+    return say(
+        "plausible.named",
+        name=reading.field.name,
+        number=reading.number,
+        unit=reading.field.unit,
+        place=reading.place,
+    )
+
+
+def _list_unlike(
+    typed: Mapping[str, Reading], line: Row
+) -> Iterator[tuple[str, Message]]:
+    """Numbers of a type that are not those of the product that it is named after."""
+    columns = {
+        key: one.field.of_product for key, one in typed.items() if one.field.of_product
+    }
+    product = find_product(line["id"].word) if columns else None
+    if product is None:
+        return
+    for key, names in columns.items():
+        reading = typed[key]
+        spans = [product.values[one] for one in names if one in product.values]
+        if not spans:
+            continue
+        if key in _FORCES or key == "bar_strength":  # yield to ultimate
+            spans = [(min(low for low, _ in spans), max(high for _, high in spans))]
+        loss = _LOSS if key in _FORCES else _TOLERANCE
+        if any(
+            (1.0 - loss) * low <= reading.si <= (1.0 + _TOLERANCE) * high
+            for low, high in spans
+        ):
+            continue
+        unit = reading.field.unit
+        known = tuple(_name_span(from_si(a, unit), from_si(b, unit)) for a, b in spans)
+        yield (
+            key,
+            say(
+                "plausible.unlike",
+                product=product.id,
+                known=known,
+                unit=unit,
+                sources=product.sources,
+            ),
+        )
+
+
+def _name_span(low: float, high: float) -> Message:
+    if math.isclose(low, high, rel_tol=1e-6):
+        return say("plausible.one", number=low)
+    return say("plausible.span", low=low, high=high)
+
+
+_LEAST_LINES = 5
+_BEYOND = 4.0  # times the scatter of a column about its median
+_NAME = re.compile(r"^(\D*)(\d+(?:[.,]\d+)?)(.*)$")
+# Force over the square of the diameter that a type's name gives [kN/mm2].
+_FITS = (0.25, 1.3)
+_OTHERS = 2  # types, at least, whose names give a diameter
+_DIAMETERS = (10.0, 80.0)  # [mm]
+_BY_DIAMETER = {"Anchors": "tendon", "Ropes": "rope"}
+
+
+def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
+    """Doubts about numbers of a sheet beside others of their column.
+
+    Parameters
+    ----------
+    lines : sequence of mapping of str to Reading
+        All lines of the sheet.
+    sheet : str
+        Its name in English.
+    """
+    keys = lines[0].keys() if lines else ()
+    for key in keys:
+        if not lines[0][key].field.scatters:
+            yield from _list_outliers([one[key] for one in lines])
+    if sheet in _BY_DIAMETER:
+        yield from _list_misfits(lines, _BY_DIAMETER[sheet])
+
+
+def _list_outliers(readings: Sequence[Reading]) -> Iterator[Doubt]:
+    """Numbers far off the median of five or more, by ratio."""
+    typed = [one for one in readings if is_typed(one) and one.number > 0.0]
+    if len(typed) < _LEAST_LINES:
+        return
+    middle = median(one.number for one in typed)
+    scatter = median(_find_ratio(one.number, middle) for one in typed)
+    for one in typed:
+        if _find_ratio(one.number, middle) > _BEYOND * scatter:
+            yield (
+                one,
+                say(
+                    "plausible.outlier",
+                    times=one.number / middle,
+                    middle=middle,
+                    unit=one.field.unit,
+                    count=len(typed),
+                ),
+            )
+
+
+def _find_ratio(one: float, other: float) -> float:
+    return max(one / other, other / one)
+
+
+def _list_misfits(lines: Sequence[Row], key: str) -> Iterator[Doubt]:
+    """Forces that do not follow the diameters in the names of their types.
+
+    Numbers are diameters where they fit the forces of all types but one.
+    """
+    named = [one for line in lines if (one := _read_name(line, key))]
+    off = [one for one in named if not _fits(one[1], one[2])]
+    if len(named) - len(off) < _OTHERS or len(off) > 1:
+        return
+    for _, diameter, reading in off:
+        yield reading, say("plausible.diameter", diameter=diameter)
+    fitting = [one for one in named if one not in off]
+    for kind, diameter, reading in fitting:
+        for other_kind, other, beside in fitting:
+            is_smaller = kind == other_kind and diameter < other
+            if is_smaller and reading.number > beside.number:
+                yield reading, say("plausible.more", place=beside.place)
+                yield beside, say("plausible.less", place=reading.place)
+
+
+def _read_name(line: Row, key: str) -> tuple[str, float, Reading] | None:
+    """Text around the number of a name, the number, and the force of the type."""
+    match, reading = _NAME.match(line["id"].word), line[key]
+    if match is None or not is_typed(reading):
+        return None
+    diameter = float(match[2].replace(",", "."))
+    if not _DIAMETERS[0] <= diameter <= _DIAMETERS[1]:
+        return None
+    return f"{match[1]}|{match[3]}", diameter, reading
+
+
+def _fits(diameter: float, reading: Reading) -> bool:
+    low, high = _FITS
+    return low <= reading.number / diameter**2 <= high

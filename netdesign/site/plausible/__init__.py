@@ -1,1 +1,0 @@
-"""Numbers that can hardly be meant: a slip of the pen becomes a question."""

@@ -1,0 +1,229 @@
+"""Statements of a line of sheet Nets, and of its line of sheet Ends.
+
+Some columns may be empty, but every force of a row depends on their values. No default
+is on the safe side for all members, so a row that lacks one of them is not proven:
+knowing less never makes a verdict better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from netdesign.panel.assumed import Ends, find_stiffness, list_panels
+from netdesign.panel.inputs import CUTS
+from netdesign.site.cells.findings import Finding
+from netdesign.site.model import MEMBER_MODES, NAMED_BY, BorderRope, InputEcho, RowPanel
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.type_resistances import find_breaking
+from netdesign.structure.members import EndMember
+from netdesign.words.message import Message, say
+
+# What says the same as another column, or the contrary.
+_ONE_OF_TWO = (
+    ("post_base_distance", "post_tilt"),
+    *(("anchor_axes", axis) for axis in ("foot_axis", "uphill_axis", "downhill_axis")),
+)
+_LAYERED = ("layered", "layered with temperatures")
+_ROPES = ("ridge_rope", "lower_rope")
+_OF_PANEL = (
+    "net_cut",
+    "ridge_rope",
+    "ridge_sag",
+    "lower_rope",
+    "lower_sag",
+    "mid_anchors",
+)
+# Columns of sheets Nets and Ends that name a type of the support.
+_TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
+
+
+def list_unsaid(row: Row) -> tuple[Message, ...]:
+    """Names of those columns of sheet Nets that a line leaves empty.
+
+    Parameters
+    ----------
+    row : mapping of str to Reading
+        Line of sheet Nets, filled in by the ranges.
+    """
+    needed = ["slack", "uphill_anchor_distance", "downhill_anchor_distance"]
+    needed += ["snow_layers", "guy_count"]
+    if row["post_base_distance"].state != "given":
+        needed.append("post_tilt")
+    if row["guy_count"].state == "given" and row["guy_count"].number > 1:
+        needed.append("guy_splay")
+    return tuple(row[key].field.name for key in needed if row[key].state != "given")
+
+
+def check_statements(
+    row: Row, lines: Sequence[Row], end: Row | None, findings: list[Finding]
+) -> None:
+    """Refuse statements of a line that something else contradicts.
+
+    Parameters
+    ----------
+    row : mapping of str to Reading
+        Line of sheet Nets.
+    lines : sequence of Row
+        Its layers in sheet Snow.
+    end : Row or None
+        Its line in sheet Ends.
+    findings : list of Finding
+        Appended to.
+    """
+    _check_layers(row["snow_layers"], lines, findings)
+    _check_panel(row, end, findings)
+    for reading, beside in _list_contradictions(row, end):
+        rule = say("nets.beside", name=beside.field.name, place=beside.place)
+        refuse(reading, rule, say("accepted.one_of_two"), findings)
+    said, neighbour = row["row_end"], row["neighbour"]
+    if said.word == "continuous" and neighbour.state == "blank":
+        refuse(said, say("nets.without_neighbour"), say("nets.other_ids"), findings)
+
+
+def _check_layers(said: Reading, lines: Sequence[Row], findings: list[Finding]) -> None:
+    has_temperatures = any(one["temperature"].state == "given" for one in lines)
+    expected = _LAYERED[has_temperatures] if lines else "uniform"
+    if said.word and said.word != expected:
+        word = said.field.name_word(expected)
+        place = lines[0]["row"].place if lines else say("sheet.Snow")
+        rule = say("nets.other_layers", place=place)
+        refuse(said, rule, say("accepted.words", words=(word,)), findings)
+
+
+def _list_contradictions(
+    row: Row, end: Row | None
+) -> Iterator[tuple[Reading, Reading]]:
+    """Cells of a line, or of its row's end, that cannot both be true."""
+    pairs = [(row[key], row[other]) for key, other in _ONE_OF_TWO]
+    if end is not None:
+        pairs += [(end[key], end["support_types"]) for key in _TYPES]
+    yield from (pair for pair in pairs if all(one.state == "given" for one in pair))
+    said, gap = row["row_end"], row["gap"]
+    has_gap = gap.state == "given" and gap.si > 0.0
+    has_none = gap.state == "given" and gap.si == 0.0
+    if said.word == "continuous":
+        if has_gap:
+            yield gap, said
+        if end is not None:
+            yield end["row"], said
+    elif row["neighbour"].state == "given" and said.state != "faulty":
+        yield row["neighbour"], said
+    if said.word == "free" and has_none:
+        yield gap, said
+
+
+def _check_panel(row: Row, end: Row | None, findings: list[Finding]) -> None:
+    """Refuse what is said of ropes, or holds their pull, where there are no ropes."""
+    system = row["panel_system"]
+    told = [row[key] for key in _OF_PANEL]
+    told += [end[key] for key in (*EndMember, "end_guy_angle")] if end else []
+    for reading in told if system.word == "none" else ():
+        if reading.state == "given":
+            rule = say("panel.beside_none", place=system.place)
+            refuse(reading, rule, say("panel.empty_or_ropes"), findings)
+
+
+def read_panel(
+    row: Row, ropes: Mapping[str, Row]
+) -> tuple[RowPanel | None, Message | None]:
+    """Panel of a net row without a fault, and why its forces may be other ones.
+
+    What is not given of a panel is assumed.
+
+    Parameters
+    ----------
+    row : mapping of str to Reading
+        Line of sheet Nets.
+    ropes : mapping of str to mapping of str to Reading
+        Lines of sheet Ropes by id.
+
+    Returns
+    -------
+    RowPanel or None, Message or None
+        Both None of a row without ropes between its posts.
+    """
+    system = row["panel_system"].word
+    if system == "none":
+        return None, None
+    if system == "triangular":
+        return None, say("panel.triangular")
+    lack = None if system else say("panel.no_system")
+    return _build_panel(row, ropes), lack
+
+
+def _build_panel(row: Row, ropes: Mapping[str, Row]) -> RowPanel:
+    ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
+    mid = row["mid_anchors"].word
+    return RowPanel(
+        panels=list_panels(
+            row["post_spacing"].si,
+            cut=next((cut for cut in CUTS if cut == row["net_cut"].word), None),
+            sags=(row["ridge_sag"].given_si, row["lower_sag"].given_si),
+            stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
+            has_mid_anchors=mid == "yes" if mid else None,
+        ),
+        lower=_describe_rope(lower),
+        upper=_describe_rope(ridge),
+        assumed=tuple(_list_assumed(row, ropes)),
+    )
+
+
+def _list_assumed(row: Row, ropes: Mapping[str, Row]) -> list[Message]:
+    keys = ("panel_system", *_OF_PANEL)
+    lacking = [row[key].field.name for key in keys if row[key].state != "given"]
+    named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
+    return lacking + [
+        say("panel.stiffness_of", id=one)
+        for one in named
+        if ropes[one]["axial_stiffness"].state != "given"
+    ]
+
+
+def _find_stiffness(line: Row | None) -> Ends:
+    if line is None:
+        return find_stiffness(None, None)
+    return find_stiffness(line["axial_stiffness"].given_si, find_breaking(line))
+
+
+def _describe_rope(line: Row | None) -> BorderRope:
+    if line is None:
+        return BorderRope(type_id="", breaking=None, source="Nets")
+    breaking = line["rope"]
+    return BorderRope(
+        type_id=line["id"].word,
+        breaking=breaking.given_si,
+        source=line["rope" if breaking.state == "given" else "id"].place,
+    )
+
+
+def replace_types(row: Row, end: Row | None) -> Row:
+    """Line of sheet Nets with the types of its end.
+
+    A type that sheet Ends does not give is not known there, unless it says that the
+    types not given are those inside.
+    """
+    if end is None:
+        return {**row, **{key: _say_nothing(row[key]) for key in _TYPES}}
+    if end["support_types"].word:
+        return row
+    return {**row, **{key: end[key] for key in _TYPES}}
+
+
+def _say_nothing(reading: Reading) -> Reading:
+    return replace(reading, state="blank", value=None, text="", cell=None)
+
+
+def has_same_types(at_end: Row, row: Row) -> bool:
+    """Sameness of every type at the row's end and inside; none is left empty."""
+    return all(at_end[key].word == row[key].word != "" for key in _TYPES)
+
+
+def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:
+    """Types of the ends as typed; those left empty are those of the row."""
+    readings = end.values() if end else ()
+    return tuple(
+        one.echo()
+        for one in readings
+        if one.state == "given" and one.field.key != "row"
+    )
