@@ -153,3 +153,18 @@ _ROWS = (
 )
 
 QUANTITIES: Mapping[str, Form] = MappingProxyType({row.key: row for row in _ROWS})
+
+# Digits after the point of symbols of a calculation: by their unit, but for some.
+_DIGITS_OF_UNIT = {"kN": 1, "m": 2, "deg": 1, "-": 4}
+_DIGITS: Mapping[str, int | None] = {
+    **dict.fromkeys(("γ_E", "γ_R", "ξ_m", "ξ_min", "μ_b"), None),  # as given
+    **{"f_R": 2, "A": 2, "c": 3, "w": 3, "k_q": 3},
+}
+
+
+def find_form(symbol: str, unit: str) -> Form:
+    """Form of a symbol of a calculation, in the unit that the calculation has."""
+    if symbol == "μ":
+        return QUANTITIES["utilisation"]
+    digits = _DIGITS.get(symbol, _DIGITS_OF_UNIT.get(unit, 4))
+    return Form(key="", symbol=symbol, unit=unit, decimals=digits)

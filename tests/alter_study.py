@@ -1,5 +1,6 @@
 """Alters stored studies value by value, as a slip or a hand would."""
 
+from netdesign.calculation.quantity import Kind
 from netdesign.outcome import Outcome, Verdict
 
 OBJECTS = (
@@ -21,7 +22,7 @@ OBJECTS = (
     "held_sideways",
     "panel",
 )
-WORDS = ([*Verdict], [*Outcome])
+WORDS = ([*Verdict], [*Outcome], [*Kind])
 
 
 def list_leaves(part, path=()):
@@ -62,7 +63,7 @@ def _alter(value, key, draw):
     if key == "started":
         return value.replace("20", "19", 1)
     for words in WORDS:
-        if value in words and key in ("verdict", "outcome"):
+        if value in words and key in ("verdict", "outcome", "kind"):
             return draw.choice([word for word in words if word != value])
     if key == "sense":
         return "at most" if value == "has" else "has"

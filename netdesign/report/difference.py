@@ -34,17 +34,21 @@ _WORST = 3  # rank of a failure, and of what is no longer there
 _OF_CHECK = (
     "utilisation",
     "demand_kN",
-    "demand_low_kN",
-    "demand_high_kN",
     "resistance_kN",
-    "action_factor",
-    "resistance_characteristic_kN",
-    "resistance_factor",
     "resistance_basis",
     "resistance_type",
     "clause",
     "declared",
 )
+# The same of its calculation: symbol, and which of low end, value and high end.
+_OF_STEPS = {
+    "demand_low_kN": ("E_d", 0),
+    "demand_high_kN": ("E_d", 2),
+    "action_factor": ("γ_E", 1),
+    "resistance_characteristic_kN": ("R_k", 1),
+    "resistance_factor": ("γ_R", 1),
+}
+_TOLD = ("E_d", "γ_E", "R_k", "γ_R", "R_d", "μ")  # symbols of all of these
 _MOST_DIGITS = 17  # tell any two numbers apart
 _NOTHING = (None, "", "-")
 _Value = TypeVar("_Value")
@@ -327,7 +331,7 @@ def _list_checks(row: RowStudy) -> Named:
             _read_value(check, key)
         )
         for title, check in _name_checks(row).items()
-        for key in _OF_CHECK
+        for key in (*_OF_CHECK, *_OF_STEPS)
     }
 
 
@@ -336,6 +340,10 @@ def _read_value(check: CheckRecord, key: str) -> Any:
 
     A utilisation without a bound is a word, too: JSON has no infinite number.
     """
+    if key in _OF_STEPS:
+        symbol, end = _OF_STEPS[key]
+        step = check.known.get(symbol)
+        return step.ends[end] if step else None
     value = getattr(check, key)
     if key == "utilisation" and check.is_unbounded:
         return _Word("unbounded", say("diff_value.unbounded"))
@@ -423,18 +431,26 @@ def _keep_rest(study: Study) -> object:
 
 def _keep_row_rest(row: RowStudy) -> object:
     """Parts of a net row that are told in sum only."""
-    told = dict.fromkeys(_OF_CHECK) | {"verdict": Verdict.PASS, "clause": ""}
-    told |= {"resistance_basis": "", "resistance_type": "", "is_unbounded": False}
     return replace(
         row,
         verdict=Verdict.PASS,
-        checks=[replace(check, **told) for check in row.checks],  # type: ignore[arg-type]
+        checks=[_keep_check_rest(check) for check in row.checks],
         extremes=[
             replace(one, max_kN=0.0, upper_bound_kN=None) for one in row.extremes
         ],
         inputs=[replace(echo, value="") for echo in row.inputs],
         independent=[replace(one, is_met=True) for one in row.independent],
     )
+
+
+def _keep_check_rest(check: CheckRecord) -> CheckRecord:
+    told = dict.fromkeys(_OF_CHECK) | {"verdict": Verdict.PASS, "clause": ""}
+    told |= {"resistance_basis": "", "resistance_type": "", "is_unbounded": False}
+    steps = [
+        replace(one, value=None, low=None, high=None) if one.symbol in _TOLD else one
+        for one in check.steps
+    ]
+    return replace(check, steps=steps, **told)  # type: ignore[arg-type]
 
 
 def _show(old: Any, new: Any, words: Words) -> tuple[str, str]:

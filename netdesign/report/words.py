@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
-from netdesign.quantities import QUANTITIES
+from netdesign.quantities import QUANTITIES, Form, find_form
 from netdesign.site.columns.fields import normalise
 from netdesign.words.catalogue import (
     Language,
@@ -85,18 +85,21 @@ class Words:
         >>> ENGLISH.show_number("utilisation", math.inf)  # nothing resists
         '∞'
         """
-        if key == "utilisation" and value == math.inf:
+        return self._show_in_form(QUANTITIES[key], value)
+
+    def _show_in_form(self, form: Form, value: float | None) -> str:
+        is_ratio = form.key == "utilisation"
+        if is_ratio and value == math.inf:
             return UNBOUNDED
         if value is None or not math.isfinite(value):
             return MISSING
-        quantity = QUANTITIES[key]
-        if quantity.decimals is None:
-            return self.show_given(round(value, quantity.most))
-        kind = "e" if quantity.scientific else "f"
-        shown = f"{value:.{quantity.decimals}{kind}}"
+        if form.decimals is None:
+            return self.show_given(round(value, form.most))
+        kind = "e" if form.scientific else "f"
+        shown = f"{value:.{form.decimals}{kind}}"
         if not float(shown):
             shown = shown.removeprefix("-")
-        over = key == "utilisation" and value > 1 and float(shown) <= 1
+        over = is_ratio and value > 1 and float(shown) <= 1
         return self.write(f">{shown}" if over else shown)
 
     def show_fixed(self, value: float | None, decimals: int) -> str:
@@ -136,17 +139,16 @@ class Words:
     def show_quantity(self, value: float | str, unit: str) -> str:
         """Value that somebody chose, with its unit if it has one."""
         text = value if isinstance(value, str) else self.show_given(value)
-        shown = show_unit(unit)
-        gap = "" if shown == "°" else " "
-        return show_text(f"{text}{gap}{shown}" if shown != MISSING else text)
+        return show_text(append_unit(text, unit))
 
     def show_with_unit(self, key: str, value: float | None) -> str:
         """Number and unit; the sign of a missing number has no unit."""
-        shown = self.show_number(key, value)
-        unit = QUANTITIES[key].unit
-        if shown == MISSING or not unit:
-            return shown
-        return f"{shown}{unit}" if unit == "°" else f"{shown} {unit}"
+        return append_unit(self.show_number(key, value), QUANTITIES[key].unit)
+
+    def show_symbol(self, symbol: str, unit: str, value: float | None) -> str:
+        """Value of a symbol of a calculation, with its unit."""
+        shown = self._show_in_form(find_form(symbol, unit), value)
+        return append_unit(shown, unit)
 
     def show_band(self, key: str, low: float | None, high: float | None) -> str:
         """Band of a number: ``0.842 to 0.871``."""
@@ -248,6 +250,14 @@ def _round_figures(value: float) -> str:
 def show_unit(unit: str) -> str:
     """Unit as an engineer writes it: ``kg/m³`` for the workbook's ``kg/m3``."""
     return _UNITS.get(unit, show_text(unit))
+
+
+def append_unit(shown: str, unit: str) -> str:
+    """Shown number with its unit: ``4.0 kN``, ``25°``; a missing one has none."""
+    named = show_unit(unit)
+    if MISSING in (shown, named):
+        return shown
+    return f"{shown}{named}" if named == "°" else f"{shown} {named}"
 
 
 def understand(echo: InputEcho, words: Words) -> float | str:

@@ -118,8 +118,8 @@ def _collect(value: Any, place: str, values: dict[str, Any]) -> None:
 
 
 def _list_ids(members: Sequence[Any]) -> list[str]:
-    """Ids of the members of a list; none if one lacks it or two share it."""
-    ids = [str(getattr(one, "id", "")) for one in members]
+    """Ids or symbols of the members of a list; none if one lacks it or two share it."""
+    ids = [str(getattr(one, "id", getattr(one, "symbol", ""))) for one in members]
     return ids if all(ids) and len(set(ids)) == len(ids) else []
 
 

@@ -700,7 +700,11 @@ def build_slack_check(case: CasePoint) -> CheckRecord:
         governs="coupled",
         steps=list_steps(
             rate(
-                given("E_k", 0.0, "kN", "downhill_guy", kind=Kind.SOLVED),
+                take_largest(
+                    "E_k",
+                    given("E_c", 0.0, "kN", "downhill_guy", kind=Kind.SOLVED),
+                    given("E_g", 0.0, "kN", "floor.downhill_guy", kind=Kind.SOLVED),
+                ),
                 given("γ_E", ACTION_FACTOR, "-", "action.snow", kind=Kind.PROFILE),
                 given("R_k", 180.0, "kN", "Ropes!E7"),
                 given("γ_R", RESISTANCE_FACTOR, "-", "resistance", kind=Kind.PROFILE),

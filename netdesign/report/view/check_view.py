@@ -6,14 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.demand_steps import (
-    describe_load,
-    describe_widths,
-    show_loads,
-)
 from netdesign.report.words import (
     MISSING,
-    UNBOUNDED,
     VerdictWords,
     Words,
     show_check,
@@ -75,24 +69,6 @@ class CheckView:
         return "; ".join(part for part in parts if part != MISSING) or MISSING
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
-    """One line of a worked calculation: ``symbols = numbers = result``."""
-
-    symbols: str
-    numbers: str
-    result: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Worked:
-    """The calculation of one check with its numbers put in."""
-
-    title: str
-    steps: tuple[Step, ...]
-    needed: str
-
-
 def find_governing(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     """Check that decides the verdict: the worst verdict, then the largest ratio."""
     return min(checks, key=rank_check, default=None)
@@ -146,11 +122,11 @@ def view_check(check: CheckRecord, words: Words) -> CheckView:
         band=words.show_band("utilisation", low, high),
         bar=_build_bar(low, check.used, high),
         verdict=show_verdict(check.verdict, words),
-        case=_name_case(check, words),
-        case_short=_name_case(check, words, is_short=True),
+        case=name_case(check, words),
+        case_short=name_case(check, words, is_short=True),
         reason=words.show(check.reason),
-        load=describe_load(check, words),
-        loads=show_loads(check, words),
+        load=_tell_load(check, words),
+        loads=_show_loads(check, words),
     )
 
 
@@ -165,18 +141,71 @@ def pick_view(
 
 def find_case(check: CheckRecord) -> CasePoint | None:
     """Case of the ranges that brings the demand; None where the guideline does."""
-    action = check.action
-    return None if action and action.governs == "guideline" else check.case
+    return None if check.governs == "guideline" else check.case
 
 
-def _name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> str:
+def name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> str:
     """Case that brings the demand: of the ranges, or the guideline's load case."""
-    action, case = check.action, find_case(check)
-    if action is None or action.governs != "guideline":
-        return words.name_case_short(case) if is_short else words.name_case(case)
-    named = show_text(words.show(name("load_case", action.floor_case)))
-    inclination = words.show_with_unit("inclination_deg", action.floor_inclination_deg)
+    if check.governs != "guideline":
+        return (
+            words.name_case_short(check.case)
+            if is_short
+            else words.name_case(check.case)
+        )
+    named = show_text(words.show(name("load_case", check.load_case)))
+    inclination = words.show_with_unit("inclination_deg", check.load_inclination_deg)
     return f"{named}, θ {inclination}"
+
+
+def _list_loads(check: CheckRecord) -> dict[str, tuple[str, float]]:
+    """Characteristic force by each load, with its symbol; solved ones at most [kN].
+
+    None where there is one load alone, or no force by any.
+    """
+    loads = {"coupled": "c", "panel": "p", "guideline": "g"}
+    found = {}
+    for load, letter in loads.items():
+        symbol = check.name_force(letter)
+        _, force = check.read_band(symbol)
+        if force is not None:
+            found[load] = symbol, force
+    is_loaded = any(force for _, force in found.values())
+    return found if len(found) > 1 and is_loaded else {}
+
+
+def _tell_load(check: CheckRecord, words: Words) -> str:
+    """Governing load of a demand, with all values; "" where there is one alone."""
+    loads = _list_loads(check)
+    if not loads:
+        return ""
+    shown = {
+        load: words.show_symbol(symbol, "kN", force)
+        for load, (symbol, force) in loads.items()
+    }
+    told = []
+    if "panel" in shown:
+        panel, coupled = shown["panel"], shown["coupled"]
+        told.append(words("show.load_panel", panel=panel, coupled=coupled))
+    if "guideline" in shown:
+        first = "guideline" if check.governs == "guideline" else "coupled"
+        pair = words(
+            f"show.load_{first}",
+            coupled=shown["coupled"],
+            guideline=shown["guideline"],
+            case=show_text(words.show(name("load_case", check.load_case))),
+        )
+        told.insert(len(told) if check.governs == "panel" else 0, pair)
+    return words.join(told)
+
+
+def _show_loads(check: CheckRecord, words: Words) -> str:
+    """The same by their symbols, the one that governs first."""
+    loads = _list_loads(check)
+    order = sorted(loads, key=lambda load: load != check.governs)
+    return words.join(
+        f"{symbol} {words.show_number('demand_kN', force)}"
+        for symbol, force in (loads[load] for load in order)
+    )
 
 
 def _build_bar(
@@ -193,97 +222,3 @@ def _measure_bar(ratio: float) -> float:
     if ratio <= 1.0:
         return _BAR_UNIT * ratio
     return _BAR_UNIT + _BAR_BEYOND * (1.0 - 1.0 / ratio)
-
-
-def work_out(check: CheckRecord, words: Words) -> Worked:
-    """Worked calculation of a check with a demand and a resistance, or none left."""
-    needed = words.show_with_unit("resistance_kN", check.demand_high_kN)
-    return Worked(
-        title=words(
-            "show.row_at_case",
-            check=show_check(words, check),
-            case=_name_case(check, words),
-        ),
-        steps=(
-            *_derive_action(check, words),
-            *_derive_resistance(check, words),
-            _factor_action(check, words),
-            *_list_comparison(check, words),
-        ),
-        needed=words(
-            "show.needed", verdict=words(f"verdict.{check.verdict}"), force=needed
-        ),
-    )
-
-
-def _derive_action(check: CheckRecord, words: Words) -> tuple[Step, ...]:
-    """Characteristic action from the solved force and the widths that a support has."""
-    return tuple(
-        Step(symbols=symbols, numbers=numbers, result=result)
-        for symbols, numbers, result in describe_widths(check, words)
-    )
-
-
-def _derive_resistance(check: CheckRecord, words: Words) -> tuple[Step, ...]:
-    """Characteristic resistance from dimensions or tests."""
-    if not check.resistance_derivation:
-        return ()
-    given = check.resistance_characteristic_kN
-    return (
-        Step(
-            symbols="R_k",
-            numbers=words.show(check.resistance_derivation),
-            result=words.show_with_unit("resistance_characteristic_kN", given),
-        ),
-    )
-
-
-def _factor_action(check: CheckRecord, words: Words) -> Step:
-    factor = words.show_number("action_factor", check.action_factor)
-    return Step(
-        symbols="E_d = γ_E · E_k",
-        numbers=f"{factor} · {words.show_with_unit('action_kN', check.action_kN)}",
-        result=words.show_with_unit("demand_kN", check.demand_kN),
-    )
-
-
-def _reduce_resistance(check: CheckRecord, words: Words) -> Step:
-    given = check.resistance_characteristic_kN
-    return Step(
-        symbols="R_d = R_k / γ_R",
-        numbers=_divide(
-            words.show_with_unit("resistance_characteristic_kN", given),
-            words.show_number("resistance_factor", check.resistance_factor),
-        ),
-        result=words.show_with_unit("resistance_kN", check.resistance_kN),
-    )
-
-
-def _list_comparison(check: CheckRecord, words: Words) -> tuple[Step, ...]:
-    """Resistance and utilisation; where nothing is left to resist, why that is so."""
-    if not check.is_unbounded:
-        return _reduce_resistance(check, words), _compare_both(check, words)
-    return (
-        Step(symbols="R_d", numbers=words.show(check.reason), result=MISSING),
-        Step(symbols="μ", numbers=words("show.nothing_resists"), result=UNBOUNDED),
-    )
-
-
-def _compare_both(check: CheckRecord, words: Words) -> Step:
-    low, high = check.utilisation_band
-    return Step(
-        symbols="μ = E_d / R_d",
-        numbers=_divide(
-            words.show_with_unit("demand_kN", check.demand_kN),
-            words.show_with_unit("resistance_kN", check.resistance_kN),
-        ),
-        result=words(
-            "show.with_band",
-            value=words.show_number("utilisation", check.used),
-            band=words.show_band("utilisation", low, high),
-        ),
-    )
-
-
-def _divide(above: str, below: str) -> str:
-    return f"{above} / {below}"

@@ -21,7 +21,7 @@ FORMULAS = (
         "A = w · max(k P / tan β − T_min; 0), w = κ u·p + (1 − κ) d·p, "
         "T_min = min(max(T_s − ΔT; 0); T_g)",
     ),
-    ("sliding", "g = max |x_H − x_B| / y_H, A = g · A(V)"),
+    ("sliding", "E_k = t V_k, t = max |x_H − x_B| / y_H, R_k = μ_b γ_E V_k"),
     ("lateral", "k_q = √(1 + k²)"),
     (
         "width",
@@ -30,8 +30,9 @@ FORMULAS = (
     ),
     ("coupled", "E_c = (g E_s + A) k_q b_e / b"),
     ("guideline", "E_g = (g E_g0 + A) k_q b_e / b"),
-    ("panel", "E_q = (g E_p + A) k_q b_e / b + Z"),
-    ("action", "E_k = max(E_c; E_q; E_g)"),
+    ("panel", "E_p = (g E_p0 + A) k_q b_e / b + Z"),
+    ("rope_end", "H = T_r (1 + f_R Δl / b), Z = H tan γ, E_k = H / cos γ"),
+    ("action", "E_k = max(E_c; E_p; E_g)"),
     ("design", "E_d = γ_E E_k, R_d = R_k / γ_R, μ = E_d / R_d"),
     ("pressure", "S'_N = ρ g H² K N / 2, K = (k_0 + k_1 ρ + k_2 ρ² + k_3 ρ³) sin 2ψ"),
     (

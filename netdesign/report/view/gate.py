@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable
 from html.parser import HTMLParser
 
+from netdesign.calculation.steps import SAME, Step, compare_steps, is_same
 from netdesign.checks.schema import MODES_WITHOUT_FORCE
-from netdesign.errors import NetDesignError
+from netdesign.errors import ContentError, NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.structure.members import ROPE_OF
-from netdesign.study.rejudge.compare import tell_value, tell_verdict
 from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 
-_TOLERANCE = 1e-9  # relative; products of two stored numbers differ by rounding only
+# Numbers of a check by the symbols that give them, and what no calculation alters.
+_RESULTS = {"demand_kN": "E_d", "resistance_kN": "R_d", "utilisation": "μ"}
+_RULES = {"E_d": "γ_E * E_k", "R_d": "R_k / γ_R", "μ": "E_d / R_d"}
+_FORCES = ("E_k", "V_k", "E_d", "R_k", "R_d")
+_ABOVE_ZERO = ("γ_E", "γ_R", "R_d")
 _DRAWING = re.compile(r"<svg.*?</svg>", re.DOTALL)
 _HEADINGS = ("h1", "h2", "h3", "h4")
 # Tags that bound neither a section nor a heading: most of a page, and slow to parse.
@@ -50,29 +53,27 @@ def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) ->
     better = (Verdict.PASS, Verdict.DECLARED)
     is_held_back = whole is Verdict.NOT_PROVEN and merged in better
     if whole is not merged and not is_held_back:
-        raise NetDesignError(tell_verdict(place, whole, merged))
+        verdict, follows = say(f"verdict.{whole}"), say(f"verdict.{merged}")
+        told = {"place": place, "verdict": verdict, "merged": follows}
+        raise NetDesignError(say("audit.verdict", **told))
 
 
 def _require_sound(place: Message, check: CheckRecord) -> None:
-    _require_parts(place, check)
-    for name, whole, parts in (
-        ("demand_kN", check.demand_kN, _product(check.action_kN, check.action_factor)),
-        (
-            "resistance_kN",
-            check.resistance_kN,
-            _ratio(check.resistance_characteristic_kN, check.resistance_factor),
-        ),
-        (
-            "utilisation",
-            check.utilisation,
-            _ratio(check.demand_kN, check.resistance_kN),
-        ),
-    ):
-        if whole is None or (parts is None and name != "utilisation"):
-            continue
-        if parts is None or not math.isclose(whole, parts, rel_tol=_TOLERANCE):
-            raise NetDesignError(tell_value(place, name, whole, parts))
-    _require_sizes(place, check)
+    """Refuse numbers that do not follow from the leaves of a check's calculation."""
+    for step in check.steps:
+        _require_step(place, step)
+    try:
+        fault = next(compare_steps(check.steps), None)
+    except ContentError as error:
+        fault = error.message
+    if fault is not None:
+        raise NetDesignError(say("audit.calculation", place=place, fault=fault))
+    for key, symbol in _RESULTS.items():
+        stored, follows = getattr(check, key), check.read(symbol)
+        if not is_same(stored, follows):
+            told = {"name": key, "stored": show_value(stored)}
+            told |= {"follows": show_value(follows)}
+            raise NetDesignError(say("audit.unequal", place=place, **told))
     if (check.verdict is Verdict.DECLARED) and check.declared is None:
         raise NetDesignError(say("audit.declared_by_nobody", place=place))
     if check.verdict is Verdict.PASS and not _is_without_force(check):
@@ -88,63 +89,49 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
             )
 
 
+def _require_step(place: Message, step: Step) -> None:
+    """Refuse a force below zero, a divisor that is zero, and a rule of one's own."""
+    known = [end for end in step.ends if end is not None]
+    least = [0.0] if step.symbol in _FORCES else []
+    if [*least, *known] != sorted([*least, *known]):
+        raise NetDesignError(say("audit.size_or_band", place=place))
+    if step.symbol in _ABOVE_ZERO and not all(end > 0.0 for end in known):
+        raise NetDesignError(say("audit.not_above_zero", place=place))
+    if _RULES.get(step.symbol, step.formula) != step.formula:
+        told = {"symbol": step.symbol, "formula": step.formula}
+        raise NetDesignError(say("audit.other_rule", place=place, **told))
+
+
 def _require_floor(place: Message, check: CheckRecord, floor: str) -> None:
     """Refuse a demand below the guideline's load, and a pass that does not know it."""
-    action, force = check.action, check.action_kN
-    if action is None or force is None or floor == "none":
+    # the guideline knows no load of ropes along the row
+    if floor == "none" or check.member in ROPE_OF:
         return
-    if check.member in ROPE_OF:  # the guideline knows no load of ropes along the row
+    action = check.known.get("V_k", check.known.get("E_k"))
+    if action is None or action.value is None:
         return
-    least = action.guideline_kN
+    least = check.read(check.name_force("g"))
     if least is None:
         if check.verdict is Verdict.PASS:
             raise NetDesignError(say("audit.without_floor", place=place))
         return
-    ends = [force, *_divide_demands(check)]
-    is_above = all(end >= least * (1.0 - _TOLERANCE) for end in ends)
-    if not is_above or action.governs != action.governing:
+    ends = [end for end in action.ends if end is not None]
+    is_above = all(end >= least * (1.0 - SAME) for end in ends)
+    if not is_above or check.governs != _find_governing(check, least):
         raise NetDesignError(say("audit.below_floor", place=place, least=least))
 
 
-def _divide_demands(check: CheckRecord) -> list[float]:
-    """Ends of the demand without the factor, as far as they are known [kN]."""
-    ends = (check.demand_low_kN, check.demand_high_kN)
-    factor = check.action_factor
-    return [end / factor for end in ends if end is not None and factor]
-
-
-def _require_sizes(place: Message, check: CheckRecord) -> None:
-    """Refuse forces below zero, and a demand outside its own band."""
-    ends = (check.demand_low_kN, check.demand_kN, check.demand_high_kN)
-    known = [0.0, *(end for end in ends if end is not None)]
-    sizes = (check.action_kN, check.resistance_characteristic_kN)
-    is_sound = known == sorted(known)
-    is_sound &= all(size is None or size >= 0.0 for size in sizes)
-    if not is_sound:
-        raise NetDesignError(say("audit.size_or_band", place=place))
-
-
-def _require_parts(place: Message, check: CheckRecord) -> None:
-    """Refuse factors not above zero, and a design resistance without its parts."""
-    divisors = (check.action_factor, check.resistance_factor, check.resistance_kN)
-    if not all(one is None or one > 0.0 for one in divisors):
-        raise NetDesignError(say("audit.not_above_zero", place=place))
-    has_parts = check.resistance_characteristic_kN and check.resistance_factor
-    if check.resistance_kN is not None and not has_parts:
-        raise NetDesignError(say("audit.without_parts", place=place))
+def _find_governing(check: CheckRecord, least: float) -> str:
+    """Largest one of the loads, solved ones with their upper ends."""
+    ends = (check.read_band(check.name_force(load))[1] for load in ("c", "p"))
+    if least and least >= max(end or 0.0 for end in ends):
+        return "guideline"
+    return "panel" if check.is_by_panel else "coupled"
 
 
 def _is_without_force(check: CheckRecord) -> bool:
     is_geometry = check.id.startswith("geometry.")
-    return check.action is None and (is_geometry or check.mode in MODES_WITHOUT_FORCE)
-
-
-def _product(left: float | None, right: float | None) -> float | None:
-    return None if left is None or right is None else left * right
-
-
-def _ratio(above: float | None, below: float | None) -> float | None:
-    return None if above is None or not below else above / below
+    return not check.is_of_force and (is_geometry or check.mode in MODES_WITHOUT_FORCE)
 
 
 def require_sections(page: str, expected: Iterable[str]) -> None:

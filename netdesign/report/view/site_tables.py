@@ -26,7 +26,7 @@ _BY_DEFAULT, _DERIVED = "*", "‡"
 
 def build_matrix(study: Study, words: Words) -> Table:
     """Worst verdict and largest utilisation of each row by members, and the rest."""
-    known = {one.member for row in study.rows for one in row.checks if _is_force(one)}
+    known = {one.member for row in study.rows for one in row.checks if one.is_of_force}
     members = [one for one in (*CARRYING_MEMBERS, *EndMember) if one in known]
     columns = [show_member(words, one) for one in members]
     headings = [words("heading.net_row"), *columns, words("heading.rest")]
@@ -37,7 +37,7 @@ def build_matrix(study: Study, words: Words) -> Table:
             (
                 text_cell(row.id),
                 *(_sum_up(_list_of(row, one), words) for one in members),
-                _sum_up([one for one in row.checks if not _is_force(one)], words),
+                _sum_up([one for one in row.checks if not one.is_of_force], words),
             )
             for row in study.rows
         ),
@@ -45,12 +45,8 @@ def build_matrix(study: Study, words: Words) -> Table:
     )
 
 
-def _is_force(check: CheckRecord) -> bool:
-    return check.action is not None
-
-
 def _list_of(row: RowStudy, member: str) -> list[CheckRecord]:
-    return [one for one in row.checks if one.member == member and _is_force(one)]
+    return [one for one in row.checks if one.member == member and one.is_of_force]
 
 
 def _sum_up(checks: Sequence[CheckRecord], words: Words) -> Cell:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from netdesign.report.words import MISSING, Words, name_heading, show_text
 
@@ -37,6 +38,25 @@ class Table:
     columns: tuple[Column, ...]
     rows: tuple[tuple[Cell, ...], ...]
     empty: str = MISSING
+
+
+_Item = TypeVar("_Item")
+
+
+def lay_out(
+    caption: str,
+    columns: Sequence[tuple[Column, Callable[[_Item], Cell]]],
+    items: Iterable[_Item],
+    *,
+    empty: str,
+) -> Table:
+    """Table with a row for each item, by columns that read their cells from it."""
+    return Table(
+        caption=caption,
+        columns=tuple(column for column, _ in columns),
+        rows=tuple(tuple(read(item) for _, read in columns) for item in items),
+        empty=empty,
+    )
 
 
 def text_column(heading: str) -> Column:

@@ -38,16 +38,15 @@ from netdesign.report.view.check_lines import (
 from netdesign.report.view.check_view import (
     SEVERITY,
     CheckView,
-    Worked,
     find_governing,
     find_highest,
     find_shown,
     pick_view,
     rank_check,
     view_check,
-    work_out,
 )
 from netdesign.report.view.gate import require_consistent
+from netdesign.report.view.steps import Worked, work_out
 from netdesign.report.view.table import Table
 from netdesign.report.words import (
     VerdictWords,
@@ -332,8 +331,7 @@ def _view_row(
 
 def _is_governed_by_floor(row: RowStudy) -> bool:
     """The guideline's load governs some check."""
-    actions = [one.action for one in row.checks if one.action is not None]
-    return any(action.governs == "guideline" for action in actions)
+    return any(check.governs == "guideline" for check in row.checks)
 
 
 def _view_figures(row: RowStudy, words: Words) -> Figures:
@@ -450,11 +448,11 @@ def _count_by_floor(study: Study, words: Words) -> str:
     if study.profile.floor == "none":
         is_own = not study.profile.is_floor_overruled
         return words("floor.none" if is_own else "floor.none_chosen")
-    actions = [c.action for row in study.rows for c in row.checks if c.action]
-    governed = sum(one.governs == "guideline" for one in actions)
+    checks = [one for row in study.rows for one in row.checks if one.is_of_force]
+    governed = sum(one.governs == "guideline" for one in checks)
     profiles = {row.floor.profile for row in study.rows if row.floor}
     named = show_text(", ".join(sorted(profiles)))
-    return words("floor.told", profile=named, count=governed, all=len(actions))
+    return words("floor.told", profile=named, count=governed, all=len(checks))
 
 
 def _list_declared(study: Study, words: Words) -> tuple[str, ...]:

@@ -43,7 +43,7 @@ def rejudge(
 
     Verified by
     -----------
-    tests/study/audit/test_alterations.py
+    tests/study/rejudge/test_alterations.py
     """
     found = [*_rejudge_profile(study, standard)]
     spans = _read_spans(study)

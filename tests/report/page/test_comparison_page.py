@@ -41,8 +41,7 @@ def test_every_member_has_its_verdict_utilisation_and_clause(studies, language):
                 checks = [
                     one
                     for one in study.rows[place].checks
-                    if one.action is not None
-                    and words(f"member.{one.member}") == line[0].text
+                    if one.is_of_force and words(f"member.{one.member}") == line[0].text
                 ]
                 if not checks:
                     continue

@@ -39,7 +39,7 @@ def test_every_check_stands_once(row, language):
 
 def pair(inside=Verdict.PASS, end=Verdict.PASS, **changes):
     """One check inside the row, and the same at its end with other values."""
-    given = next(one for one in STUDY.rows[0].checks if one.action)
+    given = next(one for one in STUDY.rows[0].checks if one.is_of_force)
     first = replace(given, position="intermediate", verdict=inside)
     return [first, replace(given, position="edge", verdict=end, **changes)]
 
@@ -92,7 +92,7 @@ def test_the_worse_of_both_places_is_the_line_s(worst, is_end):
 
 def test_a_summary_has_all_that_do_not_pass_and_the_most_used():
     draw = random.Random(SEED)
-    given = next(one for one in STUDY.rows[0].checks if one.action)
+    given = next(one for one in STUDY.rows[0].checks if one.is_of_force)
     for _ in range(50):
         checks = [
             replace(

@@ -3,6 +3,7 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.calculation.quantity import Kind
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.report.view.gate import require_consistent, require_sections
@@ -26,45 +27,42 @@ def test_the_sound_study_passes():
     assert require_consistent(build_study()) is None
 
 
+def alter(row_number, check_number, symbol, **changes):
+    """Study with one step of one check's calculation changed."""
+    steps = build_study().rows[row_number].checks[check_number].steps
+    changed = [replace(x, **changes) if x.symbol == symbol else x for x in steps]
+    return spoil(row_number, check_number, steps=changed)
+
+
+NOTHING = {"value": None, "low": None, "high": None}
+
+
 @pytest.mark.parametrize(
     ("study", "message"),
     [
         (spoil(0, 0, utilisation=0.5), "utilisation is 0.5, but .* follows"),
+        (spoil(0, 0, utilisation=None), "utilisation is None, but .* follows"),
         (spoil(0, 0, demand_kN=1.0), "demand_kN is 1.0, but .* follows"),
-        (spoil(0, 0, resistance_factor=1.0), "resistance_kN is .* follows"),
-        (spoil(0, 0, demand_high_kN=1e4), "high end of its utilisation is"),
-        (spoil(0, 0, demand_high_kN=None), "high end of its utilisation is None"),
+        (spoil(0, 0, demand_kN=None), "demand_kN is None, but .* follows"),
+        (spoil(0, 0, resistance_kN=9.0), "resistance_kN is 9.0, but .* follows"),
+        (spoil(0, 0, steps=[]), "demand_kN is .*, but None follows"),
+        (alter(0, 0, "γ_R", value=1.0), "R_d is .*, but .* follows"),
+        (alter(0, 0, "γ_R", **NOTHING), "R_d is .*, but None follows"),
+        (alter(0, 0, "R_k", **NOTHING), "R_d is .*, but None follows"),
+        (alter(0, 0, "E_d", high=1e4), "E_d is .*, but .* follows"),
+        (alter(0, 0, "μ", high=None), "μ is .*, but .* follows"),
+        (alter(0, 0, "E_s", value=1.0, low=1.0, high=1.0), "E_c is .* follows"),
+        (alter(0, 0, "E_d", low=1e4), "below zero or outside its band"),
+        (alter(0, 0, "E_d", low=-1.0), "below zero or outside its band"),
+        (alter(0, 0, "R_k", value=-9.0), "below zero or outside its band"),
+        (alter(0, 0, "γ_R", value=-1.35), "not above zero"),
+        (alter(0, 0, "γ_E", value=-1.5), "not above zero"),
+        (alter(0, 0, "γ_E", value=0.0), "not above zero"),
+        (alter(0, 0, "γ_R", value=0.0), "not above zero"),
+        (alter(0, 0, "μ", formula="E_d / R_k"), "is not the rule of a check"),
+        (alter(0, 0, "R_d", formula=""), "is not the rule of a check"),
+        (alter(0, 0, "E_c", formula="E_s * 7 ** 2"), "no formula of the quantities"),
         (spoil(2, 3, verdict=Verdict.PASS), "high end of its utilisation is None"),
-        (
-            spoil(0, 6, resistance_characteristic_kN=None, resistance_kN=None),
-            "utilisation is 0.0, but None follows",
-        ),
-        (
-            spoil(
-                *(0, 6),
-                resistance_characteristic_kN=None,
-                resistance_kN=None,
-                utilisation=None,
-            ),
-            "high end of its utilisation is None",
-        ),
-        (spoil(0, 0, demand_kN=None, demand_high_kN=None), "but None follows"),
-        (spoil(0, 0, demand_low_kN=1e4), "below zero or outside its band"),
-        (spoil(0, 0, demand_low_kN=-1.0), "below zero or outside its band"),
-        (spoil(0, 0, resistance_factor=None, resistance_kN=None), "but None follows"),
-        (
-            spoil(0, 0, resistance_characteristic_kN=None, resistance_kN=-9.0),
-            "not above zero",
-        ),
-        (spoil(0, 0, resistance_factor=-1.35, resistance_kN=-1.0), "not above zero"),
-        (spoil(0, 0, action_factor=-1.5), "not above zero"),
-        (spoil(0, 0, action_factor=0.0), "not above zero"),
-        (spoil(0, 0, resistance_factor=0.0), "not above zero"),
-        (spoil(0, 0, resistance_factor=None), "a design resistance without its parts"),
-        (
-            spoil(0, 0, resistance_characteristic_kN=None),
-            "a design resistance without its parts",
-        ),
         (spoil(0, 0, verdict=Verdict.FAIL), "says PASS, but its parts give FAIL"),
         (replace(build_study(), verdict=Verdict.PASS), "says PASS, but its parts"),
         (replace(build_study(), verdict=Verdict.NOT_PROVEN), "its parts give FAIL"),
@@ -100,38 +98,52 @@ def test_a_section_needs_more_than_its_heading():
         require_sections(page + "<h2>Head</h2></section>", ["a", "b", "c"])
 
 
-def with_action(**changes):
-    action = build_study().rows[0].checks[0].action
-    return spoil(0, 0, action=replace(action, **changes))
-
-
 def with_floor_at(share):
-    """The first check with a floor at a share of its action, said as it follows."""
+    """The first check with a floor at a share of what the section gives."""
     check = build_study().rows[0].checks[0]
-    least = share * check.action_kN
-    governs = "guideline" if least >= check.action.coupled_kN else "coupled"
-    return with_action(guideline_kN=least, governs=governs)
+    least = share * check.read("E_c")
+    _, high = check.read_band("E_c")
+    governs = "guideline" if least >= high else "coupled"
+    steps = [
+        replace(one, value=least, low=None, high=None, formula="", kind=Kind.SOLVED)
+        if one.symbol == "E_g"
+        else one
+        for one in check.steps
+    ]
+    return spoil(0, 0, steps=steps, governs=governs)
 
 
 def test_a_demand_below_the_guideline_is_refused():
     check = build_study().rows[0].checks[0]
-    low = check.demand_low_kN / check.demand_kN
+    low = check.read_band("E_c")[0] / check.read("E_c")
     assert require_consistent(with_floor_at(0.999 * low)) is None
-    for share in (1.001 * low, 1.001, 1.7):
-        with pytest.raises(NetDesignError, match="below the guideline's load"):
+    for share in (1.001 * low, 1.001, 1.7):  # a maximum that leaves the floor out
+        with pytest.raises(NetDesignError, match=r"below the guideline's load|E_k is"):
             require_consistent(with_floor_at(share))
+    study = with_floor_at(1.7)
+    steps = [
+        replace(one, formula="E_c") if one.symbol == "E_k" else one
+        for one in study.rows[0].checks[0].steps
+    ]
+    with pytest.raises(NetDesignError, match="below the guideline's load"):
+        require_consistent(spoil(0, 0, steps=steps, governs="guideline"))
 
 
 def test_the_wrong_governing_load_is_refused():
-    with pytest.raises(NetDesignError, match="names the wrong load"):
-        require_consistent(with_action(governs="guideline"))
+    for load in ("guideline", "panel", ""):
+        with pytest.raises(NetDesignError, match="names the wrong load"):
+            require_consistent(spoil(0, 0, governs=load))
 
 
 def test_a_pass_without_its_floor_is_refused_unless_the_profile_takes_none():
     study = build_study()
     row = next(k for k, r in enumerate(study.rows) if r.checks[0].verdict == "pass")
-    action = replace(study.rows[row].checks[0].action, guideline_kN=None)
-    bare = spoil(row, 0, action=action)
+    steps = [
+        replace(one, formula="E_c") if one.symbol == "E_k" else one
+        for one in study.rows[row].checks[0].steps
+        if one.symbol != "E_g"
+    ]
+    bare = spoil(row, 0, steps=steps)
     with pytest.raises(NetDesignError, match="passes without the guideline's load"):
         require_consistent(bare)
     profile = replace(bare.profile, floor="none")

@@ -19,8 +19,11 @@ CHECK = next(one for one in ROW.checks if one.holds)
 def line(verdict, used, least, most, words=ENGLISH):
     """Cells of a check whose force is a share of its resistance."""
     hold = replace(CHECK.holds[0], least=least, most=most)
-    high = {"demand_low_kN": 0.9 * used * 83.0, "demand_high_kN": used * 83.0}
-    check = replace(CHECK, verdict=verdict, holds=[hold], resistance_kN=83.0, **high)
+    steps = [
+        replace(one, low=0.9 * used, high=used) if one.symbol == "μ" else one
+        for one in CHECK.steps
+    ]
+    check = replace(CHECK, verdict=verdict, holds=[hold], steps=steps)
     (cells,) = build_holds(replace(ROW, checks=[check]), words).rows
     return [cell.text for cell in cells]
 

@@ -8,8 +8,9 @@ import pytest
 
 from netdesign.report.drawing.panel_figure import LEFT, LONGEST, SPAN, draw_panel
 from netdesign.report.page.html import list_sections, render_html
-from netdesign.report.view.demand_steps import describe_load, describe_widths
+from netdesign.report.view.check_view import view_check
 from netdesign.report.view.panel_tables import view_panel
+from netdesign.report.view.steps import list_steps
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.excel import render_workbook
@@ -87,26 +88,29 @@ def test_the_workbook_has_the_same_tables(study):
             assert {round(one, 9) for one in numbers} <= texts
 
 
+def work_out(check):
+    return {one.symbols.partition(" = ")[0]: one for one in list_steps(check, ENGLISH)}
+
+
 def test_the_worked_check_gives_the_demand(study):
     check = checks_of(study)["uphill_guy.rope"]
-    steps = describe_widths(check, ENGLISH)
-    symbols = [step[0] for step in steps]
-    assert symbols[-1] == "E_k = max(E_c; E_p; E_g)"
-    assert any(one.startswith("E_p = ") for one in symbols)
-    assert steps[-1][2] == f"{check.action_kN:.1f} kN"
-    assert "by the panel between posts" in describe_load(check, Words("en"))
+    steps = work_out(check)
+    assert steps["E_k"].symbols == "E_k = max(E_c; E_p; E_g)"
+    assert "E_p" in steps
+    assert steps["E_k"].result == f"{check.read('E_k'):.1f} kN"
+    assert "by the panel between posts" in view_check(check, Words("en")).load
 
 
 def test_the_worked_check_of_the_end_gives_its_demand(study):
     check = checks_of(study)["end_guy.rope.end"]
-    steps = describe_widths(check, ENGLISH)
-    assert steps[0][0].startswith("b_e = b + f_R")
-    assert steps[-1][2] == f"{check.action_kN:.1f} kN"
-    action = check.action
-    value = action.share * action.solved_kN * action.loaded_width_m
-    assert check.action_kN == pytest.approx(value / action.post_spacing_m, rel=1e-12)
-    post = describe_widths(checks_of(study)["post.compression.end"], ENGLISH)
-    assert any("H · tan γ" in step[0] for step in post)
+    steps = work_out(check)
+    assert steps["E_k"].symbols == "E_k = H / cos(γ)"
+    assert steps["E_k"].result == f"{check.read('E_k'):.1f} kN"
+    cosine = math.cos(math.radians(check.read("γ")))
+    assert check.read("E_k") == pytest.approx(check.read("H") / cosine, rel=1e-12)
+    post = work_out(checks_of(study)["post.compression.end"])
+    assert post["Z"].symbols == "Z = H · tan(γ)"
+    assert post["E_p"].symbols.endswith(" + Z")
 
 
 def test_arrows_are_to_one_scale(study):

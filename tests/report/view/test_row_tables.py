@@ -7,7 +7,6 @@ import pytest
 from netdesign.outcome import Verdict
 from netdesign.report.page.html import render_html
 from netdesign.report.summary import list_changes
-from netdesign.report.view.demand_steps import describe_widths
 from netdesign.report.view.row_tables import (
     build_anchors,
     build_changes,
@@ -16,6 +15,7 @@ from netdesign.report.view.row_tables import (
     build_spreads,
     describe_change,
 )
+from netdesign.report.view.steps import list_steps
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.flips import CLOSE
 from netdesign.study.records import ChangeRecord
@@ -89,36 +89,21 @@ def test_change_in_words():
     assert describe_change(change, ENGLISH) == "snow thickness at most 1.26 m"
 
 
-def test_worked_steps_lead_from_the_solved_force_to_the_action():
-    edge, coupled, floor, action = describe_widths(ROW.checks[0], ENGLISH)
-    assert edge == (
+def test_worked_steps_lead_from_the_solved_force_to_the_utilisation():
+    edge, coupled, floor, action, *others = list_steps(ROW.checks[0], ENGLISH)
+    assert (edge.symbols, edge.numbers, edge.result) == (
         "b_e = b / 2 + f_R · Δl",
         "4.00 m / 2 + 1.60 · 1.50 m",
         "4.40 m",
     )
-    assert coupled[0] == "E_c = E_s · b_e / b · k_q"
-    assert floor[0] == "E_g = E_g0 · b_e / b · k_q"
-    assert action[:2] == (
-        "E_k = max(E_c; E_g)",
-        f"max({coupled[2]}; {floor[2]})",
-    )
-    given = ROW.checks[0].action
-    inside = replace(ROW.checks[0], action=replace(given, position="intermediate"))
-    assert describe_widths(inside, ENGLISH) == (coupled, floor, action)
-    alone = replace(given, floor_kN=None, guideline_kN=None, position="intermediate")
-    (only,) = describe_widths(replace(ROW.checks[0], action=alone), ENGLISH)
-    assert only[0] == "E_k = E_s · b_e / b · k_q"
-    assert describe_widths(replace(ROW.checks[0], action=None), ENGLISH) == ()
-
-
-def test_width_close_to_a_threshold_shows_both_widths_and_both_forces():
-    """4.4 m are used, 3.3 m stand on the other side: three quarters of the force."""
-    given = replace(ROW.checks[0].action, other_width_m=3.3)
-    *_, last = describe_widths(replace(ROW.checks[0], action=given), ENGLISH)
-    force = ROW.checks[0].action_kN
-    assert last[0] == "E_k' = E_k · b_e' / b_e"
-    assert last[1] == f"{force:.1f} kN · 3.30 m / 4.40 m"
-    assert last[2] == f"{0.75 * force:.1f} kN"
+    assert coupled.symbols == "E_c = E_s · b_e / b"
+    assert floor.symbols == "E_g = E_g0 · b_e / b"
+    assert action.symbols == "E_k = max(E_c; E_g)"
+    assert action.numbers == f"max({coupled.result}; {floor.result})"
+    symbols = [one.symbols.partition(" = ")[0] for one in others]
+    assert symbols[0] == "E_d"
+    assert symbols[-2:] == ["R_d", "μ"]
+    assert list_steps(replace(ROW.checks[0], steps=[]), ENGLISH) == ()
 
 
 def test_page_draws_the_polygon_of_the_head():
@@ -136,10 +121,11 @@ def test_a_row_without_changes_needs_none_only_where_all_is_well(
     """An overtopped row has checks that are not proven, and no change for them."""
 
     def build(verdict, used):
-        demand = None if used is None else 83.7 * used
-        numbers = dict.fromkeys(("demand_low_kN", "demand_high_kN"), demand)
-        numbers |= {"resistance_kN": 83.7, "changes": []}
-        return replace(ROW.checks[0], verdict=verdict, **numbers)
+        steps = [
+            replace(one, value=used, low=None, high=None) if one.symbol == "μ" else one
+            for one in ROW.checks[0].steps
+        ]
+        return replace(ROW.checks[0], verdict=verdict, steps=steps, changes=[])
 
     checks = [build(Verdict.PASS, 0.4), build(verdict, used)]
     study = build_study(rows=1)

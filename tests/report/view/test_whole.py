@@ -65,7 +65,8 @@ def test_missing_resistance_shows_a_dash_and_its_reason():
 def test_worked_check_shows_symbols_numbers_and_result():
     row = build_row("A", 2, scale=0.6)
     steps = build_view(build_study()).rows[0].worked.steps
-    demand, resistance, ratio = steps[-3:]
+    demand, derivation, resistance, ratio = steps[-4:]
+    assert derivation.symbols == "R_k"
     force = row.extremes[0].max_kN
     assert demand.numbers == f"1.5 · {force:.1f} kN"
     assert demand.result == f"{1.5 * force:.1f} kN"
