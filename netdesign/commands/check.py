@@ -11,13 +11,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.check_end import CheckEnd, CheckTask
 from netdesign.commands.check_outputs import plan_outputs
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.dry_run import announce
 from netdesign.commands.idle import refuse_delimiter, refuse_jobs
 from netdesign.commands.language import tell
-from netdesign.commands.next_steps import tell_next_steps
 from netdesign.commands.options import (
     accuracy_option,
     force_option,
@@ -27,7 +25,7 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.report_options import report_options
-from netdesign.commands.running import own_command, report_places, tell_time
+from netdesign.commands.running import own_command, tell_time
 from netdesign.commands.site_input import (
     open_site,
     require_effect,
@@ -37,7 +35,6 @@ from netdesign.commands.site_input import (
 from netdesign.commands.sizing import require_one, what_if_options
 from netdesign.commands.solving import solving_options
 from netdesign.commands.usage import UsageRefusal
-from netdesign.edge.streams import print_json
 from netdesign.errors import StandardError
 from netdesign.words.message import say
 
@@ -141,7 +138,7 @@ def check(
     site = _read_site(site_file, instead, **reading)
 
     # behind the reading: a faulty workbook is refused without a solver
-    from netdesign.commands.check_steps import find_or_check
+    from netdesign.commands.check_steps import CheckTask, carry_out
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
@@ -169,25 +166,20 @@ def check(
         is_what_if=instead,
         overwrite=force,
     )
+    read = partial(_read_site, site_file, **reading | {"annotate": None})
     task = CheckTask(
         site=site,
         profiles=profiles,
         run=run,
         executor=executor,
         outputs=outputs,
-        size=size,
+        read_instead=read if size else None,
+        cache=cache,
         explain=explain,
         as_json=as_json,
+        quiet=quiet,
     )
-    read = partial(_read_site, site_file, **reading | {"annotate": None})
-    end = find_or_check(task, read, cache=cache, quiet=quiet, overwrite=force)
-    _show(end)
-    if not as_json:
-        report_places([list(end.files)], language, quiet=quiet)
-    if not (quiet or as_json):
-        site_name = str(site_file or "--example")
-        tell_next_steps(end.verdicts, site_name, language, is_sized=size)
-    sys.exit(end.exit_code)
+    sys.exit(carry_out(task, str(site_file or "--example"), overwrite=force))
 
 
 def _read_site(
@@ -248,16 +240,3 @@ def _load_profiles(names: Sequence[str]) -> list[Standard]:
     if len({profile.id for profile in profiles}) < len(profiles):
         raise UsageRefusal(say("usage.same_profiles"))
     return profiles
-
-
-def _show(end: CheckEnd) -> None:
-    """Print the documents of ``--json``, else the summaries."""
-    if end.document:
-        print_json(end.document)
-        return
-    from netdesign.report.terminal import open_console, print_lines, print_summary
-
-    console = open_console()
-    for summary in end.summaries:
-        print_summary(summary, console)
-    print_lines(end.sized, console)

@@ -1,92 +1,105 @@
-"""Steps of a check once all is read: told from the store, or calculated and kept."""
+"""Steps of a check once its site is read: solved, judged, written, printed."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from netdesign.commands.check_end import (
-    CheckEnd,
-    CheckTask,
-    conclude,
-    find_end,
-    keep_end,
-    name_end,
-)
 from netdesign.commands.check_outputs import begin_outputs, render_outputs
 from netdesign.commands.faults import tell_faults
-from netdesign.commands.language import tell
+from netdesign.commands.next_steps import tell_next_steps
+from netdesign.commands.running import find_exit_code, report_places
 from netdesign.commands.sizing import check_and_size, tell_sized
 from netdesign.commands.solving import open_run
 from netdesign.edge.output import write_files
-from netdesign.words.message import Message, say
+from netdesign.edge.streams import print_json
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
+    from netdesign.checks import Standard
+    from netdesign.commands.check_outputs import Outputs
     from netdesign.report.view.whole import ReportView
-    from netdesign.solving.runner import Runner
+    from netdesign.site.model import Site
+    from netdesign.study.check_run import CheckRun
     from netdesign.study.records import Study
     from netdesign.study.sizing import ReadInstead
     from netdesign.words.catalogue import Language
 
 
-def find_or_check(
-    task: CheckTask, read: ReadInstead, *, cache: bool, quiet: bool, overwrite: bool
-) -> CheckEnd:
-    """End of a check, with its files written.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckTask:
+    """A check that is asked for.
 
-    ``read`` gives the site with some cells replaced; ``cache`` says whether the store
-    may be used.
+    Attributes
+    ----------
+    site : Site
+        As it was read, with every value.
+    profiles : sequence of Standard
+        Limit profiles, with the floor that was chosen.
+    run : CheckRun
+        Settings, command line and time.
+    executor : str
+        Where cases are solved.
+    outputs : Outputs
+        Places, language, detail and template of the reports.
+    read_instead : callable or None
+        Gives the site with some cells replaced; None without ``--size``.
+    cache, explain, as_json, quiet : bool
+        The options of these names.
     """
 
-    def speak(message: Message) -> None:
-        tell(message, task.language, err=True)
+    site: Site
+    profiles: Sequence[Standard]
+    run: CheckRun
+    executor: str
+    outputs: Outputs
+    read_instead: ReadInstead | None
+    cache: bool
+    explain: bool
+    as_json: bool
+    quiet: bool
 
-    name = name_end(task) if cache else ""
-    known = find_end(task, name, speak) if name else None
-    if known is not None:
-        write_files(known.files, overwrite=overwrite)
-        if not quiet:
-            speak(say("store.told", started=known.started))
-        return known
-    end, runner = _calculate(task, read, cache=cache, quiet=quiet)
-    failed = tell_faults(runner.faults, task.language)
-    write_files(end.files, overwrite=overwrite)
-    # another run could end otherwise where this one lost a case
-    is_sound = not (failed or runner.counts.lost)
-    if name and is_sound and runner.store is not None:
-        keep_end(task, name, end, speak)
-    return replace(end, exit_code=failed or end.exit_code)
+    @property
+    def language(self) -> Language:
+        """Language of the reports and of what is told."""
+        return self.outputs.style.language
 
 
-def _calculate(
-    task: CheckTask, read: ReadInstead, *, cache: bool, quiet: bool
-) -> tuple[CheckEnd, Runner]:
-    """End of a check, and the runner that remembers what befell its cases."""
+def carry_out(task: CheckTask, site_name: str, *, overwrite: bool) -> int:
+    """Exit code of a check; its files are written, its result is printed.
+
+    ``site_name`` is what the next commands are told to read.
+    """
     with open_run(
         task.site,
         task.run,
         executor=task.executor,
-        cache=cache,
-        quiet=quiet,
-        profiles=len(task.profiles) * (2 if task.size else 1),
+        cache=task.cache,
+        quiet=task.quiet,
+        profiles=len(task.profiles) * (2 if task.read_instead else 1),
         language=task.language,
     ) as (runner, progress):
         studies, sized = check_and_size(
-            task.site,
-            task.profiles,
-            task.run,
-            read if task.size else None,
-            runner,
-            progress,
+            *(task.site, task.profiles, task.run, task.read_instead),
+            *(runner, progress),
         )
         progress.enter("reports")
         begun = begin_outputs(task.outputs, studies, runner)
         views = [] if task.as_json else _view_studies(studies, task.language)
         files = render_outputs(task.outputs, studies, sized, views, begun)
     lines = tell_sized(sized, studies, task.language)
-    return conclude(task, studies, views, lines, files), runner
+    failed = tell_faults(runner.faults, task.language)
+    write_files(files, overwrite=overwrite)
+    if task.as_json:
+        print_json(_write_documents(studies))
+        return failed or find_exit_code(studies)
+    _print_summaries(task, studies, views, lines)
+    report_places([list(files)], task.language, quiet=task.quiet)
+    if not task.quiet:
+        verdicts = frozenset(row.verdict for study in studies for row in study.rows)
+        is_sized = task.read_instead is not None
+        tell_next_steps(verdicts, site_name, task.language, is_sized=is_sized)
+    return failed or find_exit_code(studies)
 
 
 def _view_studies(studies: Sequence[Study], language: Language) -> list[ReportView]:
@@ -94,3 +107,29 @@ def _view_studies(studies: Sequence[Study], language: Language) -> list[ReportVi
     from netdesign.report.view.whole import build_view
 
     return [build_view(study, language) for study in studies]
+
+
+def _write_documents(studies: Sequence[Study]) -> str:
+    from netdesign.study.document import write_document
+
+    if len(studies) == 1:
+        return write_document(studies[0])
+    documents = ",\n".join(write_document(study) for study in studies)
+    return f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}'
+
+
+def _print_summaries(
+    task: CheckTask,
+    studies: Sequence[Study],
+    views: Sequence[ReportView],
+    sized: Sequence[str],
+) -> None:
+    """Print what each study says, and lines of what ``--size`` found."""
+    from netdesign.report.summary import build_summary
+    from netdesign.report.terminal import open_console, print_lines, print_summary
+
+    console = open_console()
+    for study, view in zip(studies, views, strict=True):
+        summary = build_summary(study, task.language, view, explain=task.explain)
+        print_summary(summary, console)
+    print_lines(tuple(sized), console)

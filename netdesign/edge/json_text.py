@@ -164,6 +164,17 @@ def read_json(shape: type, text: str) -> Any:
     return _build_quick_validator(shape).validate_json(text)
 
 
+def restore_json(shape: type, text: str) -> Any:
+    """Value of a dataclass from a text that `write_json` made of one, under seal.
+
+    Raises
+    ------
+    ValidationError
+        If the text is not of this shape.
+    """
+    return _build_quick_validator(shape).validate_json(text)
+
+
 def _inspect(text: str) -> set[str]:
     """Keys of the outermost object; an error where a text has two readings."""
     last: set[str] = set()

@@ -1,4 +1,4 @@
-"""Names of the solver and of the whole program, by which kept results are told apart.
+"""Names of the solver, the program and the installation: they tell kept results apart.
 
 The solver is named by what it computes with: its text without docstrings, comments and
 blank lines. Editing these leaves the store in use; a changed constant never does.
@@ -7,13 +7,17 @@ blank lines. Editing these leaves the store in use; a changed constant never doe
 from __future__ import annotations
 
 import hashlib
+import json
+import os
 import re
+import sys
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
 from netdesign import __version__
 from netdesign.core.library import name_core
+from netdesign.edge.resources import find_resource
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _SOLVER_PARTS = (
@@ -21,6 +25,9 @@ _SOLVER_PARTS = (
     *("numerics", "core", "snow", "cable", "coupling", "solving"),
 )
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
+_RESOURCES = ("standards", "templates")  # beside the package
+# Variables by their beginnings: of libraries that compute, and of Python itself.
+_VARIABLES = ("BLIS_", "MKL_", "NPY_", "OMP_", "OPENBLAS_", "PYTHON", "VECLIB_")
 _LONG = r'"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""'
 _SHORT = (
     r"'[^'\\\n]*(?:\\.[^'\\\n]*)*'",
@@ -52,6 +59,34 @@ def identify_solver(package: Path = _PACKAGE) -> str:
 def identify_program(package: Path = _PACKAGE) -> str:
     """Version of the whole program, by all its text, as ``identify_solver``."""
     return _identify(_WHOLE_PROGRAM, package, name_core(), str)
+
+
+def identify_installation() -> str:
+    """Digest of all that is the same for every run here.
+
+    The program and its libraries, profiles and templates beside it, Python, and those
+    variables of the environment that could move a last digit.
+    """
+    digest = hashlib.sha256(identify_program().encode())
+    for folder in map(find_resource, _RESOURCES):
+        for path in sorted(one for one in folder.rglob("*") if one.is_file()):
+            digest.update(path.relative_to(folder).as_posix().encode())
+            digest.update(path.read_bytes())
+    variables = {
+        name: text for name, text in os.environ.items() if name.startswith(_VARIABLES)
+    }
+    place = [sys.version, sys.platform, *_list_installed()]
+    digest.update(json.dumps([place, sorted(variables.items())]).encode())
+    return digest.hexdigest()
+
+
+def _list_installed() -> list[str]:
+    """Folders of all that is installed, which name versions: ``rich-15.0.0.dist-info``.
+
+    To ask for single versions takes longer, and forgets what those packages need.
+    """
+    folders = (Path(place) for place in sys.path)
+    return sorted({one.name for folder in folders for one in folder.glob("*-info")})
 
 
 @lru_cache

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from netdesign.coupling.solution import FailedSolution
 from netdesign.fault import Fault
@@ -13,6 +15,8 @@ from netdesign.solving.state import CaseEnd, is_stuck
 from netdesign.solving.store import FORGOTTEN, CaseStore, name_case, name_search
 from netdesign.solving.workers import Batch, Ends, Job, OwnProcess, Workers
 from netdesign.words.message import Message, say
+
+_Answer = TypeVar("_Answer")
 
 
 @dataclass(slots=True, kw_only=True)
@@ -72,7 +76,9 @@ class Runner:
             [(name_case(job.scene, job.settings), job) for job in batch]
             for batch in batches
         ]
-        known = self._look_up([name for batch in named for name, _ in batch])
+        names = [name for batch in named for name, _ in batch]
+        nothing: dict[str, CaseEnd] = {}
+        known = self.ask_store(lambda store: store.find(names), nothing)
         for end in known.values():
             self.on_done(end)
         solved = self.counts.solved
@@ -91,7 +97,7 @@ class Runner:
         return found
 
     def _note(self, name: str, end: CaseEnd) -> None:
-        self._keep(name, end)
+        self.ask_store(lambda store: store.keep(name, end), None)
         self.counts.solved += 1
         if isinstance(end, FailedSolution):
             self.counts.failed += 1
@@ -117,48 +123,40 @@ class Runner:
 
     def find_search(self, task: object) -> KnownSearch | None:
         """Known search of a task; None if there is none."""
-        if self.store is None:
-            return None
-        try:
-            return self.store.find_search(name_search(task))
-        except TypeError:
-            return None  # a task without a name is searched every time
-        except sqlite3.Error as error:
-            self._give_up(error)
-            return None
+        with suppress(TypeError):  # a task without a name is searched every time
+            name = name_search(task)
+            return self.ask_store(lambda store: store.find_search(name), None)
+        return None
+
+    def find_row(self, name: str) -> list[str] | None:
+        """Texts of a known net row of that name; None if there is none."""
+        return self.ask_store(lambda store: store.find_row(name), None)
+
+    def keep_row(self, name: str, texts: Sequence[str]) -> None:
+        """Keep the texts of a judged net row for later runs."""
+        self.ask_store(lambda store: store.keep_row(name, texts), None)
 
     def keep_search(self, task: object, known: KnownSearch) -> None:
         """Keep a finished search for later runs."""
-        if self.store is None:
-            return
-        try:
-            self.store.keep_search(name_search(task), known)
-        except TypeError:
-            return
-        except sqlite3.Error as error:
-            self._give_up(error)
+        with suppress(TypeError):
+            name = name_search(task)
+            self.ask_store(lambda store: store.keep_search(name, known), None)
 
-    def _look_up(self, names: list[str]) -> dict[str, CaseEnd]:
-        if self.store is None:
-            return {}
-        try:
-            return self.store.find(names)
-        except sqlite3.Error as error:
-            self._give_up(error)
-            return {}
+    def ask_store(
+        self, ask: Callable[[CaseStore], _Answer], without: _Answer
+    ) -> _Answer:
+        """Answer of the store; ``without`` where there is none, or it fails.
 
-    def _keep(self, name: str, end: CaseEnd) -> None:
+        The run goes on without a store that has failed.
+        """
         if self.store is None:
-            return
+            return without
         try:
-            self.store.keep(name, end)
+            return ask(self.store)
         except sqlite3.Error as error:
-            self._give_up(error)
-
-    def _give_up(self, error: sqlite3.Error) -> None:
-        """Go on without a store that has failed."""
-        self.tell(say("store.failed", cause=str(error)))
-        self.store = None
+            self.tell(say("store.failed", cause=str(error)))
+            self.store = None
+            return without
 
 
 _Named = list[tuple[str, Job]]

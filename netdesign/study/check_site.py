@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
@@ -15,8 +15,9 @@ from netdesign.solving.runner import Runner
 from netdesign.study.cases import have_same_forces, list_alike, search_site, solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import gather_study
+from netdesign.study.known_rows import Studies, find_rows, keep_rows, name_rows
 from netdesign.study.records import Study
-from netdesign.study.side_by_side import RowsJob, Studies, judge_rows
+from netdesign.study.side_by_side import RowsJob, judge_rows
 from netdesign.words.message import Message, say
 
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
@@ -70,7 +71,8 @@ def check_site(
         Settings and identity of the run.
     runner : Runner, optional
         Where cases are solved and kept; this process unless told otherwise. It
-        remembers the faults of the program.
+        remembers the faults of the program. Rows that its store knows are neither
+        solved nor judged again.
     watch : Watch, optional
         Told of every phase, wave and check.
 
@@ -80,30 +82,44 @@ def check_site(
         One for each profile.
     """
     runner, watch = runner or Runner(), watch or _Nobody()
-    pool = runner.workers.pool
-    is_searched = run.method == "steady" and not site.ranges.is_grid
-    if is_searched and pool is not None:
-        groups = list_alike(site, run)
-        if len(groups) >= _ROWS_A_PROCESS * pool.processes:
-            return _check_side_by_side(site, groups, standards, run, runner, watch)
-    solved = solve_rows(site, run, runner, watch)
-    return judge_solved(solved, standards, run, runner, watch)
+    names = name_rows(site, standards, run) if runner.store else {}
+    known = find_rows(names, runner, len(standards))
+    new = tuple(row for row in site.rows if row.id not in known)
+    if new:
+        part = replace(site, rows=new)
+        known |= _judge_new(part, names, standards, run, runner, watch)
+    return _gather(site, known, standards, run)
 
 
-def _check_side_by_side(
+def _judge_new(
     site: Site,
-    groups: Sequence[tuple[NetRow, ...]],
+    names: Mapping[str, str],
     standards: Sequence[Standard],
     run: CheckRun,
     runner: Runner,
     watch: Watch,
-) -> list[Study]:
-    """Studies of a site whose rows are searched and judged each in one process."""
-    watch.enter("checks", say("phase.rows"))
+) -> dict[str, Studies]:
+    """Studies by the ids of the rows, solved, judged, and kept under their names.
+
+    Where there are rows enough, each is searched and judged in one process.
+    """
     build = partial(_build_job, site, standards, run, runner)
-    judged = judge_rows([build(rows) for rows in groups], runner, watch.count_piece)
-    ids = (row.id for rows in groups for row in rows)
-    return _gather(site, dict(zip(ids, judged, strict=True)), standards, run)
+    pool = runner.workers.pool
+    groups: list[tuple[NetRow, ...]] = []
+    if run.method == "steady" and not site.ranges.is_grid and pool is not None:
+        groups = list_alike(site, run)
+    if pool is not None and len(groups) >= _ROWS_A_PROCESS * pool.processes:
+        watch.enter("checks", say("phase.rows"))
+        jobs = [build(rows) for rows in groups]
+    else:
+        solved = solve_rows(site, run, runner, watch)
+        watch.enter("checks")
+        jobs = _list_jobs(solved, build)
+
+    def keep(job: RowsJob, judged: list[Studies]) -> None:
+        keep_rows(names, job.rows, judged, runner)
+
+    return judge_rows(jobs, runner, watch.count_piece, keep)
 
 
 def solve_rows(
@@ -149,13 +165,15 @@ def judge_solved(
 ) -> list[Study]:
     """Studies of a solved site, one for each profile."""
     watch.enter("checks")
-    site = solved.site
-    build = partial(_build_job, site, standards, run, runner)
-    pairs = zip(site.rows, solved.rows, strict=True)
-    jobs = [build((row,), (of_row,)) for row, of_row in pairs]
-    judged = judge_rows(jobs, runner, watch.count_piece)
-    ids = (row.id for row in site.rows)
-    return _gather(site, dict(zip(ids, judged, strict=True)), standards, run)
+    build = partial(_build_job, solved.site, standards, run, runner)
+    judged = judge_rows(_list_jobs(solved, build), runner, watch.count_piece)
+    return _gather(solved.site, judged, standards, run)
+
+
+def _list_jobs(solved: SolvedSite, build: Callable[..., RowsJob]) -> list[RowsJob]:
+    """One job a row, with its solved cases."""
+    pairs = zip(solved.site.rows, solved.rows, strict=True)
+    return [build((row,), (of_row,)) for row, of_row in pairs]
 
 
 def _build_job(

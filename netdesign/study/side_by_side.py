@@ -23,14 +23,12 @@ from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.document import write_row
 from netdesign.study.judge import judge_row
+from netdesign.study.known_rows import Studies, cut_site
 from netdesign.study.probe import Probe
-from netdesign.study.records import RowStudy
 from netdesign.words.message import Message, say
 
 # Of a row, by its ground: the looser the snow, the more a limit takes (20 rows).
 _WORK = {"no-slip": 1, "sliding": 2, "free": 3}
-
-Studies = list[RowStudy]  # of one row, one a profile
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,9 +75,12 @@ class JudgedRows:
 
 
 def judge_rows(
-    jobs: Sequence[RowsJob], runner: Runner, on_check: Callable[[], None]
-) -> list[Studies]:
-    """Studies of the rows of all jobs, in their order.
+    jobs: Sequence[RowsJob],
+    runner: Runner,
+    on_check: Callable[[], None],
+    on_job: Callable[[RowsJob, list[Studies]], None] = lambda *_: None,
+) -> dict[str, Studies]:
+    """Studies of the rows of all jobs, by their ids.
 
     Parameters
     ----------
@@ -89,6 +90,8 @@ def judge_rows(
         Its pool takes the jobs, if it has one; else this process does.
     on_check : callable
         Called for each check of a force.
+    on_job : callable, optional
+        Called with each job once it is done, and with what it found.
     """
     found: dict[int, list[Studies]] = {}
     pool = runner.workers.pool
@@ -106,13 +109,18 @@ def judge_rows(
             runner.take(judged.counts, judged.faults)
             for _ in range(judged.checks):
                 on_check()
+            on_job(jobs[place], judged.studies)
     # Where a worker died, each case is now given to a worker; where it failed, it fails
     # here, by name and place.
-    of_jobs = [
-        found[k] if k in found else _judge(job, runner, on_check)
-        for k, job in enumerate(jobs)
-    ]
-    return [studies for of_job in of_jobs for studies in of_job]
+    for place, job in enumerate(jobs):
+        if place not in found:
+            found[place] = _judge(job, runner, on_check)
+            on_job(job, found[place])
+    return {
+        row.id: studies
+        for place, job in enumerate(jobs)
+        for row, studies in zip(job.rows, found[place], strict=True)
+    }
 
 
 def _expect_work(job: RowsJob) -> int:
@@ -178,8 +186,9 @@ def _judge_row(
 ) -> Studies:
     """Studies of a row; profiles share its cases: forces do not depend on them."""
     probe = Probe(job.run.settings, job.run.creep_law, runner)
+    site = cut_site(job.site, row)
     return [
-        judge_row(job.site, row, solved, standard, job.run, probe, on_check)
+        judge_row(site, row, solved, standard, job.run, probe, on_check)
         for standard in job.standards
     ]
 

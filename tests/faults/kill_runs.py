@@ -22,12 +22,12 @@ from netdesign import cli
 from netdesign.report import files
 from netdesign.report.page import html
 from netdesign.report.workbook import excel
-from netdesign.solving import finished_runs, runner, store, workers
+from netdesign.solving import runner, store, workers
 
 OUTPUTS = ("study.json", "report.html", "report.xlsx")
 NOW, BEFORE = "1700000000", "1600000000"  # of the run, and of the outputs it finds
 # Where a kill may fall: the solve of a case, its way to the store and that of a
-# search or of the whole run, each report, and each step of the way to disk.
+# search or of a net row, each report, and each step of the way to disk.
 STEPS = (
     (runner, "name_case"),
     (workers, "solve_job"),
@@ -35,6 +35,8 @@ STEPS = (
     (store.CaseStore, "find"),
     (store.CaseStore, "keep_search"),
     (store.CaseStore, "find_search"),
+    (store.CaseStore, "keep_row"),
+    (store.CaseStore, "find_row"),
     (files, "_render"),
     (html, "render_html"),
     (excel, "render_workbook"),
@@ -42,7 +44,6 @@ STEPS = (
     (Path, "chmod"),
     (Path, "replace"),
     (Path, "unlink"),
-    (finished_runs, "keep_run"),
 )
 
 

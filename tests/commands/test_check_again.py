@@ -1,0 +1,101 @@
+"""A check that is run again: rows from the store, the same files to the last byte."""
+
+import random
+import sqlite3
+from contextlib import closing
+
+import pytest
+
+from netdesign.evidence.benchmark.versions.inputs import write_site
+from netdesign.study import side_by_side
+
+SITE = ("check", "site", "--accuracy", "0.1", "--jobs", "1", "--explain")
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "cases.sqlite"))
+    monkeypatch.setattr("netdesign.commands.check.own_command", lambda: "netdesign")
+    monkeypatch.chdir(tmp_path)
+    write_site(tmp_path / "site", 1)
+    return tmp_path
+
+
+@pytest.fixture
+def judged(monkeypatch):
+    ids, real = [], side_by_side._judge_row
+
+    def judge(job, row, *rest):
+        ids.append(row.id)
+        return real(job, row, *rest)
+
+    monkeypatch.setattr(side_by_side, "_judge_row", judge)
+    return ids
+
+
+def read_outputs(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_a_second_run_gives_the_same_bytes_and_words(place, call, judged):
+    ended = [
+        call(*SITE, "--out", name, *more)
+        for name, more in {"bare": ["--no-cache"], "kept": [], "again": []}.items()
+    ]
+    assert judged == ["R1.1"] * 2  # --no-cache neither keeps nor finds
+    assert len({(one.code, one.out) for one in ended}) == 1
+    outputs = read_outputs(place / "bare")
+    assert set(outputs) == {"study.json", "report.html", "report.xlsx"}
+    assert read_outputs(place / "kept") == read_outputs(place / "again") == outputs
+    call(*SITE, "--out", "last", "--no-cache")
+    assert judged == ["R1.1"] * 3
+
+
+def test_a_time_of_its_own_stands_in_each_run(place, call, judged, monkeypatch):
+    call(*SITE, "--out", "one")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1600000000")
+    call(*SITE, "--out", "two")
+    assert b"2020-09-13T12:26:40" in (place / "two" / "study.json").read_bytes()
+    assert judged == ["R1.1"]
+
+
+def test_a_damaged_row_is_told_and_calculated_again(place, call, judged):
+    call(*SITE, "--force")
+    with closing(sqlite3.connect(place / "cases.sqlite")) as base:
+        base.execute("UPDATE rows SET packed = substr(packed, 1, 99)")
+        base.commit()
+    ended = call(*SITE, "--force")
+    assert "of a net row is damaged; the row is calculated again" in ended.err
+    assert judged == ["R1.1"] * 2
+
+
+def test_what_is_there_is_not_overwritten_unasked(place, call, judged):
+    call(*SITE)
+    refused = call(*SITE)
+    assert refused.code == 2
+    assert "--force" in refused.err
+    assert judged == ["R1.1"]
+
+
+@pytest.mark.robustness
+def test_drawn_changes_never_bring_bytes_that_are_not_theirs(place, call, monkeypatch):
+    """Drawn sites, options and variables through one store, each beside a bare run.
+
+    Two minutes: ``python -m pytest -m robustness tests/commands/test_check_again.py``.
+    """
+    drawn = random.Random(24)
+    nets = (place / "site" / "Nets.csv").read_text(encoding="utf-8")
+    for k in range(60):
+        thickness = drawn.choice(["2.5", "2.41"])
+        changed = nets.replace(",2.5,", f",{thickness},", 1)
+        (place / "site" / "Nets.csv").write_text(changed, encoding="utf-8")
+        monkeypatch.setenv("OMP_NUM_THREADS", drawn.choice("12"))
+        monkeypatch.setenv("NETDESIGN_CHECK_DETAIL", drawn.choice(["full", "summary"]))
+        asked = [*SITE, "--language", drawn.choice(["en", "de"])]
+        asked += [one for one in ("--csv", "--no-html") if drawn.random() < 0.5]
+        ended = call(*asked, "--out", f"kept{k}")
+        bare = call(*asked, "--out", f"bare{k}", "--no-cache")
+        assert (ended.out, ended.code) == (bare.out, bare.code)
+        kept = read_outputs(place / f"kept{k}")
+        assert kept == read_outputs(place / f"bare{k}"), asked

@@ -1,0 +1,309 @@
+"""Judged rows from the store: exactly what a new run would make, or made anew."""
+
+import copy
+import math
+import random
+import sqlite3
+from collections.abc import Mapping
+from contextlib import closing
+from dataclasses import fields, is_dataclass, replace
+from datetime import date, timedelta
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.errors import SiteDataError
+from netdesign.fault import Fault
+from netdesign.outcome import Outcome
+from netdesign.site.reader import read_site
+from netdesign.solving.runner import Counts, Runner
+from netdesign.solving.store import CaseStore
+from netdesign.study import check_site as use_case
+from netdesign.study import known_rows, side_by_side
+from netdesign.study.cases import solve_site
+from netdesign.study.check_site import check_site
+from netdesign.study.document import write_document
+from netdesign.study.judge import judge_site
+from netdesign.study.known_rows import cut_site, name_rows
+from netdesign.study.probe import Probe
+from tests.short_example import write_short_example
+from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
+
+STANDARDS = [load_standard(name) for name in ("nf-p-95-304-style", "eurocode")]
+DRAWS = 14
+# Cells that no echo of a row names: types, a declaration, the project.
+BESIDE = [
+    *("Anchors!B2", "Anchors!C2", "Anchors!C3", "Ropes!B2", "Ropes!B4"),
+    *("Posts!B2", "Declared!D2", "Project!B2", "Project!B3"),
+]
+
+
+@pytest.fixture
+def told():
+    return []
+
+
+@pytest.fixture
+def store(tmp_path, told):
+    with CaseStore(tmp_path / "cases.sqlite", told.append) as one:
+        yield one
+
+
+@pytest.fixture
+def judged(monkeypatch):
+    """Ids of the rows that are judged, as they come."""
+    ids, real = [], side_by_side._judge_row
+
+    def judge(job, row, *rest):
+        ids.append(row.id)
+        return real(job, row, *rest)
+
+    monkeypatch.setattr(side_by_side, "_judge_row", judge)
+    return ids
+
+
+@pytest.fixture
+def quick_names(monkeypatch):
+    monkeypatch.setattr(known_rows, "identify_installation", lambda: "here")
+
+
+def check(site, store, standards=STANDARDS[:1], **changes):
+    return check_site(site, standards, replace(RUN, **changes), Runner(store=store))
+
+
+def write(studies):
+    return [write_document(one) for one in studies]
+
+
+def list_cells(site):
+    """Cells of a site that can be changed, each with its text."""
+    echoes = [echo for row in site.rows for echo in row.inputs] + list(
+        site.range_inputs
+    )
+    found = {echo.cell: echo.text for echo in echoes if "!" in echo.cell}
+    return found | dict.fromkeys(BESIDE, "")
+
+
+def change_text(text, drawn):
+    try:
+        return f"{float(text) * drawn.uniform(0.97, 1.03):.4g}"
+    except ValueError:
+        return drawn.choice([f"{drawn.uniform(250, 420):.1f}", "Combe", "A40-tested"])
+
+
+def test_a_changed_cell_gives_what_a_run_without_known_rows_gives(
+    tmp_path, store, judged, monkeypatch
+):
+    """Cells of all sheets of three example rows, each changed alone, through one store.
+
+    The run beside it knows cases, but no rows.
+    """
+    path = tmp_path / "site.xlsx"
+    write_short_example(path, ["R2", "R5", "R7"])
+    site = read_site(path)
+    check(site, store)
+    assert judged == ["R2", "R5", "R7"]
+    drawn, compared = random.Random(3601), 0
+    cells = sorted(list_cells(site).items())
+    for cell, text in drawn.sample(cells, DRAWS) + [(one, "") for one in BESIDE]:
+        try:
+            other = read_site(path, instead={cell: change_text(text, drawn)})
+        except SiteDataError:
+            continue  # the workbook refuses it
+        judged.clear()
+        warm = check(other, store)
+        count = len(judged)
+        with monkeypatch.context() as patch:
+            patch.setattr(use_case, "name_rows", lambda *_: {})
+            cold = check(other, store)
+        assert len(judged) == count + 3
+        assert warm == cold, cell
+        assert write(warm) == write(cold), cell
+        compared += count < 3
+    assert compared >= 4  # else nothing of it was tried
+    judged.clear()
+    assert write(check(site, store)) == write(check(site, None))
+    assert judged == ["R2", "R5", "R7"]  # of the run without a store alone
+
+
+def test_only_the_row_that_changed_is_judged_again(store, judged):
+    rows = (*ROWS, build_row("R3", upslope_length=5.1))
+    first = check(build_site(*rows), store)
+    changed = replace(rows[1], resistances=resist(WEAK))
+    judged.clear()
+    (second,) = check(build_site(rows[0], changed, rows[2]), store)
+    assert judged == ["R2"]
+    assert [second.rows[k] for k in (0, 2)] == [first[0].rows[k] for k in (0, 2)]
+    assert second.rows[1] != first[0].rows[1]
+    judged.clear()
+    assert write(check(build_site(rows[2], rows[0]), store))  # in another order
+    assert judged == []
+
+
+def test_a_known_row_asks_for_no_case(store):
+    site = build_site(*ROWS)
+    check(site, store, STANDARDS)
+    runner = Runner(store=store)
+    again = check_site(site, STANDARDS, RUN, runner)
+    assert runner.counts == Counts()
+    assert write(again) == write(check_site(site, STANDARDS, RUN))
+
+
+def test_a_row_is_judged_on_its_part_of_the_site_alone():
+    """The whole site brings the same study."""
+    site = build_site(*ROWS, notes=())
+    whole = judge_site(
+        site, solve_site(site, RUN), STANDARDS[0], RUN,
+        Probe(RUN.settings, RUN.creep_law),
+    )  # fmt: skip
+    assert check_site(site, STANDARDS[:1], RUN) == [whole]
+
+
+def list_leaves(value, way=()):
+    """Ways to every plain value in a value, through fields, members and keys."""
+    if is_dataclass(value):
+        parts = [(one.name, getattr(value, one.name)) for one in fields(value)]
+    elif isinstance(value, Mapping):
+        parts = list(value.items())
+    elif isinstance(value, tuple | list) and value:
+        parts = list(enumerate(value))
+    else:
+        return [way]
+    return [leaf for key, part in parts for leaf in list_leaves(part, (*way, key))]
+
+
+def alter(value, way):
+    """Copy of a value in which the one at the end of a way is another one."""
+    if not way:
+        return alter_plain(value)
+    key, *rest = way
+    if is_dataclass(value):
+        other = copy.copy(value)
+        object.__setattr__(other, key, alter(getattr(value, key), rest))
+        return other
+    if isinstance(value, Mapping):
+        return {**value, key: alter(value[key], rest)}
+    return type(value)([*value[:key], alter(value[key], rest), *value[key + 1 :]])
+
+
+def alter_plain(value):
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, str | bytes | tuple | list | Mapping):
+        return "x" if not value else value[:-1] if len(value) > 1 else value * 2
+    if isinstance(value, date):
+        return value + timedelta(days=1)
+    return "x" if value is None else math.nextafter(value, 0.0) or 5e-324
+
+
+def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
+    """60 drawn from all plain values of a row's part, two profiles and the settings."""
+    write_short_example(tmp_path / "site.xlsx", ["R5"])
+    site = read_site(tmp_path / "site.xlsx")
+    part = cut_site(site, site.rows[0])
+    decides = [part, STANDARDS, RUN.settings, RUN.method, RUN.creep_law]
+    ways = [way for way in list_leaves(decides) if way[:2] != (0, "project")]
+    ways = [way for way in ways if way[:2] not in {(0, "file_name"), (0, "sha256")}]
+    ways = [way for way in ways if way[-1:] != ("id",) or way[0] != 0]
+    ways = [way for way in ways if way[:2] not in UNSEEN]
+    assert len(ways) > 1000
+    drawn = random.Random(1117).sample(ways, 60)
+
+    def name(values):
+        site, standards, settings, method, law = values
+        run = replace(RUN, settings=settings, method=method, creep_law=law)
+        return name_rows(site, standards, run)["R5"]
+
+    names = {name(decides)} | {name(alter(decides, way)) for way in drawn}
+    assert len(names) == 1 + len(set(drawn))
+
+
+# What a site has beside its rows, and a row's part leaves out.
+UNSEEN = {
+    (0, name)
+    for name in ("notes", "findings", "range_inputs", "project_cells", "map_file",
+                 "map_sha256", "winter", "what_if", "monitoring", "declared")
+}  # fmt: skip
+
+
+def test_command_time_and_processes_are_no_part_of_a_name(quick_names):
+    site = build_site(*ROWS)
+    other = replace(RUN, command="x", started="", jobs=17)
+    again = replace(site, notes=(), file_name="y", sha256="1" * 64)
+    assert name_rows(again, STANDARDS, other) == name_rows(site, STANDARDS, RUN)
+
+
+def test_other_profiles_or_their_order_are_other_names(quick_names):
+    site = build_site(*ROWS)
+    orders = (STANDARDS, STANDARDS[::-1], STANDARDS[:1])
+    assert len({name_rows(site, one, RUN)["R1"] for one in orders}) == 3
+
+
+def test_a_row_with_a_value_of_no_known_kind_is_judged_every_time():
+    site = build_site(replace(ROWS[0], unsaid=(object(),)))
+    assert name_rows(site, STANDARDS, RUN) == {}
+
+
+def test_another_code_is_not_answered_by_this_one(store, judged, monkeypatch):
+    site = build_site(*ROWS)
+    check(site, store)
+    monkeypatch.setattr(known_rows, "identify_installation", lambda: "9.9+feed")
+    check(site, store)
+    assert judged == ["R1", "R2"] * 2
+
+
+def test_a_damaged_record_is_told_and_the_row_is_judged_again(store, judged, told):
+    site = build_site(*ROWS)
+    first = check(site, store)
+    with closing(sqlite3.connect(store.path)) as base:
+        base.execute("UPDATE rows SET packed = substr(packed, 1, 99) WHERE number = 1")
+        base.commit()
+    judged.clear()
+    assert check(site, store) == first
+    assert judged == ["R1"]
+    assert [one.key for one in told] == ["store.row_damaged"]
+    assert check(site, store) == first
+    assert judged == ["R1"]
+
+
+@pytest.mark.parametrize("texts", [["{}", "{}"], ["x", "y"], ["{}"], []])
+def test_a_sealed_record_that_is_none_is_told_and_left_out(store, judged, texts):
+    """Somebody else's store."""
+    site, said = build_site(*ROWS[:1]), []
+    store.keep_row(name_rows(site, STANDARDS[:1], RUN)["R1"], texts)
+    runner = Runner(store=store, tell=said.append)
+    (study,) = check_site(site, STANDARDS[:1], RUN, runner)
+    assert judged == ["R1"]
+    assert [one.key for one in said] == ["store.row_damaged"]
+    assert study.rows[0].id == "R1"
+
+
+@pytest.mark.parametrize("kind", ["fault", "lost"])
+def test_a_row_that_another_run_cannot_rely_on_is_not_kept(store, judged, kind):
+    runner = Runner(store=store)
+    if kind == "fault":
+        runner.keep_fault(Fault(kind="ValueError", message="x", place="y"), "R1")
+    runner.counts.lost = int(kind == "lost")
+    site = build_site(*ROWS[:1])
+    check_site(site, STANDARDS[:1], RUN, runner)
+    check(site, store)
+    assert judged == ["R1", "R1"]
+
+
+def test_a_case_lost_in_a_worker_of_rows_counts_too():
+    runner, theirs = Runner(), Runner()
+    theirs.counts.lost = 3
+    runner.take(theirs.counts, theirs.faults)
+    assert runner.counts.lost == 3
+
+
+@pytest.mark.parametrize("lost", [Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT])
+def test_the_runner_counts_what_was_lost(lost):
+    from netdesign.coupling.solution import FailedSolution
+    from netdesign.words.message import say
+
+    runner = Runner()
+    for outcome in (lost, Outcome.NO_EQUILIBRIUM):
+        failed = FailedSolution(outcome=outcome, reason=say("worker.died"))
+        runner._note("a", failed)
+    assert (runner.counts.failed, runner.counts.lost) == (2, 1)
