@@ -44,8 +44,8 @@ def require_sound(
     StudyError
         With the contradictions, or if a file that was given is not the study's.
     """
-    from netdesign.study.rejudge import rejudge
     from netdesign.study.document import compute_digest
+    from netdesign.study.rejudge import rejudge
 
     site = _find_site(study, study_file, site_file, language)
     profile = _find_profile(study, study_file, standard, language)

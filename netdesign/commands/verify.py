@@ -131,10 +131,10 @@ def _verify_study(
     language: Language,
 ) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
-    from netdesign.study.rejudge import rejudge
     from netdesign.study.check_site import check_site
     from netdesign.study.document import load_study
     from netdesign.study.record_provenance import load_own_profile
+    from netdesign.study.rejudge import rejudge
     from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
     study = load_study(path)

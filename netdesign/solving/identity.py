@@ -17,7 +17,7 @@ from pathlib import Path
 
 from netdesign import __version__
 from netdesign.core.library import name_core
-from netdesign.edge.resources import find_resource
+from netdesign.edge.given_files import find_resource
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _SOLVER_PARTS = (

@@ -21,7 +21,6 @@ from netdesign.study.end_note import record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.floor import bound_row_floor, find_row_floor, record_floor
 from netdesign.study.judgement import Basis, Known
-from netdesign.study.known_row import know_row
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_history_notes,
@@ -51,6 +50,7 @@ from netdesign.study.records import (
 )
 from netdesign.study.row_check import RowCheck
 from netdesign.study.row_checks import check_row, distrust
+from netdesign.study.solved_forces import know_row
 from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message
 
