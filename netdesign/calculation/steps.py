@@ -130,7 +130,7 @@ def compare_steps(steps: Sequence[Step]) -> Iterator[Message]:
         for stored, follows in pairs:
             if not is_same(stored, follows):
                 yield say(
-                    "quantity.unequal",
+                    "calculation.unequal",
                     symbol=step.symbol,
                     stored=_show(stored),
                     follows=_show(follows),

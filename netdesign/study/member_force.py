@@ -294,7 +294,7 @@ def _find_load(forces: RowForces, member: str) -> tuple[MemberLoad, float]:
     nothing = given("T_min", 0.0, "kN", "least_tension", kind=Kind.SOLVED)
     rise = _high(load_post(weight, share, pull, splay, nothing).added) or 0.0
     # the guys' least tension does not grow
-    return (load if _high(load.added) else MemberLoad()), rise
+    return (MemberLoad() if _high(load.added) == 0.0 else load), rise
 
 
 def _find_push(forces: RowForces, member: str, support: Support) -> Quantity | None:

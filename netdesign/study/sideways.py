@@ -113,7 +113,7 @@ def _record(
 
 
 def _find_largest(heads: Sequence[_Head], name: str) -> tuple[float, float]:
-    """Largest weight over the heads [-], and the inclination that it has there [deg]."""
+    """Largest weight over the heads [-], and the inclination there [deg]."""
     known = [(float(getattr(one.weights, name)), one) for one in heads if one.weights]
     value, head = max(known, key=lambda pair: pair[0])
     return value, given_degree_from_radian(head.inclination)
