@@ -135,14 +135,16 @@ def read_formula(text: str, known: Mapping[str, Quantity]) -> Quantity:
 
 def _build(tree: ast.expr, known: Mapping[str, Quantity]) -> Quantity:
     match tree:
-        case ast.Constant(value=number) if type(number) in (int, float):
+        case ast.Constant(value=int() | float() as number) if not isinstance(
+            number, bool
+        ):
             return constant(float(number))
         case ast.Name(id=symbol) if symbol in known:
             return known[symbol]
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _SIGNS:
             return apply(_SIGNS[type(op)], _build(left, known), _build(right, known))
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if (
-            name in OPERATIONS and args and OPERATIONS[name].count in (0, len(args))
+            name in OPERATIONS and args and OPERATIONS[name].arity in (0, len(args))
         ):
             return apply(name, *(_build(one, known) for one in args))
     raise SyntaxError

@@ -32,14 +32,14 @@ class Operation(NamedTuple):
 
     ``ways`` has 1 where it grows with an operand, -1 where it falls, 0 where it takes
     the operand's value alone; the last one counts for all further operands. It goes
-    that way while its operands lie between ``least`` and ``most``. ``count`` is the
+    that way while its operands lie between ``least`` and ``most``. ``arity`` is the
     number of operands; 0 is any.
     """
 
     of: Callable[..., float]
     ways: tuple[int, ...]
     dimension: Callable[..., Dimension | None]
-    count: int
+    arity: int
     least: float = -math.inf
     most: float = math.inf
 

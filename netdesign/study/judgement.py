@@ -45,7 +45,7 @@ from netdesign.words.names import name
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Basis:
-    """What the checks of a net row rest on, beside its forces."""
+    """Ground of the checks of a net row, beside its forces."""
 
     site: Site
     row: NetRow
@@ -55,7 +55,7 @@ class Basis:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Known:
-    """What the solved cases of a row, or its study, tell.
+    """Knowledge of a row by its solved cases, or by its study.
 
     Attributes
     ----------
@@ -182,7 +182,9 @@ def _judge_member(
     if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
         result = judge_force(given, force, basis.standard, **judge)
-    return MemberCheck(given=given, width=width, force=force, result=result, **judge)
+    return MemberCheck(
+        given=given, width=width, force=force, gap=gap, doubt=doubt, result=result
+    )
 
 
 def _judge_end(
