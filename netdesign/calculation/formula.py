@@ -100,13 +100,13 @@ def _write_operation(
 ) -> str:
     name = quantity.operation
     way = OPERATIONS[name].way
+    if name == "=" or notation.templates.get(name) == "{}":  # nothing is to be seen
+        return _write(quantity.of[0], leaf, notation, end * way(0), rank)
     own = _RANK.get(name, 0)
     parts = [
         _write(one, leaf, notation, end * way(place), own + (place and name in "-/"))
         for place, one in enumerate(quantity.of)
     ]
-    if name == "=":
-        return parts[0]
     if own:
         text = notation.signs[name].join(parts)
         return f"({text})" if own < rank else text
@@ -128,22 +128,23 @@ def read_formula(text: str, known: Mapping[str, Quantity]) -> Quantity:
         if len(text) > _MOST_SIGNS:
             raise SyntaxError
         tree = ast.parse(text, mode="eval").body
-    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        return _build(tree, known)
+    except (SyntaxError, ValueError, OverflowError, MemoryError, RecursionError):
         raise ContentError(say("calculation.no_formula", text=text[:80])) from None
-    return _build(tree, known, text)
 
 
-def _build(tree: ast.expr, known: Mapping[str, Quantity], text: str) -> Quantity:
+def _build(tree: ast.expr, known: Mapping[str, Quantity]) -> Quantity:
     match tree:
-        case ast.Constant(value=float() | int() as number):
+        case ast.Constant(value=int() | float() as number) if not isinstance(
+            number, bool
+        ):
             return constant(float(number))
         case ast.Name(id=symbol) if symbol in known:
             return known[symbol]
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _SIGNS:
-            of = (_build(left, known, text), _build(right, known, text))
-            return apply(_SIGNS[type(op)], *of)
+            return apply(_SIGNS[type(op)], _build(left, known), _build(right, known))
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if (
-            name in OPERATIONS and args
+            name in OPERATIONS and args and OPERATIONS[name].arity in (0, len(args))
         ):
-            return apply(name, *(_build(one, known, text) for one in args))
-    raise ContentError(say("calculation.no_formula", text=text[:80]))
+            return apply(name, *(_build(one, known) for one in args))
+    raise SyntaxError

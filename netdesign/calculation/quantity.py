@@ -31,12 +31,17 @@ class Operation(NamedTuple):
     """A function of numbers, and how it goes with each of them.
 
     ``ways`` has 1 where it grows with an operand, -1 where it falls, 0 where it takes
-    the operand's value alone; the last one counts for all further operands.
+    the operand's value alone; the last one counts for all further operands. It goes
+    that way while its operands lie between ``least`` and ``most``. ``arity`` is the
+    number of operands; 0 is any.
     """
 
     of: Callable[..., float]
     ways: tuple[int, ...]
     dimension: Callable[..., Dimension | None]
+    arity: int
+    least: float = -math.inf
+    most: float = math.inf
 
     def way(self, place: int) -> int:
         """Way of the operand at a place."""
@@ -64,20 +69,22 @@ def _of_degrees(function: Callable[[float], float]) -> Callable[[float], float]:
     return lambda angle: function(math.radians(angle))
 
 
-# Angles are of a quarter turn; factors and divisors are not below zero.
+# Where an operation turns, its ends are not those of its operands any more.
+_POSITIVE = (0.0, math.inf)
+_QUARTER_TURN = (0.0, 90.0)
 OPERATIONS: dict[str, Operation] = {
-    "=": Operation(float, (1,), _keep),
-    "+": Operation(lambda a, b: a + b, (1, 1), _keep),
-    "-": Operation(lambda a, b: a - b, (1, -1), _keep),
-    "*": Operation(lambda a, b: a * b, (1, 1), _multiply),
-    "/": Operation(lambda a, b: a / b, (1, -1), _divide),
-    "max": Operation(max, (1,), _keep),
-    "min": Operation(min, (1,), _keep),
-    "sqrt": Operation(math.sqrt, (1,), lambda one: one.root()),
-    "sin": Operation(_of_degrees(math.sin), (1,), _turn),
-    "cos": Operation(_of_degrees(math.cos), (-1,), _turn),
-    "tan": Operation(_of_degrees(math.tan), (1,), _turn),
-    "at_value": Operation(float, (0,), _keep),
+    "=": Operation(float, (1,), _keep, 1),
+    "+": Operation(lambda a, b: a + b, (1, 1), _keep, 2),
+    "-": Operation(lambda a, b: a - b, (1, -1), _keep, 2),
+    "*": Operation(lambda a, b: a * b, (1, 1), _multiply, 2, *_POSITIVE),
+    "/": Operation(lambda a, b: a / b, (1, -1), _divide, 2, *_POSITIVE),
+    "max": Operation(lambda *all_: max(all_), (1,), _keep, 0),
+    "min": Operation(lambda *all_: min(all_), (1,), _keep, 0),
+    "sqrt": Operation(math.sqrt, (1,), lambda one: one.root(), 1, *_POSITIVE),
+    "sin": Operation(_of_degrees(math.sin), (1,), _turn, 1, *_QUARTER_TURN),
+    "cos": Operation(_of_degrees(math.cos), (-1,), _turn, 1, *_QUARTER_TURN),
+    "tan": Operation(_of_degrees(math.tan), (1,), _turn, 1, *_QUARTER_TURN),
+    "at_value": Operation(float, (0,), _keep, 1),
 }
 
 
@@ -230,6 +237,8 @@ def constant(value: float) -> Quantity:
 def apply(operation: str, *operands: Operand) -> Quantity:
     """Quantity that an operation makes of others; of a missing one a missing one.
 
+    It is missing, too, where an operand lies outside the range of the operation.
+
     Each end takes the ends of the operands that make it so: a difference is largest
     with the least of what is taken away.
 
@@ -253,11 +262,22 @@ def apply(operation: str, *operands: Operand) -> Quantity:
     lacks = tuple(dict.fromkeys(lack for one in of for lack in one.lacks))
     if lacks:
         return replace(made, low=None, value=None, high=None, lacks=lacks)
-    if operation == "/" and not (of[1].low or 0.0) > 0.0:
-        lack = say("calculation.over_nothing", symbol=of[1].symbol)
+    lack = _find_lack(operation, of)
+    if lack is not None:
         return replace(made, low=None, value=None, high=None, lacks=(lack,))
     low, value, high = (_evaluate(known, of, end) for end in (-1, 0, 1))
     return replace(made, low=low, value=value, high=high)
+
+
+def _find_lack(operation: str, of: Sequence[Quantity]) -> Message | None:
+    """Lack of a result where the ends of known operands would not give its ends."""
+    known = OPERATIONS[operation]
+    for one in of:
+        if take_end(one, -1) < known.least or take_end(one, 1) > known.most:
+            return say("calculation.outside", operation=operation, symbol=one.symbol)
+    if operation == "/" and take_end(of[1], -1) == 0.0:
+        return say("calculation.over_nothing", symbol=of[1].symbol)
+    return None
 
 
 def _is_zero(quantity: Quantity) -> bool:

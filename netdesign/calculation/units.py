@@ -27,6 +27,7 @@ class Dimension:
 
 
 PURE = Dimension()
+_POWERS = tuple("123456789")
 
 
 @lru_cache
@@ -35,11 +36,10 @@ def find_dimension(unit: str) -> Dimension:
     above, _, below = unit.partition("/")
     found = PURE
     for part, sign in ((above, 1), (below, -1)):
-        base = part.rstrip("0123456789")
-        if base not in ("", "-", "1"):
-            found = found.times(
-                Dimension(((base, 1),)), sign * int(part[len(base) :] or 1)
-            )
+        base = part[:-1] if part[-1:] in _POWERS else part
+        if base not in ("", "-"):
+            power = int(part[len(base) :] or 1)
+            found = found.times(Dimension(((base, 1),)), sign * power)
     return found
 
 

@@ -1,8 +1,8 @@
 """Forces on the members of a support and their utilisation, step by step.
 
-Each function is a line of a theory page: (V1), (V2) of checks/THEORY.md, (S9) to
-(S19) of structure/THEORY.md, (P7), (P8) of panel/THEORY.md. Forces in kN, lengths in m,
-angles in degrees.
+Each function is a line of a theory page: checks/THEORY.md, (V1) and (V2);
+structure/THEORY.md, (S9) to (S19); panel/THEORY.md, (P7) and (P8);
+resistance/THEORY.md, (R1) and (R12). Forces in kN, lengths in m, angles in degrees.
 """
 
 from __future__ import annotations

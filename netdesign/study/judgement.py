@@ -44,7 +44,7 @@ from netdesign.words.names import name
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Basis:
-    """What the checks of a net row rest on, beside its forces."""
+    """Ground of the checks of a net row, beside its forces."""
 
     site: Site
     row: NetRow
@@ -54,7 +54,7 @@ class Basis:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Known:
-    """What the solved cases of a row, or its study, tell.
+    """Knowledge of a row by its solved cases, or by its study.
 
     Attributes
     ----------

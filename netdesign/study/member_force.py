@@ -272,7 +272,8 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     # the least tension does not grow
     rise = _high(load_post(weight, share, pull, splay, nothing).added)
     added = load_post(weight, share, pull, splay, least).added
-    return ([weight, share, pull, splay, least] if _high(added) else []), rise
+    is_none = added is not None and added.high == 0.0
+    return ([] if is_none else [weight, share, pull, splay, least]), rise
 
 
 def _list_push_leaves(forces: RowForces) -> list[Quantity]:

@@ -1,4 +1,4 @@
-"""What the solved cases of a row tell its checks, in engineer's units."""
+"""Knowledge that solved cases give the checks of a row, in engineer's units."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def know_row(
     gap: Message | None,
     floor: Floor | None,
 ) -> Known:
-    """What cases and the guideline's load tell of a row.
+    """Knowledge of a row by its cases and the guideline's load.
 
     ``gap`` says why the cases are not complete.
     """
@@ -76,7 +76,7 @@ def _find_tilt(row: NetRow, results: Sequence[CaseResult]) -> float:
 
 
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
-    """Why an assumed panel fails, so that nothing is known of the row."""
+    """Reason why an assumed panel fails, so that nothing is known of the row."""
     failed = [one for one in results if isinstance(one.panel, FailedPanel)]
     if not failed or row.panel is None or not row.panel.assumed:
         return None

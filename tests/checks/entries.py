@@ -2,8 +2,12 @@
 
 from typing import Any
 
+from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.checks import StandardValue
+from netdesign.checks.check import find_missing_force
 from netdesign.site.model import Resistance
+from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import say
 
 
 def a_value(value_id: str, value: float, unit: str = "-") -> StandardValue:
@@ -27,3 +31,18 @@ def a_resistance(value: float | None = 1.0, **changes: Any) -> Resistance:
         "source": "Anchors!B4",
     }
     return Resistance(value=value, **(words | changes))
+
+
+def a_force(value: float, low: float | None = None, high: float | None = None):
+    """Characteristic force E_k with its band [N]."""
+    ends = [value if end is None else end for end in (low, value, high)]
+    low_kN, value_kN, high_kN = map(kilonewton_from_newton, ends)
+    return given(
+        *("E_k", value_kN, "kN", "foot_anchor"),
+        kind=Kind.SOLVED,
+        band=(low_kN, high_kN),
+    )
+
+
+def no_force() -> Quantity:
+    return find_missing_force(say("check.no_case_solved"))

@@ -6,7 +6,6 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import (
-    Band,
     CheckResult,
     Declaration,
     check_member,
@@ -18,7 +17,7 @@ from netdesign.checks import (
 from netdesign.checks.geometry import check_height
 from netdesign.outcome import Verdict
 from netdesign.words.names import as_given
-from tests.checks.entries import a_resistance, a_value
+from tests.checks.entries import a_force, a_resistance, a_value
 
 PROFILE = load_standard("nf-p-95-304-style")
 BARE = replace(
@@ -38,7 +37,7 @@ DECLARATION = Declaration(
 def check(
     low: float, high: float, strength: float | None = 1.0, **open_points
 ) -> CheckResult:
-    action = Band(low=low, value=low, high=high)
+    action = a_force(low, low, high)
     gaps = {"gap": None} | open_points
     return check_member(action, a_resistance(strength), BARE, **gaps)
 
@@ -50,7 +49,7 @@ def test_what_does_not_fail_becomes_declared_and_keeps_its_numbers(low, high, st
     computed = check(low, high, strength)
     found = declare(computed, DECLARATION)
     assert found.verdict is Verdict.DECLARED
-    assert (found.demand, found.utilisation) == (computed.demand, computed.utilisation)
+    assert found.used is computed.used
     assert found.declaration is DECLARATION
     told = str(found.reason)
     for part in ("Report G-17", "B. Rüegg", "2026-03-09", "Declared!B2"):
@@ -96,7 +95,7 @@ def test_information_proves_nothing_either_way(low, high):
     computed = check(low, high)
     found = withhold(computed, as_given("the snow overtops the net"))
     assert found.verdict is Verdict.NOT_PROVEN
-    assert (found.action, found.utilisation) == (computed.action, computed.utilisation)
+    assert found.used is computed.used
     assert str(found.reason) == "Not proven: the snow overtops the net."
 
 

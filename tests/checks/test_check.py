@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.calculation.quantity import given
 from netdesign.checks import (
     Band,
     Standard,
@@ -14,7 +15,7 @@ from netdesign.checks import (
     judge,
     load_standard,
 )
-from netdesign.checks.check import find_characteristic
+from netdesign.checks.check import find_resistance
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import PullOutTests
@@ -22,7 +23,7 @@ from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from netdesign.words.names import as_given, name, name_mode
-from tests.checks.entries import a_resistance, a_value
+from tests.checks.entries import a_force, a_resistance, a_value, no_force
 
 KN = 1e3
 ABOVE_1 = math.nextafter(1.0, 2.0)
@@ -43,12 +44,8 @@ def plain_standard() -> Standard:
     )
 
 
-def a_band(value: float, low: float | None = None, high: float | None = None) -> Band:
-    return Band(
-        low=value if low is None else low,
-        value=value,
-        high=value if high is None else high,
-    )
+def list_ends(quantity):
+    return quantity.low, quantity.value, quantity.high
 
 
 def verdict_of(action, resistance=None, standard=None, gap=None) -> Verdict:
@@ -73,7 +70,9 @@ def verdict_of(action, resistance=None, standard=None, gap=None) -> Verdict:
 )
 def test_verdict_at_a_utilisation_of_one(low, high, verdict):
     assert judge(low, high, least=0.0, most=1.0) is verdict
-    assert verdict_of(a_band(high, low=low)) is verdict
+    # in kN, so that no unit's factor rounds what is next to the limit
+    force = given("E_k", high, "kN", "foot_anchor", band=(low, high))
+    assert verdict_of(force, a_resistance(KN)) is verdict
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
@@ -122,15 +121,17 @@ def test_numbers_of_a_check_are_action_times_and_resistance_over_factor():
     standard = a_standard(
         a_value("action.snow", 1.5), a_value("resistance.tendon", 1.25)
     )
-    action = Band(low=90 * KN, value=100 * KN, high=120 * KN)
+    action = a_force(100 * KN, 90 * KN, 120 * KN)
     result = check_member(action, a_resistance(500 * KN), standard, gap=None)
     assert (result.id, result.clause) == ("foot_anchor.tendon", "4.2")
     assert (result.member, result.mode) == ("foot_anchor", "tendon")
-    assert result.action == action
-    assert (result.action_factor, result.resistance_factor) == (1.5, 1.25)
-    assert result.demand == Band(low=135 * KN, value=150 * KN, high=180 * KN)
-    assert (result.resistance, result.design_resistance) == (500 * KN, 400 * KN)
-    assert result.utilisation == Band(low=0.3375, value=0.375, high=0.45)
+    assert result.find("E_k") is action
+    factors = result.find_value("γ_E"), result.find_value("γ_R")
+    assert factors == (1.5, 1.25)
+    assert list_ends(result.find("E_d")) == (135.0, 150.0, 180.0)
+    assert result.find_value("R_k") == 500.0
+    assert result.find_value("R_d") == 400.0
+    assert list_ends(result.used) == (0.3375, 0.375, 0.45)
     assert result.verdict is Verdict.PASS
 
 
@@ -140,7 +141,7 @@ def test_each_factor_alone_can_turn_a_pass_into_a_fail():
             a_value("action.snow", on_action),
             a_value("resistance.tendon", on_resistance),
         )
-        return verdict_of(a_band(80 * KN), a_resistance(100 * KN), standard)
+        return verdict_of(a_force(80 * KN), a_resistance(100 * KN), standard)
 
     assert with_factors(1.25, 1.0) is Verdict.PASS
     assert with_factors(1.26, 1.0) is Verdict.FAIL
@@ -149,15 +150,15 @@ def test_each_factor_alone_can_turn_a_pass_into_a_fail():
 
 
 def test_no_solved_case_is_not_proven():
-    result = check_member(None, a_resistance(), plain_standard(), gap=None)
+    result = check_member(no_force(), a_resistance(), plain_standard(), gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
     assert "no case was solved" in str(result.reason)
-    assert (result.action, result.demand, result.utilisation) == (None, None, None)
+    assert [result.find_value(one) for one in ("E_k", "E_d", "μ")] == [None] * 3
 
 
 def test_failed_cases_keep_a_check_from_passing_and_are_named():
     result = check_member(
-        a_band(0.2),
+        a_force(0.2),
         a_resistance(),
         plain_standard(),
         gap=say("text.as_given", text="3 of 40 cases failed"),
@@ -168,7 +169,7 @@ def test_failed_cases_keep_a_check_from_passing_and_are_named():
 
 def test_failed_cases_do_not_hide_a_sure_failure_and_are_named():
     result = check_member(
-        a_band(2.0),
+        a_force(2.0),
         a_resistance(),
         plain_standard(),
         gap=say("text.as_given", text="3 of 40 cases failed"),
@@ -179,39 +180,39 @@ def test_failed_cases_do_not_hide_a_sure_failure_and_are_named():
 
 def test_band_across_the_resistance_says_so():
     result = check_member(
-        Band(low=0.9, value=0.95, high=1.1), a_resistance(), plain_standard(), gap=None
+        a_force(0.95, 0.9, 1.1), a_resistance(), plain_standard(), gap=None
     )
     assert result.verdict is Verdict.NOT_PROVEN
     assert "band of the demand spans the resistance" in str(result.reason)
 
 
 def test_missing_resistance_names_member_type_and_cell():
-    result = check_member(a_band(0.2), a_resistance(None), plain_standard(), gap=None)
+    result = check_member(a_force(0.2), a_resistance(None), plain_standard(), gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
-    assert (result.utilisation, result.design_resistance) == (None, None)
+    assert (result.used.value, result.find_value("R_d")) == (None, None)
     assert result.id == "foot_anchor.tendon"
     assert "type GEWI 25, cell Anchors!B4" in str(result.reason)
 
 
 def test_missing_resistance_without_a_type_names_the_cell():
     resistance = a_resistance(None, type_id="", source="Nets!K5")
-    result = check_member(a_band(0.2), resistance, plain_standard(), gap=None)
+    result = check_member(a_force(0.2), resistance, plain_standard(), gap=None)
     assert "Foot anchor (tendon), cell Nets!K5" in str(result.reason)
     assert "type" not in str(result.reason)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf])
 def test_resistance_that_is_no_positive_number_proves_nothing(bad):
-    result = check_member(a_band(0.2), a_resistance(bad), plain_standard(), gap=None)
+    result = check_member(a_force(0.2), a_resistance(bad), plain_standard(), gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
-    assert result.utilisation is None
+    assert result.used.value is None
     assert "Anchors!B4" in str(result.reason)
 
 
 @pytest.mark.parametrize("left_out", ["action.snow", "resistance.tendon"])
 def test_missing_factor_is_not_proven_and_named(left_out):
     values = [v for v in plain_standard().values if v.id != left_out]
-    result = check_member(a_band(9.0), a_resistance(), a_standard(*values), gap=None)
+    result = check_member(a_force(9.0), a_resistance(), a_standard(*values), gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
     assert f"the profile lacks its value {left_out}, factor of the" in str(
         result.reason
@@ -221,7 +222,7 @@ def test_missing_factor_is_not_proven_and_named(left_out):
 def test_declared_pull_out_has_no_factor_in_the_nf_style_profile():
     resistance = a_resistance(1e9, mode="pull_out", basis="declared")
     standard = load_standard("nf-p-95-304-style")
-    result = check_member(a_band(1.0), resistance, standard, gap=None)
+    result = check_member(a_force(1.0), resistance, standard, gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
     for language in LANGUAGES:
         told = render(result.reason, language)
@@ -239,7 +240,7 @@ def test_every_lack_of_a_factor_names_its_mode_in_words(_, mode, basis, language
     """Of a profile with a factor of the action only."""
     resistance = a_resistance(mode=mode, basis=basis)
     bare = a_standard(a_value("action.snow", 1.0))
-    result = check_member(a_band(0.5), resistance, bare, gap=None)
+    result = check_member(a_force(0.5), resistance, bare, gap=None)
     told = render(result.reason, language)
     assert f"resistance.{mode}, " in told  # what its profile has to be given
     assert f"({render(name_mode(mode), language)})" in told
@@ -249,8 +250,8 @@ def test_tested_and_computed_pull_out_have_their_own_factors():
     standard = load_standard("nf-p-95-304-style")
     factors = [
         check_member(
-            a_band(1.0), a_resistance(mode="pull_out", basis=basis), standard, gap=None
-        ).resistance_factor
+            a_force(1.0), a_resistance(mode="pull_out", basis=basis), standard, gap=None
+        ).find_value("γ_R")
         for basis in ("tested", "computed")
     ]
     assert factors == [1.35, 1.89]
@@ -258,7 +259,7 @@ def test_tested_and_computed_pull_out_have_their_own_factors():
 
 def test_all_that_is_missing_is_told_at_once():
     result = check_member(
-        None,
+        no_force(),
         a_resistance(None),
         a_standard(),
         gap=say("text.as_given", text="worker ended"),
@@ -278,22 +279,22 @@ def test_all_that_is_missing_is_told_at_once():
     ],
 )
 def test_slack_member_without_resistance_or_factor_is_not_proven(resistance, standard):
-    result = check_member(a_band(0.0), resistance, standard, gap=None)
+    result = check_member(a_force(0.0), resistance, standard, gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
-    assert result.utilisation is None
+    assert result.used.value is None
 
 
 def test_slack_member_with_a_resistance_passes_and_says_that_it_is_slack():
-    result = check_member(a_band(0.0), a_resistance(7e3), plain_standard(), gap=None)
+    result = check_member(a_force(0.0), a_resistance(7e3), plain_standard(), gap=None)
     assert result.verdict is Verdict.PASS
-    assert result.utilisation == Band(low=0.0, value=0.0, high=0.0)
+    assert list_ends(result.used) == (0.0, 0.0, 0.0)
     assert "slack in every case" in str(result.reason)
 
 
 def test_slack_member_with_failed_cases_is_not_proven():
     for value in (None, 1.0):
         result = check_member(
-            a_band(0.0),
+            a_force(0.0),
             a_resistance(value),
             plain_standard(),
             gap=say("text.as_given", text="1 case failed"),
@@ -303,17 +304,17 @@ def test_slack_member_with_failed_cases_is_not_proven():
 
 
 def test_member_that_may_be_tight_needs_its_resistance():
-    action = Band(low=0.0, value=0.0, high=5e-324)
+    action = given("E_k", 0.0, "kN", "foot_anchor", band=(0.0, 5e-324))
     assert verdict_of(action, a_resistance(None)) is Verdict.NOT_PROVEN
 
 
 def test_assumed_values_are_listed_with_the_check():
     resistance = a_resistance(1e9, mode="rope", member="uphill_guy")
     standard = load_standard("nf-p-95-304-style")
-    result = check_member(a_band(1.0), resistance, standard, gap=None)
+    result = check_member(a_force(1.0), resistance, standard, gap=None)
     assert result.verdict is Verdict.PASS
     assert result.assumed == ("action.snow", "resistance.rope")
-    own = check_member(a_band(0.2), a_resistance(), plain_standard(), gap=None)
+    own = check_member(a_force(0.2), a_resistance(), plain_standard(), gap=None)
     assert own.assumed == ()
 
 
@@ -376,42 +377,42 @@ NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
 
 
 @pytest.mark.parametrize(
-    ("given", "expected"),
+    ("told", "expected"),
     [
         (
-            {"action": a_band(0.5)},
+            {"action": a_force(0.5)},
             "The demand stays within the resistance over its whole band.",
         ),
         (
-            {"action": a_band(2.0)},
+            {"action": a_force(2.0)},
             "The demand exceeds the resistance over its whole band.",
         ),
         (
-            {"action": a_band(2.0), "gap": "3 of 40 cases failed"},
+            {"action": a_force(2.0), "gap": "3 of 40 cases failed"},
             "The demand exceeds the resistance over its whole band; besides, 3 of 40 "
             "cases failed.",
         ),
         (
-            {"action": a_band(1.0, 0.5, 1.5)},
+            {"action": a_force(1.0, 0.5, 1.5)},
             "Not proven: the band of the demand spans the resistance.",
         ),
         (
-            {"action": a_band(0.0)},
+            {"action": a_force(0.0)},
             "The member is slack in every case; its resistance is given.",
         ),
-        ({"action": None}, "Not proven: no case was solved."),
+        ({"action": no_force()}, "Not proven: no case was solved."),
         (
-            {"action": a_band(0.5), "resistance": a_resistance(None)},
+            {"action": a_force(0.5), "resistance": a_resistance(None)},
             f"Not proven: {NO_RESISTANCE}.",
         ),
         (
-            {"action": a_band(0.5), "resistance": a_resistance(None, type_id="")},
+            {"action": a_force(0.5), "resistance": a_resistance(None, type_id="")},
             "Not proven: no resistance is given for Foot anchor (tendon), cell "
             "Anchors!B4.",
         ),
         (
             {
-                "action": a_band(0.5),
+                "action": a_force(0.5),
                 "resistance": a_resistance(None),
                 "gap": "1 of 4 cases failed",
             },
@@ -419,7 +420,7 @@ NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
         ),
         (
             {
-                "action": a_band(0.5),
+                "action": a_force(0.5),
                 "resistance": a_resistance(basis=""),
                 "standard": a_standard(),
             },
@@ -429,7 +430,7 @@ NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
         ),
         (
             {
-                "action": a_band(0.5),
+                "action": a_force(0.5),
                 "standard": a_standard(a_value("action.snow", 1.0)),
             },
             "Not proven: the profile lacks its value resistance.tendon, factor of the "
@@ -437,12 +438,12 @@ NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
         ),
     ],
 )
-def test_a_reason_says_what_was_found_and_no_more(given, expected):
-    assert reason_of(**given) == expected
+def test_a_reason_says_what_was_found_and_no_more(told, expected):
+    assert reason_of(**told) == expected
 
 
 def test_without_a_factor_there_is_no_clause():
-    result = check_member(a_band(0.5), a_resistance(), a_standard(), gap=None)
+    result = check_member(a_force(0.5), a_resistance(), a_standard(), gap=None)
     assert result.clause == "-"
     inclination = check_inclination(0.5, 0.6, a_standard())
     assert inclination.clause == "-"
@@ -463,11 +464,12 @@ def test_tests_need_both_of_their_correlation_factors(left_out):
     """Three tests of 300, 330 and 390 kN; EN 1997 correlates mean and least."""
     standard = load_standard("eurocode")
     tests = PullOutTests(count=3, mean=340 * KN, least=300 * KN)
-    given = a_resistance(None, mode="pull_out", basis="tested", tests=tests)
-    value, lack = find_characteristic(given, standard)
-    assert lack is None
-    assert 0.0 < value <= 300 * KN
+    known = a_resistance(None, mode="pull_out", basis="tested", tests=tests)
+    found = find_resistance(known, standard)
+    assert found.lacks == ()
+    assert 0.0 < found.value <= 300
     tables = tuple(t for t in standard.tables if not t.id.endswith(left_out))
-    value, lack = find_characteristic(given, replace(standard, tables=tables))
-    assert value is None
+    found = find_resistance(known, replace(standard, tables=tables))
+    assert found.value is None
+    (lack,) = found.lacks
     assert str(lack).startswith("the profile has no correlation factors for 3 tests")

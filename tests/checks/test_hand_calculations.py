@@ -138,8 +138,9 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
     # The slack downhill guys: at most (1 - 0.5351 < 1/2) 0.5 * 7.896 / 0.5 = 7.896 kN.
     assert checks["downhill_guy.rope"].demand_kN == pytest.approx(11.844, **CLOSE)
     assert checks["post.lateral"].verdict is Verdict.PASS
-    assert checks["foot_anchor.tendon"].action.position == "intermediate"
-    assert checks["foot_anchor.tendon"].action.loaded_width_m == width
+    assert checks["foot_anchor.tendon"].position == "intermediate"
+    inside = checks["foot_anchor.tendon"].read("E_s")  # a bay of it
+    assert inside == pytest.approx(width * 26.907, **CLOSE)
 
 
 def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
@@ -199,11 +200,11 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
         utilisation=0.4788,
         verdict=Verdict.PASS,
     )
-    action = checks["foot_anchor.pull_out.end"].action
-    assert (action.position, action.loaded_width_m) == ("edge", pytest.approx(5.5))
+    end = checks["foot_anchor.pull_out.end"]
+    assert (end.position, end.read("b_e")) == ("edge", pytest.approx(5.5))
     # Inside the row the same anchor carries 4 m: 4 / 5.5 of it.
     inside = checks["foot_anchor.pull_out"]
-    assert inside.action.position == "intermediate"
+    assert inside.position == "intermediate"
     assert inside.demand_kN == pytest.approx(foot * 4.0 / 5.5, **CLOSE)
     assert inside.utilisation == pytest.approx(1.7744 * 4.0 / 5.5, **CLOSE)
     # Resistance that would do, for the pull-out: 159.27 * 1.89 = 301.0 kN.

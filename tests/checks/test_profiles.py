@@ -73,7 +73,7 @@ def test_profiles_differ_by_their_resistance_factors_alone(
         1.5 * 94.18 * 1.00499, rel=1e-3
     )
     factors = [
-        checks[key].resistance_factor
+        checks[key].read("γ_R")
         for key in ("foot_anchor.pull_out", "foot_anchor.tendon", "post.compression")
     ]
     assert factors == pytest.approx([tested, tendon, post], rel=1e-12)

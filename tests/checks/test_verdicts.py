@@ -22,7 +22,7 @@ from netdesign.checks import (
 )
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.words.names import as_given
-from tests.checks.entries import a_resistance, a_value
+from tests.checks.entries import a_force, a_resistance, a_value, no_force
 
 PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
 BARE = replace(load_standard("swiss-guideline-2007"), values=(), tables=())
@@ -55,10 +55,12 @@ def use(force: float, on_action: float, strength: float, factor: float) -> Fract
 
 def verdict_of(action, on_action, strength, factor, gap=None):
     standard = profile(on_action, factor)
-    given = a_resistance(strength)
-    return check_member(
-        action, given, standard, gap=as_given(gap) if gap else None
-    ).verdict
+    known, told = a_resistance(strength), as_given(gap) if gap else None
+    return check_member(force_of(action), known, standard, gap=told).verdict
+
+
+def force_of(band):
+    return a_force(band.value, band.low, band.high) if band else no_force()
 
 
 @given(bands(), FACTORS, FORCES, FACTORS, GAPS)
@@ -112,7 +114,8 @@ def test_an_unknown_basis_is_not_proven(action, strength, basis):
         ),
     )
     given_resistance = a_resistance(strength, mode="pull_out", basis=basis)
-    assert check_member(action, given_resistance, on_tested, gap=None).verdict is OPEN
+    found = check_member(force_of(action), given_resistance, on_tested, gap=None)
+    assert found.verdict is OPEN
 
 
 @given(st.one_of(st.none(), FORCES), st.one_of(st.none(), FACTORS), GAPS)

@@ -1,7 +1,7 @@
 """Every number and word of the studies of forty drawn sites, as they were once.
 
 Regression, not truth: whoever changes a number says why, and writes the file again
-(``python -m tests.golden.golden``).
+(``python -m tests.golden.golden``), then in the records of today (`former`).
 """
 
 import json
@@ -20,6 +20,7 @@ from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
+from tests.golden.former import state_document
 from tests.study.knowing_less.drawn_site import draw_lines, write_lines
 
 STORED = Path(__file__).with_name("numbers.json.xz")
@@ -42,7 +43,7 @@ def judge_seed(seed):
     standard = load_standard(PROFILES[seed % len(PROFILES)])
     run = replace(RUN, method="transient") if seed in FOLLOWED else RUN
     study = judge_site(site, solve_site(site, run, Runner()), standard, run)
-    document = json.loads(write_document(study))
+    document = state_document(json.loads(write_document(study)))
     return flatten({k: v for k, v in document.items() if k not in LEFT_OUT})
 
 

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from tests.golden.former import MISSING, may_differ
 from tests.golden.golden import SEEDS, judge_seed, load_stored
 
 TOLERANCE = 1e-9
@@ -25,9 +26,14 @@ def is_same(one, other):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_every_number_is_what_it_was(stored, seed):
     then, now = stored[str(seed)], judge_seed(seed)
-    assert now.keys() == then.keys(), sorted(now.keys() ^ then.keys())[:10]
-    other = [key for key in then if not is_same(then[key], now[key])]
-    assert not other, [(key, then[key], now[key]) for key in other[:10]]
+    keys = {**then, **now}
+    pairs = {key: (then.get(key, MISSING), now.get(key, MISSING)) for key in keys}
+    other = [
+        (key, *pair)
+        for key, pair in pairs.items()
+        if not (is_same(*pair) or may_differ(key, *pair))
+    ]
+    assert not other, other[:10]
 
 
 def test_the_sites_hold_all_verdicts_and_grounds(stored):

@@ -23,6 +23,7 @@ from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe
 from netdesign.words.message import say
+from tests.read_check import compare_support
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 from tests.solving.made_up_workers import Recording
 
@@ -46,13 +47,6 @@ def envelopes():
 
 def judge(standard, envelopes, site=SITE):
     return judge_site(site, envelopes, standard, RUN)
-
-
-def on_row(check):
-    """Force on the worst support of the row over the solved one."""
-    effects = check.action
-    ratio = effects.loaded_width_m / effects.post_spacing_m
-    return ratio * effects.lateral_factor
 
 
 def test_ranges_without_counts_are_searched_and_with_one_are_a_grid():
@@ -89,9 +83,9 @@ def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):
     """A resistance between the largest case and the bound's end proves nothing."""
     study = judge(standard, envelopes)
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
-    assert check.demand_high_kN > check.demand_kN
+    assert check.read_band("E_d")[1] > check.demand_kN
     band = envelopes[0].extremes["foot_anchor"].widened
-    factor = on_row(check) * check.action_factor * check.resistance_factor
+    factor = compare_support(check) * check.read("γ_E") * check.read("γ_R")
     between = 0.5 * (band.value + band.high) * factor
     row = build_row("R1", resistances=resist(foot_anchor__tendon=between))
     site = build_site(row, ranges=RANGES)
@@ -106,7 +100,7 @@ def test_critical_values_are_where_the_check_flips(standard, envelopes):
     study = judge(standard, envelopes)
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
     level = middle[len(middle) // 2]
-    given = level * on_row(check) * check.action_factor * check.resistance_factor
+    given = level * compare_support(check) * check.read("γ_E") * check.read("γ_R")
     row = build_row("R1", resistances=resist(foot_anchor__tendon=given))
     site = build_site(row, ranges=RANGES)
     bounds = judge(standard, envelopes[:1], site).rows[0].envelope.bounds
@@ -133,7 +127,7 @@ def test_an_open_gap_never_passes(standard, envelopes):
         check.verdict is not Verdict.PASS
         for row in study.rows
         for check in row.checks
-        if check.mode != "inclination" and check.action_kN
+        if check.mode != "inclination" and check.read("E_k")
     )
 
 
@@ -231,7 +225,7 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
     band = envelopes[0].extremes["foot_anchor"].widened
     study = judge(standard, envelopes)
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon.end")
-    factor = on_row(check) * check.action_factor * check.resistance_factor
+    factor = compare_support(check) * check.read("γ_E") * check.read("γ_R")
     row = build_row(
         "R1", resistances=resist(foot_anchor__tendon=0.85 * band.value * factor)
     )

@@ -36,8 +36,6 @@ CHECK = CheckRecord(
     member="foot_anchor",
     mode="tendon",
     demand_kN=100.0 / 3.0,
-    demand_low_kN=33.0,
-    demand_high_kN=34.0,
     resistance_kN=50.0,
     utilisation=2.0 / 3.0,
     verdict=Verdict.PASS,
@@ -50,8 +48,6 @@ GEOMETRY = CheckRecord(
     member="net",
     mode="inclination",
     demand_kN=None,
-    demand_low_kN=None,
-    demand_high_kN=None,
     resistance_kN=None,
     utilisation=None,
     verdict=Verdict.NOT_PROVEN,
@@ -118,7 +114,7 @@ ROW = RowStudy(
     reasons=[say("text.as_given", text="Not all inside.")],
 )
 STUDY = Study(
-    schema="netdesign.study/2",
+    schema="netdesign.study/3",
     verdict=Verdict.NOT_PROVEN,
     project=Project(name="Combe"),
     profile=ProfileRecord(
@@ -161,7 +157,7 @@ def document():
 def refuse(document):
     """Message with which the document is refused."""
     text = document if isinstance(document, str) else json.dumps(document)
-    with pytest.raises(StudyError, match=r"a study of schema netdesign\.study/2") as e:
+    with pytest.raises(StudyError, match=r"a study of schema netdesign\.study/3") as e:
         read_document(text)
     return str(e.value)
 
@@ -225,7 +221,7 @@ def test_numbers_are_written_in_full(document):
 def test_keys_stand_in_the_order_of_the_fields(document):
     assert list(document) == [field.name for field in fields(Study)]
     assert list(document["rows"][0]) == [field.name for field in fields(RowStudy)]
-    assert document["schema"] == "netdesign.study/2"
+    assert document["schema"] == "netdesign.study/3"
     assert document["verdict"] == "not_proven"
 
 
@@ -286,7 +282,7 @@ def test_a_message_without_its_text_or_arguments_is_refused(document):
         assert "rows.0.checks.0.reason" in refuse(document)
 
 
-@pytest.mark.parametrize("word", ["netdesign.study/3", "netdesign.solution/1", ""])
+@pytest.mark.parametrize("word", ["netdesign.study/4", "netdesign.solution/1", ""])
 def test_another_schema_is_refused(document, word):
     document["schema"] = word
     assert "schema: " in refuse(document)

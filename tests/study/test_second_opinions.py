@@ -5,6 +5,8 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.calculation.quantity import Kind
+from netdesign.calculation.steps import Step
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Case
 from netdesign.haefeli.pressure import compute_slab_force
@@ -25,10 +27,11 @@ CHECK = CheckRecord(
     member="foot_anchor",
     mode="tendon",
     demand_kN=70.0,
-    demand_low_kN=69.0,
-    demand_high_kN=71.0,
     resistance_kN=100.0,
     utilisation=0.7,
+    steps=[
+        Step(symbol="μ", unit="-", value=0.7, low=0.69, high=0.71, kind=Kind.WORKED)
+    ],
     verdict=Verdict.PASS,
     case=None,
     reason="holds",

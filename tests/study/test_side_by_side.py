@@ -102,7 +102,7 @@ def test_workers_make_the_same_studies_and_keep_what_they_solved(
         assert runner.counts == counts
         assert len(done) == counts.solved + counts.reused
         assert len(checks) == sum(
-            check.action is not None for one in studies for row in one.rows
+            check.is_of_force for one in studies for row in one.rows
             for check in row.checks
         )  # fmt: skip
         again = Runner(store=store)

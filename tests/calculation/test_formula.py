@@ -1,0 +1,139 @@
+"""Formulas as text: written, read again, refused; in a spreadsheet."""
+
+import io
+from contextlib import suppress
+from random import Random
+
+import openpyxl
+import pytest
+from hypothesis import given as draws
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from netdesign.calculation.formula import (
+    PRINTED,
+    SPREADSHEET,
+    read_formula,
+    write_formula,
+)
+from netdesign.calculation.quantity import at_value, cos, given, largest
+from netdesign.calculation.steps import list_named
+from netdesign.errors import ContentError, ModelError
+from tests.calculation.drawn import draw_calculation, find_size
+from tests.report.reading import recalculate
+
+SEEDS = st.integers(0, 2**40)
+KNOWN = {"a": given("a", 2.0, "kN", ""), "b": given("b", 3.0, "-", "")}
+
+
+@draws(SEEDS)
+@settings(max_examples=300)
+def test_a_formula_that_is_read_again_gives_the_same(seed):
+    named = list_named(draw_calculation(Random(seed)))
+    known = {one.symbol: one for one in named}
+    for one in named:
+        text = write_formula(one, lambda leaf, _: leaf.symbol)
+        assert bool(text) is bool(one.operation)
+        if text:
+            again = read_formula(text, known)
+            size = 1e-12 * find_size(one)
+            ends = (one.low, one.value, one.high)
+            assert (again.low, again.value, again.high) == pytest.approx(
+                ends, rel=1e-12, abs=size
+            )
+            assert again.dimension == one.dimension
+
+
+REFUSED = [
+    *("", " ", "a +", "a b", "a = b", "a; b", "(a", "x", "a + x", "a\0"),
+    *("a.value", "a.__class__", "().__class__.__bases__", "a[0]", "f'{a}'"),
+    *("__import__('os')", "open('x')", "print(a)", "eval('1')", "exit()"),
+    *("[a for a in a]", "(x for x in b)", "{a: b}", "lambda: a", "a if b else a"),
+    *("a ** b", "9 ** 9 ** 9", "a // b", "a % b", "a @ b", "b << 99999", "-a", "+a"),
+    *("a < b", "a and b", "not a", "a, b", "*a", "a := b", "'a'", "b'a'", "...", "1j"),
+    *("True", "None", "True + b", "max()", "max(*a)", "max(a, key=b)", "sin(b, b)"),
+    *("sqrt()", "sqrt(a, a)", "at_value(a, a)", "max(a)(a)", "max.x(a)", "cos"),
+    *("9" * 400, "1" + "0" * 400 + " * a", "a" * 501, "a + " * 200 + "a"),
+    *("(" * 240 + "a" + ")" * 240, "max(" * 90 + "a"),
+    *("1e308 * 10", "b * 1e999", "1e308 + 1e308", "a + b", "sqrt(a)", "sin(a)"),
+    *("\ud800", "a\n+b", "0x", "1_", "await a", "yield"),
+]
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_is_no_formula_of_known_quantities_is_refused(text):
+    with pytest.raises((ContentError, ModelError)):
+        read_formula(text, KNOWN)
+
+
+@draws(st.text("ab019.+-*/(),e_ \tmaxsqrtμ[]{}:='\"\\\n", max_size=60))
+@settings(max_examples=500)
+def test_any_text_is_a_formula_or_refused(text):
+    with suppress(ContentError, ModelError):
+        read_formula(text, KNOWN)
+
+
+@draws(st.text(max_size=40))
+def test_any_signs_are_a_formula_or_refused(text):
+    with suppress(ContentError, ModelError):
+        read_formula(text, KNOWN)
+
+
+@pytest.mark.parametrize("call", ["max", "min"])
+def test_one_alone_is_the_largest_of_itself(call):
+    assert read_formula(f"{call}(a)", KNOWN).value == 2.0
+
+
+def test_units_are_refused_when_they_do_not_fit_and_said():
+    with pytest.raises(ModelError, match="the units kN, - do not go together"):
+        read_formula("a + b", KNOWN)
+
+
+def test_a_formula_as_it_is_printed():
+    a, b = KNOWN["a"], KNOWN["b"]
+    angle = given("β", 30.0, "deg", "")
+    made = largest(a * (b + 0.5) / 2 - a, at_value(a + a) * b, a * cos(angle))
+    text = write_formula(made, lambda leaf, _: leaf.symbol, PRINTED)
+    assert text == "max(a · (b + 0.5) / 2 − a; (a + a) · b; a · cos(β))"
+
+
+def list_known(count):
+    random = Random(2026)
+    while count:
+        made = draw_calculation(random)
+        if made.is_known:
+            count -= 1
+            yield made
+
+
+def test_a_spreadsheet_works_out_the_same(tmp_path):
+    """Low end, value and high end of each quantity of many calculations."""
+    workbook = openpyxl.Workbook()
+    sheet, expected = workbook.active, []
+    for made in list_known(150):
+        rows = {}
+        for one in list_named(made):
+            rows[one.symbol] = len(expected) + 1
+            ends = (one.low, one.value, one.high)
+            expected.append(ends)
+            sheet.append([one.symbol, *write_cells(one, ends, rows)])
+    buffer = io.BytesIO()
+    workbook.save(buffer)
+    filled = recalculate({"drawn": buffer.getvalue()}, tmp_path)["drawn"]
+    again = openpyxl.load_workbook(io.BytesIO(filled), data_only=True).active
+    found = [row[1:] for row in again.iter_rows(values_only=True)]
+    assert len(found) == len(expected) > 400
+    for cells, ends in zip(found, expected, strict=True):
+        assert cells == pytest.approx(ends, rel=1e-9, abs=1e-9)
+
+
+def write_cells(one, ends, rows):
+    if not one.operation:
+        return ends
+    return [
+        "="
+        + write_formula(
+            one, lambda x, to: f"{'CDB'[to]}{rows[x.symbol]}", SPREADSHEET, end
+        )
+        for end in (-1, 0, 1)
+    ]

@@ -1,0 +1,136 @@
+"""Formulas of the forces on a support, each with its own arithmetic by hand."""
+
+import math
+
+import pytest
+
+from netdesign.calculation.quantity import given
+from netdesign.checks import forces as formulas
+from netdesign.checks.forces import MemberLoad, place_end_support, place_support
+
+UNITS = {"E_s": "kN", "b": "m", "Δl": "m", "P": "kN", "β": "deg", "T_min": "kN"}
+UNITS |= {"T_r": "kN", "γ": "deg", "V_k": "kN", "R_k": "kN", "R_m": "kN", "R_min": "kN"}
+UNITS |= {"A": "kN", "Z": "kN", "E_k": "kN", "E_g0": "kN"}
+UNITS |= dict.fromkeys(("E_c", "E_p", "E_g"), "kN")
+
+
+def q(symbol, value, low=None, high=None):
+    band = (value if low is None else low, value if high is None else high)
+    return given(symbol, value, UNITS.get(symbol, "-"), "test", band=band)
+
+
+def ends(quantity):
+    return quantity.low, quantity.value, quantity.high
+
+
+END = place_end_support(q("b", 4.0), q("f_R", 1.5), q("Δl", 0.8))
+
+
+def test_half_a_bay_and_the_end_effect_load_an_end_support():
+    """(S9): 4 / 2 + 1.5 * 0.8 = 3.2 m."""
+    assert END.width.value == pytest.approx(3.2, rel=1e-15)
+    assert END.width.source == "(S9)"
+    assert END.position == "edge"
+    inside = place_support(q("b", 4.0))
+    assert inside.width is inside.spacing
+
+
+def test_load_along_the_row_at_the_foot():
+    """(S11): sqrt(1 + 0.75^2) = 1.25."""
+    assert formulas.find_lateral_factor(q("k", 0.75)).value == 1.25
+
+
+def test_a_guy_has_half_of_the_section_and_its_part_along_the_row():
+    """(S17): 1 / (2 cos 60) = 1; 0.6 * 0.1 * 50 / sin 30 = 6 kN."""
+    at_60 = formulas.load_guy(q("c", 0.6), q("k", 0.1), q("P", 50.0), q("β", 60.0))
+    assert at_60.share.value == pytest.approx(1.0, rel=1e-14)
+    at_30 = formulas.load_guy(
+        q("c", 0.6), q("k", 0.1), q("P", 50.0, 40.0, 70.0), q("β", 30.0)
+    )
+    assert ends(at_30.added) == pytest.approx((4.8, 6.0, 8.4), rel=1e-14)
+    assert at_30.share.value == pytest.approx(1.0 / math.sqrt(3.0), rel=1e-14)
+
+
+def test_a_post_has_what_the_guys_do_not_hold_anyway():
+    """(S18): 1.4 (0.1 * 50 / tan 45 - 2) = 4.2 kN; of 20 kN at the least none."""
+
+    def load(least):
+        pull = q("P", 50.0, 10.0, 80.0)
+        given_ = (q("w", 1.4), q("k", 0.1), pull, q("β", 45.0), q("T_min", least))
+        return ends(formulas.load_post(*given_).added)
+
+    assert load(2.0) == pytest.approx((0.0, 4.2, 8.4), rel=1e-14)
+    assert load(20.0) == (0.0, 0.0, 0.0)
+
+
+def test_a_force_inside_the_row_comes_to_its_support():
+    """(V1): (0.6 * 100 + 5) * 3.2 / 4 * 1.25 + 7 = 72 kN."""
+    load = MemberLoad(share=q("g", 0.6), added=q("A", 5.0, 4.0, 8.0))
+    load_at_foot = MemberLoad(
+        share=load.share, added=load.added, lateral=q("k_q", 1.25)
+    )
+    force = formulas.bring_to_support(
+        "E_c", q("E_s", 100.0, 90.0, 120.0), load_at_foot, END, q("Z", 7.0, 6.0, 9.0)
+    )
+    assert ends(force) == pytest.approx((64.0, 72.0, 89.0), rel=1e-14)
+    plain = formulas.bring_to_support(
+        "E_c", q("E_s", 100.0), MemberLoad(), place_support(q("b", 4.0))
+    )
+    assert plain.value == 100.0
+    floor = formulas.bring_floor_to_support("E_g", q("E_g0", 100.0), load, END)
+    assert ends(floor) == pytest.approx((52.0, 52.0, 52.0), rel=1e-14)
+
+
+def test_the_largest_force_counts_at_each_end():
+    """(V1): of (3, 5, 9), (4, 4, 4) and (1, 6, 7) kN it is (4, 6, 9)."""
+    three = [q("E_c", 5.0, 3.0, 9.0), q("E_g", 4.0), q("E_p", 6.0, 1.0, 7.0)]
+    assert ends(formulas.take_largest("E_k", *three)) == (4.0, 6.0, 9.0)
+    assert formulas.take_largest("E_k", three[0]) is three[0]
+
+
+def test_a_rope_pulls_more_at_the_end_of_the_row():
+    """(P8): 30 (1 + 1.5 * 0.8 / 4) = 39 kN; beyond half a bay 30 (1 + 1.5) = 75."""
+    rope = q("T_r", 30.0, 20.0, 40.0)
+    assert ends(formulas.pull_at_end(rope, END)) == pytest.approx(
+        (26.0, 39.0, 52.0), rel=1e-14
+    )
+    for reach, pull in ((2.0, 52.5), (2.001, 75.0)):
+        wide = place_end_support(q("b", 4.0), q("f_R", 1.5), q("Δl", reach))
+        assert formulas.pull_at_end(rope, wide).value == pytest.approx(pull, rel=1e-14)
+    with pytest.raises(ValueError, match="no end effect"):
+        formulas.pull_at_end(rope, place_support(q("b", 4.0)))
+
+
+def test_an_end_guy_pulls_and_presses():
+    """(P7): 39 / cos 60 = 78 kN, 39 tan 45 = 39 kN."""
+    rope = q("T_r", 39.0)
+    assert formulas.pull_end_guy(rope, q("γ", 60.0)).value == pytest.approx(78.0)
+    assert formulas.push_end_post(rope, q("γ", 45.0)).value == pytest.approx(39.0)
+
+
+def test_a_base_slides_by_the_tilt_of_its_post():
+    """(S19): 0.25 * 80 = 20 kN."""
+    assert formulas.slide_base(q("V_k", 80.0), q("t", 0.25)).value == 20.0
+
+
+def test_friction_holds_the_base_that_its_design_force_presses():
+    """(R12): 0.5 * 1.5 * 80 = 60 kN, of the value alone."""
+    pressing = q("V_k", 80.0, 60.0, 90.0)
+    found = formulas.resist_by_friction(q("μ_b", 0.5), q("γ_E", 1.5), pressing)
+    assert ends(found) == (60.0, 60.0, 60.0)
+
+
+def test_tests_give_the_smaller_of_mean_and_least():
+    """(R1): min(290 / 1.25, 270 / 1.0) = 232; min(290 / 1.0, 270 / 1.2) = 225."""
+    for on_mean, on_least, expected in ((1.25, 1.0, 232.0), (1.0, 1.2, 225.0)):
+        found = formulas.resist_by_tests(
+            q("R_m", 290.0), q("ξ_m", on_mean), q("R_min", 270.0), q("ξ_min", on_least)
+        )
+        assert found.value == pytest.approx(expected, rel=1e-15)
+
+
+def test_utilisation_of_a_design_force():
+    """(V2): 1.5 * 100 / (500 / 1.25) = 0.375."""
+    force = q("E_k", 100.0, 90.0, 120.0)
+    used = formulas.rate(force, q("γ_E", 1.5), q("R_k", 500.0), q("γ_R", 1.25))
+    assert ends(used) == pytest.approx((0.3375, 0.375, 0.45), rel=1e-15)

@@ -1,0 +1,15 @@
+"""Parts of a check's calculation as its record has them."""
+
+
+def compare_support(check) -> float:
+    """Force on the support over that of the section inside the row [-]."""
+    known = {symbol: check.read(symbol) for symbol in ("b", "b_e", "k_q")}
+    is_end = known["b_e"] is not None
+    return (known["b_e"] / known["b"] if is_end else 1.0) * (known["k_q"] or 1.0)
+
+
+def bring(check, force: float) -> float:
+    """Force of the section on the member and its support [kN]."""
+    share, added = check.read("g"), check.read("A") or 0.0
+    inside = (1.0 if share is None else share) * force + added
+    return inside * compare_support(check)
