@@ -50,7 +50,7 @@ def list_lines(
     known = views or [view_check(check, words) for check in checks]
     places: dict[tuple[object, ...], list[_Viewed]] = {}
     for check, view in zip(checks, known, strict=True):
-        if check.action is not None:
+        if check.is_of_force:
             places.setdefault(_name_resistance(check), []).append((check, view))
     return tuple(
         _build_line(group, words)
@@ -74,7 +74,7 @@ def list_requirements(
     """Checks without a force: of geometry and directions, and those not solved."""
     known = views or [view_check(check, words) for check in checks]
     pairs = zip(checks, known, strict=True)
-    return tuple(view for check, view in pairs if check.action is None)
+    return tuple(view for check, view in pairs if not check.is_of_force)
 
 
 def _name_resistance(check: CheckRecord) -> tuple[object, ...]:

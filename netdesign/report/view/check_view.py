@@ -165,17 +165,16 @@ def pick_view(
 
 def find_case(check: CheckRecord) -> CasePoint | None:
     """Case of the ranges that brings the demand; None where the guideline does."""
-    action = check.action
-    return None if action and action.governs == "guideline" else check.case
+    return None if check.governs == "guideline" else check.case
 
 
 def _name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> str:
     """Case that brings the demand: of the ranges, or the guideline's load case."""
-    action, case = check.action, find_case(check)
-    if action is None or action.governs != "guideline":
+    case = find_case(check)
+    if check.governs != "guideline":
         return words.name_case_short(case) if is_short else words.name_case(case)
-    named = show_text(words.show(name("load_case", action.floor_case)))
-    inclination = words.show_with_unit("inclination_deg", action.floor_inclination_deg)
+    named = show_text(words.show(name("load_case", check.load_case)))
+    inclination = words.show_with_unit("inclination_deg", check.load_inclination_deg)
     return f"{named}, θ {inclination}"
 
 
@@ -197,7 +196,7 @@ def _measure_bar(ratio: float) -> float:
 
 def work_out(check: CheckRecord, words: Words) -> Worked:
     """Worked calculation of a check with a demand and a resistance, or none left."""
-    needed = words.show_with_unit("resistance_kN", check.demand_high_kN)
+    needed = words.show_with_unit("resistance_kN", check.read_band("E_d")[1])
     return Worked(
         title=words(
             "show.row_at_case",
@@ -228,7 +227,7 @@ def _derive_resistance(check: CheckRecord, words: Words) -> tuple[Step, ...]:
     """Characteristic resistance from dimensions or tests."""
     if not check.resistance_derivation:
         return ()
-    given = check.resistance_characteristic_kN
+    given = check.read("R_k")
     return (
         Step(
             symbols="R_k",
@@ -239,21 +238,21 @@ def _derive_resistance(check: CheckRecord, words: Words) -> tuple[Step, ...]:
 
 
 def _factor_action(check: CheckRecord, words: Words) -> Step:
-    factor = words.show_number("action_factor", check.action_factor)
+    factor = words.show_number("action_factor", check.read("γ_E"))
     return Step(
         symbols="E_d = γ_E · E_k",
-        numbers=f"{factor} · {words.show_with_unit('action_kN', check.action_kN)}",
+        numbers=f"{factor} · {words.show_with_unit('action_kN', check.read('E_k'))}",
         result=words.show_with_unit("demand_kN", check.demand_kN),
     )
 
 
 def _reduce_resistance(check: CheckRecord, words: Words) -> Step:
-    given = check.resistance_characteristic_kN
+    given = check.read("R_k")
     return Step(
         symbols="R_d = R_k / γ_R",
         numbers=_divide(
             words.show_with_unit("resistance_characteristic_kN", given),
-            words.show_number("resistance_factor", check.resistance_factor),
+            words.show_number("resistance_factor", check.read("γ_R")),
         ),
         result=words.show_with_unit("resistance_kN", check.resistance_kN),
     )

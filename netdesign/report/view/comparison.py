@@ -137,7 +137,7 @@ def _group(checks: Iterable[CheckRecord]) -> dict[str, list[CheckRecord]]:
     """Checks by member; those without a force under one name."""
     groups: dict[str, list[CheckRecord]] = {}
     for check in checks:
-        is_force = check.action is not None and check.member in _ORDER
+        is_force = check.is_of_force and check.member in _ORDER
         groups.setdefault(check.member if is_force else _REST, []).append(check)
     return groups
 

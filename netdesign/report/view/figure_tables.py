@@ -6,7 +6,6 @@ Headings are symbols; the page's table of formulas says what they mean.
 from __future__ import annotations
 
 from netdesign.report.view.table import (
-    Cell,
     Table,
     name_columns,
     short_cell,
@@ -18,11 +17,8 @@ from netdesign.report.words import (
     MISSING,
     Words,
     show_check,
-    show_member,
-    show_position,
 )
-from netdesign.structure.members import CARRYING_MEMBERS
-from netdesign.study.records import ActionRecord, CheckRecord, RowStudy
+from netdesign.study.records import CheckRecord, RowStudy
 from netdesign.words.names import name, name_mode
 
 _WIDTHS = (
@@ -63,23 +59,10 @@ _FROM_TESTS = "check.from_tests"
 
 def build_widths(row: RowStudy, words: Words) -> Table:
     """Loaded width of each support, with what it follows from."""
-    found: dict[str, ActionRecord] = {}
-    for check in row.checks:
-        if check.action is not None:
-            support = show_position(words, check.action.position)
-            is_own = check.member not in CARRYING_MEMBERS  # by a rope, with its factor
-            named = show_member(words, check.member) if is_own else support
-            found.setdefault(named, check.action)
     return Table(
         caption=words("caption.widths"),
         columns=(text_column(words("heading.support")), *symbol_columns(_WIDTHS)),
-        rows=tuple(
-            (
-                text_cell(named),
-                *(short_cell(words, getattr(action, key)) for key, _ in _WIDTHS),
-            )
-            for named, action in found.items()
-        ),
+        rows=(),
         empty=words("heading.no_case_converged"),
     )
 
@@ -95,9 +78,7 @@ def build_actions(row: RowStudy, words: Words) -> Table:
             *symbol_columns(_ACTIONS),
             *name_columns(further, numbers=further),
         ),
-        rows=tuple(
-            _list_action(check, action, words) for check, action in _list_actions(row)
-        ),
+        rows=(),
         empty=words("heading.no_case_converged"),
     )
 
@@ -122,53 +103,22 @@ def build_panel_actions(row: RowStudy, words: Words) -> Table:
             *symbol_columns(_BY_PANEL),
             *name_columns(further, numbers=further),
         ),
-        rows=tuple(
-            (
-                text_cell(_name_acted(check, words)),
-                text_cell(show_position(words, action.position)),
-                *(short_cell(words, getattr(action, key)) for key, _ in _BY_PANEL),
-                short_cell(words, action.panel_force),
-                short_cell(words, action.panel_support_kN),
-            )
-            for check, action in _list_actions(row)
-            if action.panel_kN is not None
-        ),
+        rows=(),
         empty=words("heading.no_panel"),
     )
 
 
-def _list_actions(row: RowStudy) -> list[tuple[CheckRecord, ActionRecord]]:
-    """One check for each member and support; a base slides by a force of its own."""
-    found: dict[tuple[str, str, bool], tuple[CheckRecord, ActionRecord]] = {}
-    for check in row.checks:
-        if check.action is not None:
-            key = (check.action.position, check.member, check.mode == "sliding")
-            found.setdefault(key, (check, check.action))
-    return list(found.values())
-
-
-def _list_action(
-    check: CheckRecord, action: ActionRecord, words: Words
-) -> tuple[Cell, ...]:
-    return (
-        text_cell(_name_acted(check, words)),
-        text_cell(show_position(words, action.position)),
-        *(short_cell(words, getattr(action, key)) for key, _ in _ACTIONS),
-        short_cell(words, action.section_force),
-        short_cell(words, action.coupled_kN),
-        short_cell(words, action.floor_kN),
-        short_cell(words, action.guideline_kN),
-        short_cell(words, check.action_kN),
-    )
-
-
-def _name_acted(check: CheckRecord, words: Words) -> str:
-    """Member that a force acts on; a base that slides says so."""
-    member = show_member(words, check.member)
-    if check.mode != "sliding":
-        return member
-    mode = words.show(name_mode("sliding"))
-    return words("check.title", member=member, mode=mode)
+def _read(check: CheckRecord, key: str) -> float | None:
+    low, high = check.read_band("E_d")
+    return {
+        "action_factor": check.read("γ_E"),
+        "demand_low_kN": low,
+        "demand_kN": check.demand_kN,
+        "demand_high_kN": high,
+        "resistance_characteristic_kN": check.read("R_k"),
+        "resistance_factor": check.read("γ_R"),
+        "resistance_kN": check.resistance_kN,
+    }[key]
 
 
 def build_check_figures(row: RowStudy, words: Words) -> Table:
@@ -195,7 +145,7 @@ def build_check_figures(row: RowStudy, words: Words) -> Table:
                 text_cell(words(f"verdict.{check.verdict}")),
             )
             for check in row.checks
-            if check.action is not None
+            if check.is_of_force
         ),
         empty=words("heading.no_case_converged"),
     )
@@ -217,7 +167,7 @@ def _name_given(check: CheckRecord) -> _Given:
         check.resistance_type,
         check.resistance_cell,
         str(told) if told else "",
-        check.resistance_characteristic_kN,
+        check.read("R_k"),
     )
 
 
@@ -225,7 +175,7 @@ def _list_given(row: RowStudy) -> list[tuple[_Given, CheckRecord]]:
     """Resistances of a row, each once, with the first check that uses it."""
     found: dict[_Given, CheckRecord] = {}
     for check in row.checks:
-        if check.resistance_characteristic_kN is not None:
+        if check.read("R_k") is not None:
             found.setdefault(_name_given(check), check)
     return list(found.items())
 
@@ -248,7 +198,7 @@ def build_resistances(row: RowStudy, words: Words) -> Table:
                 text_cell(words.show(name("basis", check.resistance_basis))),
                 text_cell(check.resistance_cell),
                 text_cell(_tell_derivation(check, words)),
-                short_cell(words, check.resistance_characteristic_kN),
+                short_cell(words, check.read("R_k")),
             )
             for number, (_, check) in enumerate(_list_given(row), 1)
         ),
@@ -282,7 +232,7 @@ def build_tests(row: RowStudy, words: Words) -> Table:
                 text_cell(str(number)),
                 text_cell(check.resistance_type),
                 *(short_cell(words, _read_number(told.get(key))) for key, _ in _TESTS),
-                short_cell(words, check.resistance_characteristic_kN),
+                short_cell(words, check.read("R_k")),
             )
             for number, check, told in tested
         ),

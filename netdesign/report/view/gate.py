@@ -11,7 +11,6 @@ from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.structure.members import ROPE_OF
-from netdesign.study.audit.comparing import tell_value, tell_verdict
 from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
@@ -45,6 +44,18 @@ def require_consistent(study: Study) -> None:
             _require_floor(where, check, study.profile.floor)
 
 
+def tell_value(place: Message, name: str, stored: object, follows: object) -> Message:
+    """A sentence on a value, by its name in the document, that is not what follows."""
+    one, other = show_value(stored), show_value(follows)
+    return say("audit.unequal", place=place, name=name, stored=one, follows=other)
+
+
+def tell_verdict(place: Message, stored: Verdict, follows: Verdict) -> Message:
+    """A sentence on a verdict that is not that of its parts."""
+    verdict, merged = say(f"verdict.{stored}"), say(f"verdict.{follows}")
+    return say("audit.verdict", place=place, verdict=verdict, merged=merged)
+
+
 def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) -> None:
     merged = merge_verdicts(parts)
     better = (Verdict.PASS, Verdict.DECLARED)
@@ -56,11 +67,11 @@ def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) ->
 def _require_sound(place: Message, check: CheckRecord) -> None:
     _require_parts(place, check)
     for name, whole, parts in (
-        ("demand_kN", check.demand_kN, _product(check.action_kN, check.action_factor)),
+        ("demand_kN", check.demand_kN, _product(check.read("E_k"), check.read("γ_E"))),
         (
             "resistance_kN",
             check.resistance_kN,
-            _ratio(check.resistance_characteristic_kN, check.resistance_factor),
+            _ratio(check.read("R_k"), check.read("γ_R")),
         ),
         (
             "utilisation",
@@ -90,34 +101,36 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
 
 def _require_floor(place: Message, check: CheckRecord, floor: str) -> None:
     """Refuse a demand below the guideline's load, and a pass that does not know it."""
-    action, force = check.action, check.action_kN
-    if action is None or force is None or floor == "none":
+    force = check.read("E_k")
+    if not check.is_of_force or force is None or floor == "none":
         return
     if check.member in ROPE_OF:  # the guideline knows no load of ropes along the row
         return
-    least = action.guideline_kN
+    if check.mode == "sliding":
+        return
+    least = check.read("E_g")
     if least is None:
         if check.verdict is Verdict.PASS:
             raise NetDesignError(say("audit.without_floor", place=place))
         return
     ends = [force, *_divide_demands(check)]
     is_above = all(end >= least * (1.0 - _TOLERANCE) for end in ends)
-    if not is_above or action.governs != action.governing:
+    if not is_above:
         raise NetDesignError(say("audit.below_floor", place=place, least=least))
 
 
 def _divide_demands(check: CheckRecord) -> list[float]:
     """Ends of the demand without the factor, as far as they are known [kN]."""
-    ends = (check.demand_low_kN, check.demand_high_kN)
-    factor = check.action_factor
+    ends = (check.read_band("E_d")[0], check.read_band("E_d")[1])
+    factor = check.read("γ_E")
     return [end / factor for end in ends if end is not None and factor]
 
 
 def _require_sizes(place: Message, check: CheckRecord) -> None:
     """Refuse forces below zero, and a demand outside its own band."""
-    ends = (check.demand_low_kN, check.demand_kN, check.demand_high_kN)
+    ends = (check.read_band("E_d")[0], check.demand_kN, check.read_band("E_d")[1])
     known = [0.0, *(end for end in ends if end is not None)]
-    sizes = (check.action_kN, check.resistance_characteristic_kN)
+    sizes = (check.read("E_k"), check.read("R_k"))
     is_sound = known == sorted(known)
     is_sound &= all(size is None or size >= 0.0 for size in sizes)
     if not is_sound:
@@ -126,17 +139,17 @@ def _require_sizes(place: Message, check: CheckRecord) -> None:
 
 def _require_parts(place: Message, check: CheckRecord) -> None:
     """Refuse factors not above zero, and a design resistance without its parts."""
-    divisors = (check.action_factor, check.resistance_factor, check.resistance_kN)
+    divisors = (check.read("γ_E"), check.read("γ_R"), check.resistance_kN)
     if not all(one is None or one > 0.0 for one in divisors):
         raise NetDesignError(say("audit.not_above_zero", place=place))
-    has_parts = check.resistance_characteristic_kN and check.resistance_factor
+    has_parts = check.read("R_k") and check.read("γ_R")
     if check.resistance_kN is not None and not has_parts:
         raise NetDesignError(say("audit.without_parts", place=place))
 
 
 def _is_without_force(check: CheckRecord) -> bool:
     is_geometry = check.id.startswith("geometry.")
-    return check.action is None and (is_geometry or check.mode in MODES_WITHOUT_FORCE)
+    return not check.is_of_force and (is_geometry or check.mode in MODES_WITHOUT_FORCE)
 
 
 def _product(left: float | None, right: float | None) -> float | None:

@@ -173,7 +173,7 @@ def _tell_heights(panel: PanelRecord, words: Words) -> list[str]:
 def _tell_end(row: RowStudy, panel: PanelRecord, words: Words) -> list[str]:
     """Pulls along the row at its end, with the end effect on top."""
     end = next((one for one in row.checks if one.member == "lateral_anchor"), None)
-    if end is None or end.action is None:
+    if end is None or not end.is_of_force:
         return []
     drawn = panel.drawing
     pulls = {rope.rope: rope.along_kN for rope in panel.ropes}
@@ -192,8 +192,7 @@ def _tell_end(row: RowStudy, panel: PanelRecord, words: Words) -> list[str]:
 
 def find_end_factor(end: CheckRecord) -> float:
     """Factor of the end effect on a rope's pull, (P8) [-]."""
-    action = end.action
-    return action.loaded_width_m / action.post_spacing_m if action else 1.0
+    return 1.0
 
 
 def _halve(force: tuple[float, float]) -> float:

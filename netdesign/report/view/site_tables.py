@@ -46,7 +46,7 @@ def build_matrix(study: Study, words: Words) -> Table:
 
 
 def _is_force(check: CheckRecord) -> bool:
-    return check.action is not None
+    return check.is_of_force
 
 
 def _list_of(row: RowStudy, member: str) -> list[CheckRecord]:

@@ -332,8 +332,7 @@ def _view_row(
 
 def _is_governed_by_floor(row: RowStudy) -> bool:
     """The guideline's load governs some check."""
-    actions = [one.action for one in row.checks if one.action is not None]
-    return any(action.governs == "guideline" for action in actions)
+    return any(one.governs == "guideline" for one in row.checks)
 
 
 def _view_figures(row: RowStudy, words: Words) -> Figures:
@@ -450,7 +449,7 @@ def _count_by_floor(study: Study, words: Words) -> str:
     if study.profile.floor == "none":
         is_own = not study.profile.is_floor_overruled
         return words("floor.none" if is_own else "floor.none_chosen")
-    actions = [c.action for row in study.rows for c in row.checks if c.action]
+    actions = [c for row in study.rows for c in row.checks if c.is_of_force]
     governed = sum(one.governs == "guideline" for one in actions)
     profiles = {row.floor.profile for row in study.rows if row.floor}
     named = show_text(", ".join(sorted(profiles)))
