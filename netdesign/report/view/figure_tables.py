@@ -138,9 +138,9 @@ def build_check_figures(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_check(words, check)),
-                *(short_cell(words, getattr(check, key)) for key, _ in _CHECKS[:5]),
+                *(short_cell(words, _read(check, key)) for key, _ in _CHECKS[:5]),
                 text_cell(f"{numbers.get(_name_given(check), MISSING)}"),
-                *(short_cell(words, getattr(check, key)) for key, _ in _CHECKS[5:]),
+                *(short_cell(words, _read(check, key)) for key, _ in _CHECKS[5:]),
                 *(short_cell(words, one) for one in _list_ratios(check)),
                 text_cell(words(f"verdict.{check.verdict}")),
             )
