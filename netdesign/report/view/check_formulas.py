@@ -16,6 +16,7 @@ from netdesign.report.words import MISSING, UNBOUNDED
 
 ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
 _SAME = 1e-12  # relative
+_SHORT = 20  # signs of a formula; those of ours have more
 _COMPARED = 200  # letters of a text; a formula holds 255 of one
 _ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
 _RANKS = {
@@ -37,16 +38,16 @@ def write_guarded(formula: str, conditions: Sequence[str]) -> str:
     formula : str
         Without "=".
     conditions : sequence of str
-        Those of `is_given` and `is_number`; at least one.
+        Those of `is_given`; at least one.
     """
     return (
         f'=IFERROR(IF(AND({",".join(conditions)}),{formula},"{MISSING}"),"{MISSING}")'
     )
 
 
-def write_link(cell: str, condition: str, otherwise: str = MISSING) -> str:
-    """Formula that shows another cell, where that meets its condition."""
-    return f'=IF({condition},{cell},"{otherwise}")'
+def write_link(cell: str, *bounds: str, otherwise: str = MISSING) -> str:
+    """Formula that shows the number of another cell, where it is one in its bounds."""
+    return f'=IF({is_given(cell, *bounds)},{cell},"{otherwise}")'
 
 
 def write_verdict(
@@ -212,19 +213,14 @@ def write_unchanged(
 _VERDICTS = (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED)
 
 
-def is_number(cell: str, least: str = ">=0") -> str:
-    """Condition: the cell of a formula holds a number of at least zero."""
-    return f"IF(ISNUMBER({cell}),{cell}{least},FALSE)"
-
-
 def is_given(cell: str, *bounds: str) -> str:
-    """Condition for a cell that somebody types into: TRUE and FALSE are no numbers.
+    """Condition: a cell holds a number within bounds such as ``>0``; TRUE is none.
 
-    LibreOffice reads them from a file as formulas that give 1 and 0. ``bounds`` are
-    such as ``>0``.
+    LibreOffice reads TRUE and FALSE from a file as formulas that give 1 and 0: they are
+    told from those of ours by their length.
     """
-    truth = f"AND(_xlfn.ISFORMULA({cell}),OR({cell}=1,{cell}=0))"
-    is_truth = f"OR(ISLOGICAL({cell}),{truth})"
+    ours = f"LEN(_xlfn.FORMULATEXT({cell}))>{_SHORT}"
+    is_number = f"IF(_xlfn.ISFORMULA({cell}),{ours},NOT(ISLOGICAL({cell})))"
     within = ",".join(f"{cell}{bound}" for bound in bounds)
-    within = f"AND({within})" if len(bounds) > 1 else within
-    return f"IF(ISNUMBER({cell}),IF({is_truth},FALSE,{within}),FALSE)"
+    known = f"AND(IF(OR({cell}=1,{cell}=0),{is_number},TRUE),{within})"
+    return f"IF(ISNUMBER({cell}),{known},FALSE)"

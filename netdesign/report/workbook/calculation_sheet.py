@@ -14,12 +14,7 @@ from typing import Any
 from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
 from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate
-from netdesign.report.view.check_formulas import (
-    is_given,
-    is_number,
-    write_guarded,
-    write_link,
-)
+from netdesign.report.view.check_formulas import is_given, write_guarded, write_link
 from netdesign.report.view.table import Column
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import MISSING, Words, show_text, show_unit
@@ -61,25 +56,19 @@ class Line:
     link: str
     first: int
 
-    def is_typed(self, end: int) -> bool:
-        """Its cell of that end holds a number, which somebody may type over."""
-        if self.step.formula or self.link or self.first != self.number:
-            return False
+    def has_end(self, end: int) -> bool:
+        """The study has a number of its own for that end; else it is the value."""
         return end == 0 or (self.step.low, self.step.high)[end > 0] is not None
 
     def at(self, end: int) -> str:
         """Cell of one of its ends."""
         return f"{chr(ord('A') + _ENDS[end])}{self.number}"
 
-    def require(self, end: int) -> str:
-        """Condition under which the cell of one of its ends counts."""
-        cell = self.at(end)
-        return is_given(cell, *self.bounds) if self.is_typed(end) else is_number(cell)
-
     @property
     def bounds(self) -> tuple[str, ...]:
-        """Bounds of its numbers: only a force, or what is zero already, may be zero."""
-        is_above = self.step.kind is not Kind.SOLVED and self.step.value != 0.0
+        """Bounds of its numbers: a force, or what is zero already, may be zero."""
+        is_read = self.step.kind in (Kind.GIVEN, Kind.PROFILE)
+        is_above = is_read and self.step.value != 0.0
         least = ">0" if is_above else ">=0"
         return (least, _QUARTER) if self.step.unit == "deg" else (least,)
 
@@ -134,19 +123,12 @@ class Calculations:
         """Formula of one end of a line; "" of a number that stands there itself."""
         if line.step.formula:
             return _write_step(block, line, end)
-        if line.is_typed(end):
-            return ""
+        if not line.has_end(end):
+            return write_link(line.at(0), *line.bounds)
         if line.first != line.number:
-            other = f"{line.at(end)[0]}{line.first}"
-            known = self._find_first(line)
-            return write_link(other, known.require(end))
-        if end:
-            return write_link(line.at(0), line.require(0))
-        return write_link(line.link, is_given(line.link, *line.bounds))
-
-    def _find_first(self, line: Line) -> Line:
-        """The line as it stands where its number does."""
-        return Line(line.first, line.step, line.quantity, "", line.first)
+            column = chr(ord("A") + _ENDS[end])
+            return write_link(f"{column}{line.first}", *line.bounds)
+        return write_link(line.link, *line.bounds) if line.link else ""
 
 
 def _list_checks(study: Study) -> Iterator[tuple[tuple[int, int], CheckRecord]]:
@@ -163,7 +145,7 @@ def _write_step(block: Sequence[Line], line: Line, end: int) -> str:
 
     def find(leaf: Quantity, of_end: int) -> str:
         one = lines[leaf.symbol]
-        conditions[one.require(of_end)] = None
+        conditions[is_given(one.at(of_end), *one.bounds)] = None
         return one.at(of_end)
 
     formula = write_formula(line.quantity, find, SPREADSHEET, end)

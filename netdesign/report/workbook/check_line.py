@@ -13,7 +13,6 @@ from netdesign.report.view.check_formulas import (
     ROUNDING,
     ChangedReasons,
     compute_rank,
-    is_number,
     write_given_verdict,
     write_held,
     write_link,
@@ -144,7 +143,7 @@ class CheckLine:
                 continue
             value = math.inf if unbounded else step.ends[field.end + 1]
             otherwise = UNBOUNDED if unbounded else MISSING
-            link = write_link(source, is_number(source), otherwise)
+            link = write_link(source, ">=0", otherwise=otherwise)
             self._write_formula(field, link, show_cached(value))
             if not unbounded:
                 same.append(f"{self._at(field)}={source}")
@@ -162,7 +161,7 @@ class CheckLine:
                 self._put(field, Cell(text=MISSING))
                 continue
             value = check.known[symbol].ends[field.end + 1]
-            link = write_link(source, is_number(source))
+            link = write_link(source, ">=0")
             self._write_formula(field, link, show_cached(value))
         self._put(governing, Cell(text=show_load(check, self.view, self.book.words)))
 

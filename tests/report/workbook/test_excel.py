@@ -9,7 +9,7 @@ from xlsxwriter.worksheet import Worksheet
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words
-from netdesign.report.workbook.check_sheet import CHANGED
+from netdesign.report.workbook.check_line import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.study.document import compute_digest
 from netdesign.words.catalogue import LANGUAGES
