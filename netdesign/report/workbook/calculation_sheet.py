@@ -14,11 +14,16 @@ from typing import Any
 from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
 from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate
-from netdesign.report.view.check_formulas import is_given, write_guarded, write_link
+from netdesign.report.view.check_formulas import (
+    is_given,
+    write_guarded,
+    write_link,
+    write_same,
+)
 from netdesign.report.view.table import Column
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import MISSING, Words, show_text, show_unit
-from netdesign.report.workbook.given_cells import GivenCells
+from netdesign.report.workbook.given_cells import IN_FORCES, GivenCells
 from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.widths import count_lines
 from netdesign.report.workbook.writer import Book
@@ -118,6 +123,13 @@ class Calculations:
             return ""
         cell = line.at(end)
         return self._book.refer("calculations", f"${cell[0]}${cell[1:]}")
+
+    def list_followed(self, place: tuple[int, int]) -> Iterator[str]:
+        """Conditions: what stands here and the solved forces rest on is the study's."""
+        for symbol in IN_FORCES:
+            line = self._blocks.get(place, {}).get(symbol)
+            if line is not None and not line.link and line.step.value is not None:
+                yield write_same(self.refer(place, symbol), line.step.value)
 
     def write_end(self, block: Sequence[Line], line: Line, end: int) -> str:
         """Formula of one end of a line; "" of a number that stands there itself."""

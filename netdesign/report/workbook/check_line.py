@@ -146,7 +146,10 @@ class CheckLine:
             link = write_link(source, ">=0", otherwise=otherwise)
             self._write_formula(field, link, show_cached(value))
             if not unbounded:
-                same.append(f"{self._at(field)}={source}")
+                cell = self._at(field)
+                same.append(
+                    f'IF(ISNUMBER({source}),{cell}={source},{cell}="{MISSING}")'
+                )
         formula = f"=IFERROR(IF(AND({','.join(same or ['TRUE'])}),1,0),0)"
         self.sheet.write_formula(*self._place(AS_CALCULATED), formula, None, 1)
 

@@ -56,7 +56,10 @@ def add_check_sheet(
     for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True)):
         pairs = zip(row.checks, shown.checks, strict=True)
         for place, (check, words) in enumerate(pairs):
-            followed = list(cells.list_followed(number, check))
+            followed = [
+                *cells.list_followed(number, check),
+                *calculations.list_followed((number, place)),
+            ]
             CheckLine(
                 book=book,
                 sheet=sheet,

@@ -25,7 +25,7 @@ _FIRST_LINE = 5  # of a sheet's first table, counted from one
 _BETWEEN_TABLES = 3  # lines
 _VALUE = {"inputs": "D", "profile": "C"}  # columns
 _WATCH = 8  # column of what is watched, hidden; beyond the tables
-_IN_FORCES = ("b",)  # read by steps, but the solved forces rest on it as well
+IN_FORCES = ("b",)  # read by steps, but the solved forces rest on it as well
 _BY_RULE = ("f_R", "Δl")  # worked out by a rule of the profile, no value of it
 # Values that a resistance or a check without a force follows, by the derivation.
 _FOLLOWED = {"bending.": ("k", "β"), "post_bending.": ("γ_E", "γ_R"), "": ()}
@@ -118,7 +118,7 @@ class GivenCells:
             (cell.sheet, cell.line)
             for number, row in enumerate(self._rows)
             for step in _list_leaves(row)
-            if (cell := self.find(number, step)) and step.symbol not in _IN_FORCES
+            if (cell := self.find(number, step)) and step.symbol not in IN_FORCES
         }
         for sheet in UNCHANGED:
             cells = [one for one in self._cells if one.sheet == sheet]
