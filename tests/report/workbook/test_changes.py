@@ -97,8 +97,11 @@ def is_same_value(step, row, other, row_of_other):
     return keys[0] == keys[1] and (row == row_of_other or not of_row)
 
 
-def work_out(check, row, step, row_of_step, value):
-    """Utilisation and verdict of a check under the changed value."""
+def work_out(check, row, step, row_of_step, value, is_linked):
+    """Utilisation and verdict of a check under the changed value.
+
+    ``is_linked``: it was changed among the inputs, or in the profile.
+    """
     changed = [
         replace(one, value=value, low=None, high=None)
         if is_same_value(one, row, step, row_of_step)
@@ -110,10 +113,10 @@ def work_out(check, row, step, row_of_step, value):
     follows = next(
         (v for k, v in FOLLOWED.items() if told and told.key.startswith(k)), ()
     )
-    # a second look at the row decides of β; k and factors are of all rows
-    if step.symbol in (*IN_FORCES, *follows) and changed != check.steps:
-        return used.value, Verdict.NOT_PROVEN
-    if step.symbol in IN_FORCES:
+    is_used = changed != check.steps
+    if (step.symbol in IN_FORCES and (is_used or is_linked)) or (
+        step.symbol in follows and is_used
+    ):
         return used.value, Verdict.NOT_PROVEN
     ends = [np.nan if x is None else x for x in check.utilisation_band]
     is_by_ratio = judge(*ends, least=0.0, most=1.0) is check.verdict
@@ -132,14 +135,15 @@ def compare_changes(count, folder):
     for number, (study, place, step, value) in enumerate(changes):
         lines = read_rows(read_workbook(fresh[str(number)])["Checks"], "No.")
         row_of_step, _ = list_calculated(study)[place]
+        is_linked = study is judge_drawn()  # to inputs and profile
         checks = [(row, c) for row, one in enumerate(study.rows) for c in one.checks]
         for line, (row, check) in zip(lines, checks, strict=True):
             if not check.steps:
-                if step.symbol in (*IN_FORCES, *WITHOUT_FORCE):
+                if is_linked and step.symbol in (*IN_FORCES, *WITHOUT_FORCE):
                     shown = line["Verdict"]
                     assert shown == ENGLISH("verdict.not_proven"), check.id
                 continue
-            used, verdict = work_out(check, row, step, row_of_step, value)
+            used, verdict = work_out(check, row, step, row_of_step, value, is_linked)
             told = (number, check.id, step.symbol, step.value, value)
             wanted = "-" if used is None else pytest.approx(used, rel=1e-9)
             assert line["μ"] == wanted, told
