@@ -121,7 +121,11 @@ def work_out(check, row, step, row_of_step, value, is_linked):
     ends = [np.nan if x is None else x for x in check.utilisation_band]
     is_by_ratio = judge(*ends, least=0.0, most=1.0) is check.verdict
     ends = [np.nan if x is None else x for x in (used.low, used.high)]
-    return used.value, judge(*ends, least=0.0, most=1.0, is_complete=is_by_ratio)
+    verdict = judge(*ends, least=0.0, most=1.0, is_complete=is_by_ratio)
+    if check.is_unbounded:
+        return used.value, check.verdict
+    is_declared = check.declared is not None and verdict is not Verdict.FAIL
+    return used.value, Verdict.DECLARED if is_declared else verdict
 
 
 def compare_changes(count, folder):
@@ -145,7 +149,8 @@ def compare_changes(count, folder):
                 continue
             used, verdict = work_out(check, row, step, row_of_step, value, is_linked)
             told = (number, check.id, step.symbol, step.value, value)
-            wanted = "-" if used is None else pytest.approx(used, rel=1e-9)
+            none = "∞" if check.is_unbounded else "-"
+            wanted = none if used is None else pytest.approx(used, rel=1e-9)
             assert line["μ"] == wanted, told
             assert line["Verdict"] == ENGLISH(f"verdict.{verdict}"), told
             verdicts.add((verdict, verdict is check.verdict))
