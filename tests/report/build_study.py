@@ -132,7 +132,7 @@ def build_profile() -> ProfileRecord:
                 clause=clause,
                 text=text,
                 value=value,
-                unit="°" if key.startswith("inclination") else "",
+                unit="°" if key.startswith("inclination") else "-",
                 status=status,
                 source="secondary literature, see NOTES.md",
             )

@@ -75,6 +75,19 @@ def read_rows(sheet: Worksheet, head: str) -> list[dict[str, object]]:
     return rows
 
 
+def find_steps(sheet: Worksheet) -> list[dict[str, int]]:
+    """Lines of the steps of each check on the sheet of calculations, by symbol."""
+    blocks: list[dict[str, int]] = []
+    for line, (symbol, name) in enumerate(
+        sheet.iter_rows(min_row=5, max_col=2, values_only=True), 5
+    ):
+        if symbol and name is None:
+            blocks.append({})
+        elif symbol:
+            blocks[-1][symbol] = line
+    return blocks
+
+
 def recalculate(books: dict[str, bytes], folder: Path) -> dict[str, bytes]:
     """Workbooks by name after LibreOffice filled in every formula; skips without it.
 

@@ -1,4 +1,4 @@
-"""Formulas of the sheet of checks: text of cells in, text of a formula out.
+"""Formulas of calculations and checks: text of cells in, text of a formula out.
 
 A cell counts only if it holds a number of the right sign. A blank, a text, an error or
 TRUE never becomes a factor, and a check that lacks a number never passes. Each formula
@@ -15,6 +15,9 @@ from netdesign.outcome import Verdict
 from netdesign.report.words import MISSING, UNBOUNDED
 
 ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
+_SAME = 1e-12  # relative
+_SHORT = 20  # signs of a formula; those of ours have more
+_COMPARED = 200  # letters of a text; a formula holds 255 of one
 _ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
 _RANKS = {
     Verdict.FAIL: 3e6,
@@ -27,35 +30,40 @@ _LARGEST = 1e5  # utilisation that counts in the rank
 _BEYOND = 2e5  # counts in the place of one without a bound
 
 
-def write_product(action: str, factor: str) -> str:
-    """Demand: an action of at least zero times a factor."""
-    is_known = f"AND({_is_given(action, '>=0')},{_is_given(factor, '>0')})"
-    return f'IF({is_known},{action}*{factor},"{MISSING}")'
+def write_guarded(formula: str, conditions: Sequence[str]) -> str:
+    """Formula of a step: its result where all conditions on its cells hold, else "-".
 
-
-def write_quotient(above: str, below: str) -> str:
-    """Design resistance: both of its parts above zero."""
-    is_known = f"AND({_is_given(above, '>0')},{_is_given(below, '>0')})"
-    return f'IF({is_known},{above}/{below},"{MISSING}")'
-
-
-def write_ratio(demand: str, resistance: str, *, is_unbounded: bool = False) -> str:
-    """Utilisation: a demand of at least zero over a resistance above zero.
-
-    Without these it is not known, or ``is_unbounded``: nothing resists.
+    Parameters
+    ----------
+    formula : str
+        Without "=".
+    conditions : sequence of str
+        Those of `is_given`; at least one.
     """
-    known = f"AND({_is_number(demand, '>=0')},{_is_number(resistance, '>0')})"
-    otherwise = UNBOUNDED if is_unbounded else MISSING
-    return f'IF({known},{demand}/{resistance},"{otherwise}")'
+    return (
+        f'=IFERROR(IF(AND({",".join(conditions)}),{formula},"{MISSING}"),"{MISSING}")'
+    )
+
+
+def write_link(cell: str, *bounds: str, otherwise: str = MISSING) -> str:
+    """Formula that shows the number of another cell, where it is one in its bounds."""
+    return f'=IF({is_given(cell, *bounds)},{cell},"{otherwise}")'
 
 
 def write_verdict(
-    ends: Sequence[str], given: str, stored: str, words: dict[Verdict, str]
+    ends: Sequence[str],
+    given: str,
+    stored: str,
+    words: dict[Verdict, str],
+    *,
+    is_withheld: bool = False,
 ) -> str:
     """Verdict of a check of forces, from low, value and high of its utilisation.
 
-    What the study has set in ``given`` can hold a pass back, and never makes one. What
-    it has as declared, in ``stored`` too, stays so unless the numbers fail.
+    What the study has set in ``given`` can hold a pass back, and never makes one;
+    numbers that fail do so all the same. What it has as declared, in ``stored`` too,
+    stays so unless the numbers fail. Of a check that ``is_withheld`` they prove
+    nothing.
     """
     low, value, high = ends
     passes, fails, open_, declared = (f'"{words[one]}"' for one in _VERDICTS)
@@ -64,8 +72,11 @@ def write_verdict(
     by_ratio = f"IF({high}<=1+{ROUNDING:.0E},{passes},IF({low}>1,{fails},{open_}))"
     live = f"IF(AND({known}),IF({ordered},{by_ratio},{open_}),{open_})"
     is_declared = f"AND({given}={declared},{stored}={declared})"
-    told = f"IF(IFERROR({live},{open_})={fails},{fails},{declared})"
-    held = f"IF({given}={fails},{fails},IF({is_declared},{told},{open_}))"
+    is_open = f"{given}={open_}"
+    told = f"IF(OR({is_declared},{is_open}),{given},{open_})"
+    if not is_withheld:
+        told = f"IF(AND(OR({is_declared},{is_open}),{live}={fails}),{fails},{told})"
+    held = f"IF({given}={fails},{fails},{told})"
     return f'=IFERROR(IF({given}="{MISSING}",{live},{held}),{open_})'
 
 
@@ -78,14 +89,12 @@ class ChangedReasons:
     spans: str  # the resistance, or ends that are not in order
     lacks: str  # a number
     set: str  # by the study
-    profile: str
-    factor: str
 
 
 def write_reason(
     ends: Sequence[str],
     places: tuple[str, str],
-    conditions: Sequence[str],
+    conditions: Sequence[tuple[str, str]],
     words: dict[Verdict, str],
     reasons: ChangedReasons,
 ) -> str:
@@ -97,8 +106,8 @@ def write_reason(
         Low, value and high of the utilisation.
     places : tuple of str
         What the study has set, and the live verdict.
-    conditions : sequence of str
-        Conditions of `write_held`: of the profile, then of the factors.
+    conditions : sequence of (str, str)
+        Conditions of `write_held`, each with the sentence where it does not hold.
     words : mapping of Verdict to str
         Words of the verdicts.
     reasons : ChangedReasons
@@ -117,8 +126,7 @@ def write_reason(
         f"IF({fails},{_quote(reasons.fails)},{lacks}))"
     )
     told = f'IF({given}="{MISSING}",{by_ratio},{by_study})'
-    causes = (reasons.profile, *([reasons.factor] * (len(conditions) - 1)))
-    for condition, cause in reversed([*zip(conditions, causes, strict=True)]):
+    for condition, cause in reversed(conditions):
         told = f"IF({condition},{told},{_quote(cause)})"
     return f"IFERROR({told},{lacks})"
 
@@ -178,6 +186,14 @@ def compute_rank(number: int, verdict: Verdict, ratio: float | None) -> float:
     return number * _ROW_RANK + _RANKS[verdict] + used
 
 
+def write_same(cell: str, value: float | str) -> str:
+    """Condition: a cell holds a number or a text of the study."""
+    if isinstance(value, str):
+        return f"EXACT(LEFT({cell},{_COMPARED}),{_quote(value[:_COMPARED])})"
+    near = f"ABS({cell}-{value!r})<={_SAME:.0E}*ABS({value!r})"
+    return f"IF(ISNUMBER({cell}),{near},FALSE)"
+
+
 def write_unchanged(
     numbers: Sequence[tuple[str, str]],
     texts: Sequence[tuple[str, str]],
@@ -197,16 +213,14 @@ def write_unchanged(
 _VERDICTS = (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED)
 
 
-def _is_number(cell: str, condition: str) -> str:
-    """Condition: the cell holds a number that meets ``condition``, such as ``>0``."""
-    return f"IF(ISNUMBER({cell}),{cell}{condition},FALSE)"
+def is_given(cell: str, *bounds: str) -> str:
+    """Condition: a cell holds a number within bounds such as ``>0``; TRUE is none.
 
-
-def _is_given(cell: str, condition: str) -> str:
-    """Condition for a cell that somebody types into: TRUE and FALSE are no numbers.
-
-    LibreOffice reads them from a file as formulas that give 1 and 0.
+    LibreOffice reads TRUE and FALSE from a file as formulas that give 1 and 0: they are
+    told from those of ours by their length.
     """
-    truth = f"AND(_xlfn.ISFORMULA({cell}),OR({cell}=1,{cell}=0))"
-    is_truth = f"OR(ISLOGICAL({cell}),{truth})"
-    return f"IF(ISNUMBER({cell}),IF({is_truth},FALSE,{cell}{condition}),FALSE)"
+    ours = f"LEN(_xlfn.FORMULATEXT({cell}))>{_SHORT}"
+    is_number = f"IF(_xlfn.ISFORMULA({cell}),{ours},NOT(ISLOGICAL({cell})))"
+    within = ",".join(f"{cell}{bound}" for bound in bounds)
+    known = f"AND(IF(OR({cell}=1,{cell}=0),{is_number},TRUE),{within})"
+    return f"IF(ISNUMBER({cell}),{known},FALSE)"

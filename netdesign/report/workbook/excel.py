@@ -12,9 +12,13 @@ from netdesign.report.view.hold_tables import build_hold_numbers
 from netdesign.report.view.table import Cell, Column, Table
 from netdesign.report.view.whole import ReportView, build_view
 from netdesign.report.words import Words
+from netdesign.report.workbook.calculation_sheet import (
+    Calculations,
+    add_calculation_sheet,
+)
 from netdesign.report.workbook.charts import add_case_chart, add_force_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
-from netdesign.report.workbook.profile_links import watch_profile
+from netdesign.report.workbook.given_cells import GivenCells
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.workbook.writer import DEFAULT_FONT, Book
 from netdesign.study.records import Study
@@ -26,6 +30,7 @@ SHEETS = (
     "summary",
     "inputs",
     "checks",
+    "calculations",
     "actions",
     "statics",
     "floor_statics",
@@ -99,7 +104,10 @@ def render_workbook(
 def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     add_summary_sheet(book, study, view)
     _add_inputs(book, view)
-    add_check_sheet(book, study, view)
+    cells = GivenCells(book, study, view)
+    calculations = Calculations(book, study, cells)
+    add_check_sheet(book, study, view, cells, calculations)
+    add_calculation_sheet(book, view, calculations)
     _add_figures(book, view)
     _add_row_tables(book, study, view)
     title = book.words("heading.reading")
@@ -118,7 +126,7 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
         ),
     ):
         book.add_table_sheet(name, book.words(title), parts)
-    watch_profile(book, study)
+    cells.watch()
     link_sheets(book, SHEETS[1:])
     book.end_pages()
 

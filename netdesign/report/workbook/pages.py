@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 # Papers lie on their side; a sheet is made smaller until it is as wide as its pages.
 A4, A3 = 9, 8  # paper numbers of the format
@@ -13,6 +14,7 @@ _CHARACTER_PT = 5.56  # of a column, as LibreOffice prints it
 _NARROW_PT = 5.25  # as Excel does, which then makes the sheet less small
 _EDGE = 0.72  # that both add to the width of a column, in characters
 _SMALLEST = 0.82  # of the size of the text, below which a sheet takes more paper
+_ROW_PT = 15.0  # height of a line of which nothing is said
 _STEPS = 40  # in which the height of a page is tried
 NAMING = 2  # columns that name a line, repeated on a second page beside the first
 
@@ -109,3 +111,39 @@ def _step_back(lines: Sequence[Line], start: int, index: int) -> int:
     while begin > start and lines[begin - 1].is_kept:
         begin -= 1
     return begin if begin > start else index
+
+
+class Paper:
+    """Lines of a sheet as it is written, to find where its pages end."""
+
+    def __init__(self, sheet: Any) -> None:
+        self.sheet = sheet
+        self._heights: dict[int, float] = {}
+        self._kept: set[int] = set()
+        self.height = 0.0  # of a page; 0 where nothing was chosen
+        self._repeated: int | None = None
+
+    def set_height(self, row: int, height: float) -> None:
+        """Height of a line [pt]."""
+        self._heights[row] = height
+
+    def keep(self, first: int, last: int) -> None:
+        """Keep lines ``first`` to ``last`` on one page."""
+        self._kept.update(range(first, last))
+        self._heights.setdefault(last, _ROW_PT)
+
+    def repeat(self, row: int) -> None:
+        """Repeat a heading on every page."""
+        self.sheet.repeat_rows(row)
+        self._repeated = row
+
+    def end_pages(self) -> None:
+        """Write where pages end."""
+        lines = [
+            Line(self._heights.get(row, _ROW_PT), row in self._kept)
+            for row in range(max(self._heights, default=0) + 1)
+        ]
+        repeated = 0.0 if self._repeated is None else lines[self._repeated].height
+        if self.height:
+            breaks = place_breaks(lines, self.height, repeated)
+            self.sheet.set_h_pagebreaks(breaks)

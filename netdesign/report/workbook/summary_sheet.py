@@ -13,10 +13,11 @@ from netdesign.report.view.what_if import mark_title
 from netdesign.report.view.whole import ReportView, RowView
 from netdesign.report.words import MISSING, UNBOUNDED, Words, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
-from netdesign.report.workbook.check_sheet import CHANGED, show_cached, show_load
+from netdesign.report.workbook.check_line import CHANGED, show_cached, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.pages import A4, find_height
-from netdesign.report.workbook.writer import Book, count_lines, fit_headings
+from netdesign.report.workbook.widths import count_lines, fit_headings
+from netdesign.report.workbook.writer import Book
 from netdesign.study.case_records import CasePoint
 from netdesign.study.records import RowStudy, Study
 
@@ -33,7 +34,8 @@ _STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
 _CASE_DECIMALS = 1
 # Line, first and last column of each link to a sheet, as wide as its name is long.
 _LINKS = (
-    *((0, *place) for place in ((7, 7), (8, 8), (9, 10), (11, 11), (12, 13))),
+    *((0, *place) for place in ((7, 7), (8, 8), (9, 10), (11, 11))),
+    *((0, *place) for place in ((12, 12), (13, 13))),
     *((1, *place) for place in ((7, 8), (9, 10), (11, 11), (12, 12), (13, 13))),
     *((3, *place) for place in ((1, 1), (2, 2), (3, 4), (5, 6), (7, 8), (9, 10))),
     *((3, *place) for place in ((11, 11), (12, 12), (13, 13))),

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-import textwrap
 from collections.abc import Sequence
-from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -17,10 +15,15 @@ from netdesign.report.workbook.bands import split_bands
 from netdesign.report.workbook.pages import (
     A4,
     NAMING,
-    Line,
+    Paper,
     choose_paper,
     find_height,
-    place_breaks,
+)
+from netdesign.report.workbook.widths import (
+    BOLD,
+    count_lines,
+    find_widths,
+    measure_longest,
 )
 
 _FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}
@@ -34,11 +37,6 @@ _COLOURS = {
 # Widths are in digits of the default font. Every program must have it, or one as wide:
 # LibreOffice prints a sheet a third smaller that names one which it lacks.
 DEFAULT_FONT = MappingProxyType({"font_name": "Arial", "font_size": 10})
-_NARROWEST, _WIDEST = 6.0, 50.0  # columns
-_CHARACTER, _CAPITAL = 0.82, 0.3  # width of one of ours; what a capital has beyond it
-_WIDEST_LETTER = 1.13  # above that of a capital, whatever is rounded
-_BOLD = 1.1  # width of bold letters over that of others
-_INDENT = 1.5  # of a text
 _DIGIT_PT = 5.56  # width of a digit
 _LINE_PT = 11.5  # height of a line of text
 _DECIMAL = re.compile(r"-?\d+(?:[.,](\d+))?")  # with the mark of any language
@@ -47,7 +45,6 @@ _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 _LONGEST_LINK = 2000  # of its text too; older XlsxWriters leave longer links out
-_ROW_PT = 15.0  # height of a line of which nothing is said
 _FIRST_LINES = 3  # of a long table, which stay with its heading
 _SHORT = 26  # lines of a table that stays whole
 
@@ -55,42 +52,6 @@ _SHORT = 26  # lines of a table that stays whole
 def _show_literally(text: str) -> str:
     """Text for a footer, where ``&`` begins a code and ``&G`` a picture."""
     return re.sub(r"&([G\[])", r"& \1", text).replace("&", "&&")
-
-
-class Paper:
-    """Lines of a sheet as it is written, to find where its pages end."""
-
-    def __init__(self, sheet: Any) -> None:
-        self.sheet = sheet
-        self._heights: dict[int, float] = {}
-        self._kept: set[int] = set()
-        self.height = 0.0  # of a page; 0 where nothing was chosen
-        self._repeated: int | None = None
-
-    def set_height(self, row: int, height: float) -> None:
-        """Height of a line [pt]."""
-        self._heights[row] = height
-
-    def keep(self, first: int, last: int) -> None:
-        """Keep lines ``first`` to ``last`` on one page."""
-        self._kept.update(range(first, last))
-        self._heights.setdefault(last, _ROW_PT)
-
-    def repeat(self, row: int) -> None:
-        """Repeat a heading on every page."""
-        self.sheet.repeat_rows(row)
-        self._repeated = row
-
-    def end_pages(self) -> None:
-        """Write where pages end."""
-        lines = [
-            Line(self._heights.get(row, _ROW_PT), row in self._kept)
-            for row in range(max(self._heights, default=0) + 1)
-        ]
-        repeated = 0.0 if self._repeated is None else lines[self._repeated].height
-        if self.height:
-            breaks = place_breaks(lines, self.height, repeated)
-            self.sheet.set_h_pagebreaks(breaks)
 
 
 class Book:
@@ -185,8 +146,8 @@ class Book:
             sheet.write_string(row, index, column.heading, form)
         level = [i for i in range(len(columns)) if i not in turned]
         headings = [columns[i].heading for i in level]
-        lines = max(2, count_lines(headings, [widths[i] for i in level], _BOLD))
-        high = max((_measure_longest(columns[i].heading) for i in turned), default=0.0)
+        lines = max(2, count_lines(headings, [widths[i] for i in level], BOLD))
+        high = max((measure_longest(columns[i].heading) for i in turned), default=0.0)
         self.set_height(sheet, row, max(lines, math.ceil(high * _DIGIT_PT / _LINE_PT)))
 
     def write_cell(
@@ -348,71 +309,3 @@ def _find_look(shown: str | int | None) -> dict[str, Any]:
 def _align(column: Column) -> dict[str, Any]:
     """Numbers to the right; texts keep a distance from a number before them."""
     return {"align": "right"} if column.is_number else {"align": "left", "indent": 1}
-
-
-def count_lines(
-    texts: Sequence[str], widths: Sequence[float], look: float = 1.0
-) -> int:
-    """Lines that the longest of ``texts`` takes in its column, broken between words.
-
-    ``look`` is the width of its letters over that of plain ones.
-    """
-    return max(
-        [_wrap(text, width / look) for text, width in zip(texts, widths, strict=False)]
-    )
-
-
-def fit_headings(
-    columns: Sequence[Column], widths: Sequence[float], turned: Sequence[int] = ()
-) -> list[float]:
-    """Widths of columns, wider where a word of a level heading has no room."""
-    return [
-        width if index in turned else max(width, _measure_longest(column.heading))
-        for index, (column, width) in enumerate(zip(columns, widths, strict=True))
-    ]
-
-
-def _measure_longest(heading: str) -> float:
-    """Width that the longest word of a heading needs."""
-    return max(_BOLD * _measure(word) + _INDENT for word in ("", *heading.split()))
-
-
-def _wrap(text: str, width: float) -> int:
-    """Lines of a text in a column; a part of it is the distance from the one before."""
-    if _WIDEST_LETTER * len(text) + _INDENT <= width:
-        return 1
-    wide = _measure(text)
-    if wide + _INDENT <= width:
-        return 1
-    letters = (width - _INDENT) * len(text) / wide
-    return _fold(text, max(int(letters), 1))
-
-
-@lru_cache(maxsize=1024)
-def _fold(text: str, letters: int) -> int:
-    """Lines of so many letters; kept, for most long texts stand at many checks."""
-    return len(textwrap.wrap(text, letters))
-
-
-def _measure(text: str) -> float:
-    """Width of a text in digits of the default font; capitals are wider than others."""
-    if text.isascii() and text == text.lower():
-        return _CHARACTER * len(text)
-    return _CHARACTER * len(text) + _CAPITAL * sum(map(str.isupper, text))
-
-
-def find_widths(tables: Sequence[Table]) -> list[float]:
-    """Width of each column: its longest cell and the longest word of its head.
-
-    The last columns of all tables but the first do not count.
-    """
-    widths = [_NARROWEST] * max(len(table.columns) for table in tables)
-    for place, table in enumerate(tables):
-        for index, column in enumerate(table.columns):
-            if place and index == len(table.columns) - 1:
-                continue  # a last column may reach into empty cells beside it
-            wide = [_measure(row[index].text) for row in table.rows]
-            wide += [_BOLD * _measure(word) for word in column.heading.split()]
-            wanted = max(wide, default=0) + 2 * _INDENT
-            widths[index] = min(max(widths[index], wanted), _WIDEST)
-    return widths

@@ -12,7 +12,7 @@ from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.records import DeclarationRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import as_given, build_study
-from tests.report.reading import read_workbook, recalculate
+from tests.report.reading import find_steps, read_workbook, recalculate
 
 PROOF = DeclarationRecord(
     document="Report G-17", author="B. Rüegg", date="", cell="Declared!B2"
@@ -20,9 +20,9 @@ PROOF = DeclarationRecord(
 LINE = 5  # of the first check
 EDITS = {
     "as it was": {},
-    "strong": {"L5": 1e6},
-    "weak": {"L5": 1.0},
-    "no resistance": {"L5": None},
+    "strong": {"R_k": 1e6},
+    "weak": {"R_k": 1.0},
+    "no resistance": {"R_k": None},
     "set to pass": {"R5": "PASS"},
     "another set to declared": {"L6": None, "R6": "DECLARED"},
 }
@@ -53,10 +53,17 @@ def declare(study):
 STUDY = declare(build_study(rows=1))
 
 
+def type_over(book, place, value):
+    """A cell of the checks, or the resistance of the first one."""
+    sheet = book["Calculations" if place == "R_k" else "Checks"]
+    line = f"E{find_steps(sheet)[0]['R_k']}" if place == "R_k" else place
+    sheet[line] = value
+
+
 def edit(cells):
     book = read_workbook(render_workbook(STUDY), formulas=True)
     for place, value in cells.items():
-        book["Checks"][place] = value
+        type_over(book, place, value)
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
@@ -124,7 +131,7 @@ def test_a_row_that_the_study_holds_back_says_so(tmp_path):
     row = replace(study.rows[0], verdict=Verdict.NOT_PROVEN)
     study = replace(study, rows=[row], verdict=Verdict.NOT_PROVEN)
     book = read_workbook(render_workbook(study), formulas=True)
-    book["Checks"][f"L{LINE}"] = 1e6
+    type_over(book, "R_k", 1e6)
     book.save(buffer := io.BytesIO())
     content = recalculate({"held": buffer.getvalue()}, tmp_path)["held"]
     summary = read_workbook(content)["Summary"]

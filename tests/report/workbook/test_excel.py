@@ -7,15 +7,17 @@ import pytest
 from openpyxl.utils import get_column_letter
 from xlsxwriter.worksheet import Worksheet
 
+from netdesign.calculation.quantity import Kind
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words
-from netdesign.report.workbook.check_sheet import CHANGED
+from netdesign.report.workbook.check_line import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.study.document import compute_digest
-from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.catalogue import LANGUAGES, load_texts
 from netdesign.words.message import say
 from tests.report.build_study import FORMULA, SCRIPT, build_study
-from tests.report.reading import read_rows, read_workbook, recalculate
+from tests.report.reading import find_steps, read_rows, read_workbook, recalculate
+from tests.words.test_catalogue import list_gaps
 
 LIMIT = 1e-12  # relative: one rounding of a product, with room
 
@@ -30,7 +32,30 @@ def hold_back(study):
     return replace(study, rows=[held, *study.rows[1:]])
 
 
-STUDY = hold_back(build_study())
+def tell_apart(study):
+    """The same study; each given value of a check has a cell of its own."""
+    rows = [
+        replace(
+            row,
+            checks=[
+                replace(
+                    check,
+                    steps=[
+                        replace(step, source=f"{step.source} {row.id} {number}")
+                        if step.kind is Kind.GIVEN
+                        else step
+                        for step in check.steps
+                    ],
+                )
+                for number, check in enumerate(row.checks)
+            ],
+        )
+        for row in study.rows
+    ]
+    return replace(study, rows=rows)
+
+
+STUDY = tell_apart(hold_back(build_study()))
 
 
 @pytest.fixture(scope="module")
@@ -43,38 +68,46 @@ NO_NUMBERS = (
     *(None, "", "abc", "1.5", " 2", "-", True, False, "=TRUE()", "#DIV/0!"),
     *("#N/A", "=1/0", '="1.5"', "=NA()", -1.5, -1e-9),
 )
-FACTORS, ACTIONS = ("H", "L", "M"), ("E", "F", "G")
+# Steps of a check, and columns of their low end, value and high end.
+FACTORS = (("γ_E", "E"), ("R_k", "E"), ("γ_R", "E"))
+ACTIONS = (("E_k", "D"), ("E_k", "E"), ("E_k", "F"))
 
 
 def build_many(lines):
     """Net rows of checks that all pass, at least so many of them loaded."""
     (row,) = build_study(rows=1).rows
     assert {check.verdict for check in row.checks} == {Verdict.PASS}
-    count = -(-lines // sum(check.action_kN is not None for check in row.checks))
+    count = -(-lines // sum(check.is_of_force for check in row.checks))
     study = build_study(rows=1)
     rows = [replace(row, id=f"R{number}") for number in range(count)]
-    return replace(study, rows=rows)
+    return tell_apart(replace(study, rows=rows))
 
 
 SPOILS = [
-    *((letter, value) for letter in FACTORS for value in (*NO_NUMBERS, 0, 0.0)),
-    *((letter, value) for letter in ACTIONS for value in NO_NUMBERS),
-    *(("F", 1e4), ("E", 1e4), ("R", None), ("R", "PASS"), ("R", "abc"), ("R", 0)),
+    *((*place, value) for place in FACTORS for value in (*NO_NUMBERS, 0, 0.0)),
+    *((*place, value) for place in ACTIONS for value in NO_NUMBERS),
+    *(("E_k", "E", 1e4), ("E_k", "D", 1e4)),
+    *(("", "R", value) for value in (None, "PASS", "abc", 0)),  # set by the study
+    *(("", letter, value) for letter in "FHLMP" for value in (None, "abc", 0.5)),
 ]
 MANY = build_many(len(SPOILS))
 LOADED = [
     (line, check)
     for line, check in enumerate((c for row in MANY.rows for c in row.checks), 5)
-    if check.action_kN is not None
+    if check.is_of_force
 ]
 
 
 def spoil(content):
     """One cell of each loaded check typed over."""
     book = read_workbook(content, formulas=True)
-    sheet = list(book)[2]
-    for (line, _), (letter, value) in zip(LOADED, SPOILS, strict=False):
-        sheet[f"{letter}{line}"].value = value
+    checks, calculations = list(book)[2:4]
+    blocks = find_steps(calculations)
+    for (line, _), block, (symbol, letter, value) in zip(
+        LOADED, blocks, SPOILS, strict=False
+    ):
+        sheet, where = (calculations, block[symbol]) if symbol else (checks, line)
+        sheet[f"{letter}{where}"].value = value
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
@@ -96,28 +129,28 @@ def fresh(content, tmp_path_factory):
 def edit(content):
     """Three cells typed over, as an engineer would."""
     book = read_workbook(content, formulas=True)
-    sheet = book["Checks"]
-    assert (sheet["L4"].value, sheet["M4"].value) == ("R_k [kN]", "γ_R")
-    sheet["L6"] = 1.0  # first net row: tiny pull-out resistance of the foot anchor
-    sheet["L22"], sheet["M22"] = 1e4, 1.35  # third: the missing resistance is given
-    sheet["L18"] = None  # second: the slack guy loses its resistance
+    sheet = book["Calculations"]
+    first, second, third = np.array_split(find_steps(sheet), 3)
+    sheet[f"E{first[1]['R_k']}"] = 1.0  # tiny pull-out resistance of the foot anchor
+    sheet[f"E{third[3]['R_k']}"] = 1e4  # the missing resistance is given
+    sheet[f"E{second[5]['R_k']}"] = None  # the slack guy loses its resistance
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
 
 
-# A value of the profile that is no factor of a check; a factor of all; one of tendons.
+# A value of the profile that is no factor of a check; factors of all.
 PROFILE_EDITS = {
     "other-value": ("inclination.low", 24.0),
     "no-value": ("inclination.low", None),
-    "on-action": ("action.snow", 1.4),
-    "on-tendons": ("resistance.tendon", 1.3),
+    "on-action": ("factor.action", 1.4),
+    "on-resistance": ("factor.tendon", 1.3),
 }
 
 
 def edit_profile(name):
     """One value of the profile typed over in the workbook of a study that passes."""
-    study = name_factors(LOOSE)
+    study = LOOSE
     book = read_workbook(render_workbook(study), formulas=True)
     key, number = PROFILE_EDITS[name]
     line = [one.id for one in study.profile.values].index(key)
@@ -127,22 +160,12 @@ def edit_profile(name):
     return buffer.getvalue()
 
 
-def name_factors(study):
-    """The same study under a profile whose factors have their own names."""
-    factor = next(one for one in study.profile.values if one.id == "factor.tendon")
-    named = [
-        replace(factor, id="resistance.tendon"),
-        replace(factor, id="action.snow", value=1.5),
-    ]
-    values = [*study.profile.values, *named]
-    return replace(study, profile=replace(study.profile, values=values))
-
-
 def follow_factors(study):
     """The same study; the first check's resistance rests on the factors themselves."""
     (row,) = study.rows
-    sliding = say("derivation.sliding", friction=0.5, factor=1.5, pressing=90.0)
-    first = replace(row.checks[0], resistance_derivation=sliding)
+    names = list_gaps(load_texts("en")["post_bending.beside"])
+    bending = say("post_bending.beside", **dict.fromkeys(names, 1.0))
+    first = replace(row.checks[0], resistance_derivation=bending)
     return replace(study, rows=[replace(row, checks=[first, *row.checks[1:]])])
 
 
@@ -159,10 +182,13 @@ def assert_equals_study(content, study):
     for line, check in zip(rows, expected_checks(study), strict=True):
         low, high = check.utilisation_band
         expected = {
-            "E_k [kN]": check.action_kN,
-            "E_d low [kN]": check.demand_low_kN,
+            "E_k [kN]": check.read("E_k"),
+            "γ_E": check.read("γ_E"),
+            "E_d low [kN]": check.read_band("E_d")[0],
             "E_d [kN]": check.demand_kN,
-            "E_d high [kN]": check.demand_high_kN,
+            "E_d high [kN]": check.read_band("E_d")[1],
+            "R_k [kN]": check.read("R_k"),
+            "γ_R": check.read("γ_R"),
             "R_d [kN]": check.resistance_kN,
             "μ low": low,
             "μ": check.utilisation,
@@ -269,31 +295,36 @@ def test_the_first_sheet_says_how_the_report_is_verified(language):
 
 
 def test_a_spreadsheet_program_refuses_what_no_factor_can_be(content):
-    rules = read_workbook(content)["Checks"].data_validations.dataValidation
+    sheet = read_workbook(content)["Calculations"]
+    rules = sheet.data_validations.dataValidation
     found = {str(rule.sqref): (rule.type, rule.operator, rule.formula1)
              for rule in rules}  # fmt: skip
     above, least = (
         ("decimal", "greaterThan", "0"),
         ("decimal", "greaterThanOrEqual", "0"),
     )
-    for letter in FACTORS:
-        assert found[f"{letter}5:{letter}25"] == above
-    for letter in ACTIONS:
-        assert found[f"{letter}5:{letter}25"] == least
+    for block in find_steps(sheet):
+        assert found[f"E{block['R_k']}"] == above
+    first = find_steps(sheet)[0]
+    assert {found[f"{letter}{first['E_s']}"] for letter in "DEF"} == {least}
 
 
 def test_derived_numbers_and_verdicts_are_formulas(content):
     sheet = read_workbook(content, formulas=True)["Checks"]
     lines = read_rows(sheet, "No.")
     for line, check in zip(lines, expected_checks(STUDY), strict=True):
-        derived = ["Verdict", "μ low", "μ", "μ high"]
-        if check.demand_kN is not None:
+        derived = ["Verdict"]
+        if check.steps:
+            derived += ["μ low", "μ", "μ high"]
             derived += ["E_d low [kN]", "E_d [kN]", "E_d high [kN]", "R_d [kN]"]
         for heading in derived:
             assert str(line[heading]).startswith("="), heading
     summary = read_workbook(content, formulas=True)["Summary"]
     assert str(summary["C3"].value).startswith("=IFERROR(IF(COUNTIF(")
     assert str(summary["C6"].value).startswith("=IFERROR(IF(D6>0")
+
+
+WITH_FORMULAS = ("Summary", "Inputs", "Checks", "Calculations", "Profile")
 
 
 def test_only_our_formulas_exist(content):
@@ -305,7 +336,7 @@ def test_only_our_formulas_exist(content):
                     assert cell.hyperlink.target is None
                     assert cell.hyperlink.location.startswith("'")
                 if cell.data_type == "f":
-                    assert sheet.title in ("Checks", "Summary", "Profile")
+                    assert sheet.title in WITH_FORMULAS
                     assert cell.value != FORMULA
     names = {cell.value for cell in book["Checks"]["B"]}
     assert FORMULA in {cell.value for cell in book["Inputs"]["D"]}
@@ -402,9 +433,9 @@ def find_spanning(study):
 
 def edit_factor(language, factor):
     """The factor on all actions typed over in the workbook of a study that passes."""
-    study = name_factors(build_study(rows=1))
+    study = build_study(rows=1)
     book = read_workbook(render_workbook(study, language), formulas=True)
-    line = [one.id for one in study.profile.values].index("action.snow")
+    line = [one.id for one in study.profile.values].index("factor.action")
     value = find_spanning(study) if factor is None else factor
     book[Words(language)("heading.profile")][f"C{5 + line}"] = value
     buffer = io.BytesIO()
@@ -448,38 +479,34 @@ def test_the_reason_follows_the_verdict_of_another_factor(language, name, factor
 
 
 def test_factors_of_the_profile_are_live(fresh):
-    for name, share in (("on-action", 1.4 / 1.5), ("on-tendons", 1.3 / 1.35)):
+    for name, share in (("on-action", 1.4 / 1.5), ("on-resistance", 1.3 / 1.35)):
         live = list_live(read_workbook(fresh[name]))
         checks = expected_checks(LOOSE)
         # its resistance has the factors of the study
         assert live[0][::2] == ("NOT PROVEN", ENGLISH("caption.changed_factor"))
         for (verdict, used, _), check in zip(live[1:], checks[1:], strict=True):
             assert verdict == "PASS"
-            is_changed = name == "on-action" or check.mode == "tendon"
-            if check.utilisation and check.demand_kN is not None:
-                wanted = check.utilisation * (share if is_changed else 1.0)
+            if check.utilisation and check.read("γ_R") and check.mode != "rope":
+                wanted = check.utilisation * share
                 assert used == pytest.approx(wanted, rel=1e-9), check.id
 
 
 def test_factors_are_read_from_the_profile():
     """Change one there, and the demand of every check follows."""
-    study = name_factors(STUDY)
-    book = read_workbook(render_workbook(study), formulas=True)
-    checks, profile = book["Checks"], book[ENGLISH("heading.profile")]
-    linked = {"H": 0, "M": 0}
-    for line, check in enumerate(expected_checks(study), 5):
-        factors = {"H": check.action_factor, "M": check.resistance_factor}
-        for letter, factor in factors.items():
-            formula = checks[f"{letter}{line}"].value
-            if isinstance(formula, str) and formula.startswith("="):
-                place = formula.rpartition("!")[2].replace("$", "")
-                assert formula.startswith(f"='{profile.title}'!")
-                assert profile[place].value == factor
-                linked[letter] += 1
-    wanted = [one for one in expected_checks(study) if one.action_factor]
-    tendons = [one for one in wanted if one.mode == "tendon" and one.resistance_factor]
-    assert linked == {"H": len(wanted), "M": len(tendons)}
-    assert tendons
+    book = read_workbook(render_workbook(STUDY), formulas=True)
+    calculations, profile = book["Calculations"], book["Profile"]
+    ids = [one.id for one in STUDY.profile.values]
+    blocks = find_steps(calculations)
+    loaded = [one for one in expected_checks(STUDY) if one.is_of_force]
+    count = 0
+    for block, check in zip(blocks, loaded, strict=True):
+        for symbol in ("γ_E", "γ_R"):
+            step = check.known[symbol]
+            if step.source in ids:
+                place = f"'{profile.title}'!$C${5 + ids.index(step.source)}"
+                assert place in calculations[f"E{block[symbol]}"].value
+                count += 1
+    assert count == 30
 
 
 def test_a_number_has_as_many_digits_as_on_the_page(content):

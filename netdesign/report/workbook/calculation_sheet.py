@@ -1,0 +1,257 @@
+"""Sheet of calculations: each check step by step, in live formulas.
+
+A value that is read from a cell of the inputs or of the profile is a link to it; any
+other stands as a number where it occurs first, and later checks refer to that line. So
+one cell changes all checks that use it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
+from netdesign.calculation.quantity import Kind, Quantity
+from netdesign.calculation.steps import Step, evaluate
+from netdesign.report.view.check_formulas import (
+    is_given,
+    write_guarded,
+    write_link,
+    write_same,
+)
+from netdesign.report.view.table import Column
+from netdesign.report.view.whole import ReportView
+from netdesign.report.words import MISSING, Words, show_text, show_unit
+from netdesign.report.workbook.given_cells import IN_FORCES, GivenCells
+from netdesign.report.workbook.pages import A4, find_height
+from netdesign.report.workbook.widths import count_lines
+from netdesign.report.workbook.writer import Book
+from netdesign.study.records import CheckRecord, Study
+
+_HEAD_ROW = 3  # zero-based; the first block begins one below
+_WIDTHS = (9, 44, 32, 11, 11, 11, 7, 26)
+_NAME, _FORMULA, _UNIT, _SOURCE = 1, 2, 6, 7  # columns; the symbol stands first
+_ENDS = {-1: 3, 0: 4, 1: 5}  # columns of low end, value and high end
+_FORMATS = {"kN": "0.00", "m": "0.000", "-": "0.0000"}
+_TYPED = "#2A4B6B"  # colour of numbers that somebody may type over
+_WANTED = {">0": "caption.above_zero", ">=0": "caption.at_least_zero"}
+_QUARTER = "<90"  # angles are below a right one
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Line of a step.
+
+    Attributes
+    ----------
+    number : int
+        From one.
+    step, quantity : Step, Quantity
+        What it shows.
+    link : str
+        Cell that its value is read from, on another sheet; "" where there is none.
+    first : int
+        Line where the same value stands as a number; itself unless another has it.
+    """
+
+    number: int
+    step: Step
+    quantity: Quantity
+    link: str
+    first: int
+
+    def has_end(self, end: int) -> bool:
+        """The study has a number of its own for that end; else it is the value."""
+        return end == 0 or (self.step.low, self.step.high)[end > 0] is not None
+
+    def at(self, end: int) -> str:
+        """Cell of one of its ends."""
+        return f"{chr(ord('A') + _ENDS[end])}{self.number}"
+
+    @property
+    def bounds(self) -> tuple[str, ...]:
+        """Bounds of its numbers: a force, or what is zero already, may be zero."""
+        is_read = self.step.kind in (Kind.GIVEN, Kind.PROFILE)
+        is_above = is_read and self.step.value != 0.0
+        least = ">0" if is_above else ">=0"
+        return (least, _QUARTER) if self.step.unit == "deg" else (least,)
+
+
+class Calculations:
+    """Lines of the calculations of all checks, by net row and check."""
+
+    def __init__(self, book: Book, study: Study, cells: GivenCells) -> None:
+        self._book = book
+        self._cells = cells
+        self._typed: dict[tuple[int, Step], int] = {}
+        self._blocks: dict[tuple[int, int], dict[str, Line]] = {}
+        self.titles: dict[tuple[int, int], int] = {}  # lines of them
+        line = _HEAD_ROW + 2
+        for place, check in _list_checks(study):
+            self.titles[place] = line
+            self._blocks[place] = self._place_steps(place[0], line + 1, check)
+            line += len(check.steps) + 2
+
+    def _place_steps(self, row: int, first: int, check: CheckRecord) -> dict[str, Line]:
+        quantities = evaluate(check.steps)
+        return {
+            step.symbol: self._place(row, number, step, quantities[step.symbol])
+            for number, step in enumerate(check.steps, first)
+        }
+
+    def _place(self, row: int, number: int, step: Step, quantity: Quantity) -> Line:
+        cell = None if step.formula else self._cells.find(row, step)
+        if step.formula or cell is not None:
+            link = self._cells.refer(cell) if cell else ""
+            return Line(number, step, quantity, link, number)
+        if step.value is None or not step.source:  # nobody says that it is the same
+            return Line(number, step, quantity, "", number)
+        whose = -1 if step.kind is Kind.GIVEN else row  # a cell serves all net rows
+        first = self._typed.setdefault((whose, step), number)
+        return Line(number, step, quantity, "", first)
+
+    def list_blocks(self) -> Iterator[tuple[tuple[int, int], Sequence[Line]]]:
+        """Lines of each check, by the places of net row and check."""
+        for place, block in self._blocks.items():
+            yield place, list(block.values())
+
+    def refer(self, place: tuple[int, int], symbol: str, end: int = 0) -> str:
+        """Reference to a step of a check from another sheet; "" where it has none."""
+        line = self._blocks.get(place, {}).get(symbol)
+        if line is None:
+            return ""
+        cell = line.at(end)
+        return self._book.refer("calculations", f"${cell[0]}${cell[1:]}")
+
+    def list_followed(self, place: tuple[int, int]) -> Iterator[str]:
+        """Conditions: what stands here and the solved forces rest on is the study's."""
+        for symbol in IN_FORCES:
+            line = self._blocks.get(place, {}).get(symbol)
+            if line is not None and not line.link and line.step.value is not None:
+                yield write_same(self.refer(place, symbol), line.step.value)
+
+    def write_end(self, block: Sequence[Line], line: Line, end: int) -> str:
+        """Formula of one end of a line; "" of a number that stands there itself."""
+        if line.step.formula:
+            return _write_step(block, line, end)
+        if not line.has_end(end):
+            return write_link(line.at(0), *line.bounds)
+        if line.first != line.number:
+            column = chr(ord("A") + _ENDS[end])
+            return write_link(f"{column}{line.first}", *line.bounds)
+        return write_link(line.link, *line.bounds) if line.link else ""
+
+
+def _list_checks(study: Study) -> Iterator[tuple[tuple[int, int], CheckRecord]]:
+    for number, row in enumerate(study.rows):
+        for place, check in enumerate(row.checks):
+            if check.steps:
+                yield (number, place), check
+
+
+def _write_step(block: Sequence[Line], line: Line, end: int) -> str:
+    """Formula of a step of the lines before it, and which of their cells count."""
+    lines = {one.step.symbol: one for one in block}
+    conditions: dict[str, None] = {}
+
+    def find(leaf: Quantity, of_end: int) -> str:
+        one = lines[leaf.symbol]
+        conditions[is_given(one.at(of_end), *one.bounds)] = None
+        return one.at(of_end)
+
+    formula = write_formula(line.quantity, find, SPREADSHEET, end)
+    return write_guarded(formula, list(conditions))
+
+
+def add_calculation_sheet(
+    book: Book, view: ReportView, calculations: Calculations
+) -> None:
+    """Sheet "Calculations": a block of lines for each check of a force."""
+    words = book.words
+    sheet = book.add_sheet("calculations", words("heading.calculations"))
+    book.link_back(sheet)
+    book.write_wide(sheet, (2, 0), words("caption.calculations"), _WIDTHS, italic=True)
+    book.write_head(sheet, _HEAD_ROW, _list_columns(words), _WIDTHS)
+    for index, width in enumerate(_WIDTHS):
+        sheet.set_column(index, index, width)
+    for (row, check), block in calculations.list_blocks():
+        shown = view.rows[row]
+        title = f"{show_text(shown.id)}: {shown.checks[check].title}"
+        top = calculations.titles[row, check] - 1
+        book.write_wide(sheet, (top, 0), title, _WIDTHS, bold=True)
+        for line in block:
+            _write_line(book, sheet, calculations, block, line)
+        book.paper(sheet).keep(top, top + len(block))
+    if not calculations.titles:
+        text = words("heading.no_check")
+        sheet.write_string(_HEAD_ROW + 1, 0, text, book.text())
+    book.paper(sheet).repeat(_HEAD_ROW)
+    book.paper(sheet).height = find_height(_WIDTHS, A4, 1)
+    sheet.freeze_panes(_HEAD_ROW + 1, 1)
+
+
+def _list_columns(words: Words) -> tuple[Column, ...]:
+    keys = ("symbol", "name", "formula", "low", "value", "high", "unit", "source")
+    return tuple(
+        Column(heading=words(f"heading.{key}"), is_number=index in _ENDS.values())
+        for index, key in enumerate(keys)
+    )
+
+
+def _write_line(
+    book: Book,
+    sheet: Any,
+    calculations: Calculations,
+    block: Sequence[Line],
+    line: Line,
+) -> None:
+    step, row, words = line.step, line.number - 1, book.words
+    printed = write_formula(line.quantity, lambda leaf, _: leaf.symbol, PRINTED)
+    texts = {
+        0: step.symbol,
+        _NAME: words(f"symbol.{step.symbol}"),
+        _FORMULA: words.write_formula(printed),
+        _UNIT: "" if step.unit == "-" else show_unit(step.unit),
+        _SOURCE: _name_source(step, words),
+    }
+    for column, text in texts.items():
+        sheet.write_string(row, column, text, book.text(text_wrap=True))
+    lines = count_lines(list(texts.values()), [_WIDTHS[one] for one in texts])
+    book.set_height(sheet, row, lines)
+    for end, value in zip(_ENDS, step.ends, strict=True):
+        formula = calculations.write_end(block, line, end)
+        _write_number(book, sheet, line, end, value, formula)
+
+
+def _write_number(
+    book: Book, sheet: Any, line: Line, end: int, value: float | None, formula: str
+) -> None:
+    place = (line.number - 1, _ENDS[end])
+    look = {"align": "right", "num_format": _FORMATS.get(line.step.unit, "General")}
+    if formula:
+        shown = MISSING if value is None else value
+        sheet.write_formula(*place, formula, book.format(**look), shown)
+        return
+    form = book.format(**look, font_color=_TYPED)
+    if value is None:
+        sheet.write_string(*place, MISSING, form)
+    else:
+        sheet.write_number(*place, value, form)
+    least = line.bounds[0]
+    rule = {
+        "validate": "decimal",
+        "criteria": least.rstrip("0"),
+        "value": 0,
+        "ignore_blank": False,
+        "error_message": book.words(_WANTED[least]),
+    }
+    sheet.data_validation(*place, *place, rule)
+
+
+def _name_source(step: Step, words: Words) -> str:
+    """Cell, id of the profile's value, clause; of a force the load that brings it."""
+    if step.kind is not Kind.SOLVED:
+        return step.source
+    is_floor = step.source.startswith("floor")
+    return words("load_name.guideline" if is_floor else "load_name.coupled")
