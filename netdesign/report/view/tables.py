@@ -376,15 +376,39 @@ def _show_setting(text: str, words: Words) -> str:
 def stack_tables(
     caption: str, parts: Sequence[tuple[str, Table]], words: Words
 ) -> Table:
-    """One table out of several of one shape, told apart by their net row."""
-    first = parts[0][1]
+    """One table out of several, told apart by their net row.
+
+    A column that only some of them have is empty for the others.
+    """
+    columns = _join_columns([table for _, table in parts])
     return Table(
         caption=caption,
-        columns=(text_column(words("heading.net_row")), *first.columns),
+        columns=(text_column(words("heading.net_row")), *columns),
         rows=tuple(
-            (name, *row)
-            for name, part in ((text_cell(one), part) for one, part in parts)
+            (text_cell(name), *_place_cells(part, row, columns))
+            for name, part in parts
             for row in part.rows
         ),
-        empty=first.empty,
+        empty=parts[0][1].empty,
     )
+
+
+def _join_columns(tables: Sequence[Table]) -> list[Column]:
+    """Columns of all tables, each once, every one behind those that stand before it."""
+    joined: list[Column] = []
+    for table in tables:
+        place = 0
+        for column in table.columns:
+            if column in joined:
+                place = joined.index(column) + 1
+            else:
+                joined.insert(place, column)
+                place += 1
+    return joined
+
+
+def _place_cells(
+    table: Table, row: Sequence[Cell], columns: Sequence[Column]
+) -> list[Cell]:
+    found = dict(zip(table.columns, row, strict=True))
+    return [found.get(column, text_cell("")) for column in columns]
