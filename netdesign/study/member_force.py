@@ -40,7 +40,7 @@ from netdesign.words.names import name
 Governing = Literal["coupled", "panel", "guideline"]
 PUSHED = (Member.POST, Member.POST_BASE)  # by the end guy
 # Weights of the load along the row in the guys of each side.
-_PARTS: Mapping[str, str] = {
+PARTS: Mapping[str, str] = {
     Member.UPHILL_GUY: "uphill_part",
     Member.UPHILL_ANCHOR: "uphill_part",
     Member.DOWNHILL_GUY: "downhill_part",
@@ -247,7 +247,7 @@ def _list_support_leaves(row: NetRow, width: LoadedWidth) -> list[Quantity]:
 
 
 def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], float]:
-    """What the load along the row brings a member, and how that may grow [kN]."""
+    """Leaves of what the load along the row adds, and how that may grow [kN]."""
     share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
     held = forces.held
     if member in forces.effects.at_foot:
@@ -260,9 +260,9 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
         kind=Kind.SOLVED,
         band=(held.pull_low_kN, held.pull_high_kN),
     )
-    if member in _PARTS:
-        part: float = getattr(held, _PARTS[member])
-        leaves = [_solved("c", part, "-", _PARTS[member]), share, pull, splay]
+    if member in PARTS:
+        part: float = getattr(held, PARTS[member])
+        leaves = [_solved("c", part, "-", PARTS[member]), share, pull, splay]
         return leaves, _high(load_guy(*leaves).added)
     weight = _solved("w", held.post_part, "-", "post_part")
     nothing, least = (

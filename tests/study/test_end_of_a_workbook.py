@@ -10,10 +10,10 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
-from netdesign.study.audit.study_audit import audit_study
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.rejudge import rejudge
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.verification.untidy_site import PROFILE, draw_site
 
@@ -56,7 +56,7 @@ def judge(folder, panel, without=()):
         template.write_site_workbook(path, example=True)
     site, standard = read_site(path), load_standard(PROFILE)
     study = judge_site(site, search_site(site, RUN), standard, RUN)
-    assert audit_study(study, standard, site) == []
+    assert rejudge(study, standard, site) == []
     return study.rows[0]
 
 
@@ -86,10 +86,15 @@ def test_with_its_panel_each_of_them_has_a_demand(tmp_path, mid):
     for check in checks.values():
         assert check.demand_kN > 0.0
         assert check.verdict in (Verdict.PASS, Verdict.FAIL)
-    shared = next(one for one in row.checks if one.id == "foot_anchor.tendon").action
+    shared = next(one for one in row.checks if one.id == "foot_anchor.tendon")
     assert shared.is_by_panel is (mid == "no")
-    parts = shared.foot_part_kN + shared.guy_part_kN
-    assert parts == pytest.approx(shared.larger_force)
+    forces = {one.quantity: one.value_kN for one in row.forces}
+    key = "panel_foot_anchor" if shared.is_by_panel else "foot_anchor"
+    (state,) = (one for one in row.statics if key in one.brings and one.load is None)
+    parts = state.foot_anchor_kN + state.uphill_guy_kN
+    assert min(state.foot_anchor_kN, state.uphill_guy_kN) >= 0.0
+    assert parts == pytest.approx(forces[key])
+    assert shared.read("E_p0" if shared.is_by_panel else "E_s") == forces[key]
     require_one_anchor_told(row)
 
 
@@ -97,9 +102,9 @@ def require_one_anchor_told(row):
     """Foot anchor and lateral anchor as one: the root of both squares."""
     forces = {
         member: max(
-            one.action_kN
+            one.read("E_k")
             for one in row.checks
-            if one.member == member and one.action and one.action.position == "edge"
+            if one.member == member and one.is_of_force and one.position == "edge"
         )
         for member in ("foot_anchor", "lateral_anchor")
     }

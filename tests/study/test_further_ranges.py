@@ -15,12 +15,12 @@ from netdesign.site.model import InputEcho
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
-from netdesign.study.audit.study_audit import audit_study
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe, build_scene
 from netdesign.study.record_cases import read_point, record_point
+from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site
 
@@ -127,12 +127,12 @@ def test_the_document_holds_what_ranges_and_nothing_else(study):
 
 
 def test_the_audit_finds_nothing_but_what_was_altered(study, standard):
-    assert audit_study(study, standard) == []
+    assert rejudge(study, standard) == []
     row = study.rows[0]
     for change in ({"slack": 0.074}, {"slack": None}):
         case = replace(row.cases[0], case=replace(row.cases[0].case, **change))
         altered = replace(row, cases=[case, *row.cases[1:]])
-        told = audit_study(replace(study, rows=[altered, *study.rows[1:]]), standard)
+        told = rejudge(replace(study, rows=[altered, *study.rows[1:]]), standard)
         assert any("slack" in str(one) for one in told)
 
 

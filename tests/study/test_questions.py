@@ -6,10 +6,10 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.study.audit import audit_study
 from netdesign.study.cases import solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
+from netdesign.study.rejudge import rejudge
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site
@@ -55,7 +55,7 @@ def test_the_study_is_read_again_and_does_not_contradict_itself(judged):
     site, study = judged
     again = read_document(write_document(study))
     assert again.rows[0].questions == [ASKED]
-    assert audit_study(again) == audit_study(again, STANDARD, site) == []
+    assert rejudge(again) == rejudge(again, STANDARD, site) == []
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_the_study_is_read_again_and_does_not_contradict_itself(judged):
 )
 def test_a_question_taken_for_an_answer_is_found(judged, changes):
     _, study = judged
-    assert audit_study(alter(study, **changes), STANDARD)
+    assert rejudge(alter(study, **changes), STANDARD)
 
 
 def test_a_question_forgotten_with_its_check_is_found_beside_the_site(judged):
@@ -78,4 +78,4 @@ def test_a_question_forgotten_with_its_check_is_found_beside_the_site(judged):
     altered = alter(study)
     forgotten = replace(altered.rows[0], questions=[])
     altered = replace(altered, rows=[forgotten, *altered.rows[1:]])
-    assert audit_study(altered, STANDARD, site)
+    assert rejudge(altered, STANDARD, site)

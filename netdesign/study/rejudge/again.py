@@ -111,7 +111,7 @@ def _find_accuracy(study: Study) -> float:
 def _compare_inputs(
     row: RowStudy, given: NetRow, site: Site, law: CreepLaw
 ) -> Iterator[Message]:
-    """What was read of a row, and what the study shows of it."""
+    """Inputs of a row as they were read, beside what the study shows of them."""
     place = say("audit.row", row=row.id)
     stored = {
         "inputs": row.inputs,
@@ -204,7 +204,7 @@ def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Mess
 def _know_again(
     row: RowStudy, basis: Basis, effects: RowEffects, floor: FloorRecord | None
 ) -> Known:
-    """What the study states of the solved cases of a row."""
+    """Knowledge of a row by what the study states of its solved cases."""
     held = row.held_sideways
     panel = row.panel
     is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -14,11 +15,22 @@ from netdesign.checks.forces import (
     calculate_resistance,
     rate,
 )
-from netdesign.checks.schema import ACTION_FACTOR, MODES_WITHOUT_FORCE, ROPE_ANGLE
+from netdesign.checks.schema import (
+    ACTION_FACTOR,
+    LATERAL_SHARE,
+    MODES_WITHOUT_FORCE,
+    ROPE_ANGLE,
+)
 from netdesign.outcome import Verdict
 from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
-from netdesign.structure.members import CARRYING_MEMBERS, ROPE_OF, Member
-from netdesign.study.member_force import leave_out_governing
+from netdesign.structure.members import (
+    CARRYING_MEMBERS,
+    ROPE_OF,
+    Member,
+    RopeForce,
+    name_in_panel,
+)
+from netdesign.study.member_force import PARTS, PUSHED, leave_out_governing
 from netdesign.study.records import CheckRecord, ProfileRecord, RowStudy
 from netdesign.study.rejudge.cases import is_complete, name_members, same_point
 from netdesign.study.rejudge.compare import (
@@ -27,8 +39,10 @@ from netdesign.study.rejudge.compare import (
     guard,
     tell_differences,
     tell_unequal,
+    tell_value,
     tell_verdict,
 )
+from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
@@ -69,6 +83,8 @@ def rejudge_checks(
             yield from _rejudge_factors(where, check, values, clauses)
             steps = _rejudge_steps(where, check, known, values)
             yield from guard(where, steps)
+            if check.is_of_force:
+                yield from _rejudge_sources(where, check, row, known, values)
             yield from _rejudge_force(where, check, row)
             if not accepts_law:
                 yield from _rejudge_snow(where, check, row)
@@ -240,6 +256,65 @@ def _rejudge_leaf(
         )
     if step.kind is Kind.PROFILE and step.source in values and step.source != _RULES:
         yield from tell_unequal(place, [(step.symbol, step.value, values[step.source])])
+
+
+def _rejudge_sources(
+    place: Message,
+    check: CheckRecord,
+    row: RowStudy,
+    known: Mapping[str, Ends],
+    values: Mapping[str, float],
+) -> Iterator[Message]:
+    """Every force that bears on a member is among its leaves, and no other one."""
+    expected = _name_sources(check, row, known)
+    if check.mode == "sliding":
+        expected["t"] = "tilt"
+    if check.position == "edge":
+        expected["f_R"] = _RULES
+    if _is_at_foot(check, row) and LATERAL_SHARE in values:
+        expected["k"] = LATERAL_SHARE
+    solved = {one.symbol for one in check.steps if one.kind is Kind.SOLVED}
+    for symbol in dict.fromkeys((*expected, *sorted(solved))):
+        step, follows = check.known.get(symbol), expected.get(symbol, "")
+        stored = step.source if step else ""
+        if stored != follows:
+            yield tell_value(place, f"{symbol}.source", stored, follows)
+
+
+def _name_sources(
+    check: CheckRecord, row: RowStudy, known: Mapping[str, Ends]
+) -> dict[str, str]:
+    """Solved quantities that a member's force follows from, by their symbols."""
+    member = check.member
+    if member in ROPE_OF:
+        return {"T_r": ROPE_OF[member]}
+    panel, letter = name_in_panel(member), "V" if check.mode == "sliding" else "E"
+    sources = {f"{letter}_p0": panel, f"{letter}_g0": f"floor.{member}"}
+    sources = {symbol: one for symbol, one in sources.items() if one in known}
+    sources[f"{letter}_s"] = member
+    is_pushed = check.position == "edge" and member in PUSHED and panel in known
+    if is_pushed and row.panel is not None and row.panel.end_guy_deg is not None:
+        sources["T_r"] = RopeForce.UPPER_ALONG
+    return sources | _name_sideways(member, row.held_sideways)
+
+
+def _name_sideways(member: str, held: HeldSidewaysRecord | None) -> dict[str, str]:
+    """Solved quantities by which the load along the row adds to a member's force."""
+    if held is None or member == Member.FOOT_ANCHOR:
+        return {}
+    if member in PARTS:
+        return {"c": PARTS[member], "P": "head_pull"}
+    splay = math.radians(held.splay_deg)
+    if held.share * held.pull_high_kN / math.tan(splay) <= held.least_tension_kN:
+        return {}  # what the guys hold anyway
+    return {"w": "post_part", "P": "head_pull", "T_min": "least_tension"}
+
+
+def _is_at_foot(check: CheckRecord, row: RowStudy) -> bool:
+    """The load along the row acts on that anchor at the net's foot."""
+    is_shared = any(one.uphill_x_m == 0.0 for one in row.statics)
+    at_foot = {Member.FOOT_ANCHOR, *([Member.UPHILL_ANCHOR] if is_shared else [])}
+    return check.member in at_foot
 
 
 def is_left_open(check: CheckRecord, row: RowStudy) -> bool:

@@ -6,33 +6,35 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import Band, load_standard
-from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.checks import load_standard
+from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
-from netdesign.study.audit import audit_study
 from netdesign.study.cases import solve_site
-from netdesign.study.demand import (
-    build_demand,
-    leave_out_governing,
-    tell_governing,
-)
 from netdesign.study.document import read_document, write_document
 from netdesign.study.effects import find_effects
 from netdesign.study.floor import find_row_floor, record_floor
+from netdesign.study.force_records import ForceRecord
 from netdesign.study.judge import judge_site
+from netdesign.study.member_force import (
+    RowForces,
+    find_force,
+    leave_out_governing,
+    tell_governing,
+)
 from netdesign.study.probe import Probe
+from netdesign.study.record_cases import record_point
 from netdesign.study.record_provenance import record_profile
-from netdesign.study.sideways import MemberLoad
+from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say
+from tests.read_check import bring, compare_support
 from tests.small_site import RUN, build_row, build_site, resist
 
 ACCEPTED = Project(accepted_law=RUN.creep_law.name)  # the snow here is light
-PLAIN = MemberLoad()  # the force of the section as it is
 SWISS = load_standard("swiss-guideline-2007")
 RANGES = Ranges.of(
     density=Interval(low=200.0, high=270.0, count=3),
@@ -79,8 +81,8 @@ def test_short_light_snow_fails_by_the_guideline_where_the_coupled_force_passed(
     _, study = judge(solved, resistances=resistances)
     check = checks_of(study)["foot_anchor.tendon"]
     assert study.verdict == check.verdict == Verdict.FAIL
-    assert check.action.governs == "guideline"
-    assert check.action.floor_case == "load_case_2"
+    assert check.governs == "guideline"
+    assert check.load_case == "load_case_2"
     assert "the guideline's load (load case 2) governs" in str(check.reason)
     assert 1.4 < check.utilisation < 1.5
     none = replace(SWISS, floor="none")
@@ -97,22 +99,23 @@ def test_every_demand_is_the_larger_of_both_and_says_which(solved):
     floor = {one.member: one for one in study.rows[0].floor.forces}
     seen = set()
     for check in study.rows[0].checks:
-        action = check.action
-        if action is None:
+        if not check.is_of_force:
             continue
-        on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
-        least = action.share * floor[check.member].force_kN + action.added_kN
-        least *= on_row
-        assert action.guideline_kN == pytest.approx(least, rel=1e-12)
-        solved_kN = action.share * action.solved_kN + action.added_kN
-        value = max(solved_kN * on_row, least)
-        assert check.action_kN == pytest.approx(value, rel=1e-12)
-        high = max(action.coupled_kN, least) * check.action_factor
-        assert check.demand_high_kN == pytest.approx(high, rel=1e-12)
-        assert check.demand_low_kN >= least * check.action_factor * (1.0 - 1e-12)
-        is_floor = least > 0.0 and least >= action.coupled_kN
-        assert action.governs == ("guideline" if is_floor else "coupled")
-        seen.add((check.position, action.governs))
+        letter = check.name_force("g")[0]
+        tilt = check.read("t") or 1.0
+        least = bring(check, floor[check.member].force_kN)
+        assert check.read(f"{letter}_g") == pytest.approx(least, rel=1e-12)
+        solved_kN = bring(check, check.read(f"{letter}_s"))
+        value = max(solved_kN, least)
+        assert check.read("E_k") == pytest.approx(tilt * value, rel=1e-12)
+        coupled = check.read_band(f"{letter}_c")[1]
+        on_demand = tilt * check.read("γ_E")
+        low, high = check.read_band("E_d")
+        assert high == pytest.approx(max(coupled, least) * on_demand, rel=1e-12)
+        assert low >= least * on_demand * (1.0 - 1e-12)
+        is_floor = least > 0.0 and least >= coupled
+        assert check.governs == ("guideline" if is_floor else "coupled")
+        seen.add((check.position, check.governs))
     assert {position for position, _ in seen} == {"intermediate", "edge"}
     assert ("intermediate", "guideline") in seen
 
@@ -172,7 +175,7 @@ def test_what_the_floor_takes_for_granted_stands_in_record_and_notes(solved):
     assert "factor of 1.1 lies below the least" in told[1]
     assert told[1].endswith("the load of the guideline takes 1.2")
     assert [one for one in study.rows[0].notes if one in floor.assumed] == floor.assumed
-    assert audit_study(read_document(write_document(study)), SWISS, site) == []
+    assert rejudge(read_document(write_document(study)), SWISS, site) == []
     densities = {one.name: one.density_kg_m3 for one in study.rows[0].guideline.cases}
     assert densities["load_case_1"] == pytest.approx(351.0, rel=1e-12)
     assert {one.glide_factor for one in study.rows[0].guideline.cases} == {1.2}
@@ -197,52 +200,67 @@ def test_floor_that_is_not_known_proves_nothing(solved):
         assert check.changes == []  # none of them makes it known
     assert study.rows[0].floor.forces == []
     assert study.rows[0].floor.reason is not None
-    assert audit_study(study) == []
+    assert rejudge(study) == []
     first, *others = study.rows[0].checks
     passed = replace(first, verdict=Verdict.PASS, reason=say("check.passes"))
     row = replace(study.rows[0], checks=[passed, *others])
-    told = [str(one) for one in audit_study(replace(study, rows=[row]))]
+    told = [str(one) for one in rejudge(replace(study, rows=[row]))]
     assert any("says PASS, but its parts give NOT PROVEN" in one for one in told)
     assert site.rows[0].slope_angle == 0.04
+
+
+def find_member_force(member, ends, width, *, has_floor=True):
+    """Force on a member from the low end, value and high end of the solved one [kN]."""
+    given = next(one for one in ROW.resistances if one.member == member)
+    at = record_point(Case(density=250.0, friction_angle=0.5, inclination=0.5))
+    low, value, high = ends
+    solved = ForceRecord(
+        quantity=member, low_kN=low, value_kN=value, high_kN=high, case=at
+    )
+    floor = record_floor(a_floor(), ROW).forces
+    forces = RowForces(
+        row=ROW,
+        standard=SWISS,
+        effects=find_effects(ROW, SWISS, RANGES),
+        largest={member: solved},
+        floor={one.member: one for one in floor} if has_floor else None,
+        held=None,
+        tilt=0.0,
+    )
+    return find_force(forces, given, width)
 
 
 def test_band_is_cut_off_at_the_floor():
     draw, effects = random.Random(31), find_effects(ROW, SWISS, RANGES)
     width = effects.supports[0]
-    least = a_floor().find(Member.POST)
-    scale = least.force
+    scale = a_floor().find(Member.POST).force / 1e3
     for _ in range(200):
         ends = sorted(draw.uniform(0.3, 1.9) * scale for _ in range(3))
-        solved = Band(low=ends[0], value=ends[1], high=ends[2])
-        demand = build_demand(effects, Member.POST, width, solved, least, PLAIN)
-        action = demand.action
-        assert action.low == max(ends[0], scale)
-        assert action.value == max(ends[1], scale)
-        assert action.high == max(ends[2], scale)
-        assert demand.governs == ("guideline" if scale >= ends[2] else "coupled")
-    free = build_demand(effects, Member.POST, width, solved, None, PLAIN)
-    assert free.action == solved
-    assert (free.governs, free.guideline) == ("coupled", None)
+        found = find_member_force(Member.POST, ends, width)
+        cut = [max(end, scale) for end in ends]
+        action = found.action
+        assert [action.low, action.value, action.high] == pytest.approx(cut, rel=1e-12)
+        assert action.low >= found.on.guideline.value
+        assert found.governs == ("guideline" if scale >= ends[2] else "coupled")
+    free = find_member_force(Member.POST, ends, width, has_floor=False)
+    assert [free.action.low, free.action.value, free.action.high] == ends
+    assert (free.governs, free.on.guideline) == ("coupled", None)
 
 
 def test_reason_names_the_load_and_gives_back_its_own_part():
-    effects = find_effects(ROW, SWISS, RANGES)
-    least = a_floor().find(Member.FOOT_ANCHOR)
-    force = Band(low=0.0, value=0.0, high=0.0)
-    member = Member.FOOT_ANCHOR
-    demand = build_demand(effects, member, effects.supports[1], force, least, PLAIN)
+    width, none = find_effects(ROW, SWISS, RANGES).supports[1], (0.0, 0.0, 0.0)
+    forced = find_member_force(Member.FOOT_ANCHOR, none, width)
+    case = a_floor().find(Member.FOOT_ANCHOR).case.name
     reason = say("check.passes")
-    told = tell_governing(reason, demand.record(effects, member))
+    told = tell_governing(reason, forced, case)
     assert str(told).endswith(
         "; the guideline's load (load case 2) governs the demand."
     )
     assert leave_out_governing(told) == reason
     assert leave_out_governing(reason) == reason
-    guy = Member.DOWNHILL_GUY
-    none = a_floor().find(guy)
-    slack = build_demand(effects, guy, effects.supports[1], force, none, PLAIN)
+    slack = find_member_force(Member.DOWNHILL_GUY, none, width)
     assert slack.action.high == 0.0
-    assert tell_governing(reason, slack.record(effects, guy)) == reason
+    assert tell_governing(reason, slack, case) == reason
 
 
 def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):
@@ -259,32 +277,36 @@ def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):
     spacing = ROW.layout.post_spacing
     # f_R = 1.00 + 1.25 * 2.4 = 4.0 over 4 m / 3
     wide = 0.5 * spacing + 4.0 * 4.0 / 3.0
-    assert inside.action.loaded_width_m == spacing
-    assert end.action.loaded_width_m == pytest.approx(wide, rel=1e-9)
+    assert inside.read("b_e") is None
+    assert compare_support(end) == pytest.approx(
+        compare_support(inside) * wide / spacing, rel=1e-12
+    )
+    assert end.read("b_e") == pytest.approx(wide, rel=1e-9)
     assert end.demand_kN == pytest.approx(inside.demand_kN * wide / spacing, rel=1e-12)
-    assert end.resistance_characteristic_kN == 3000.0
-    assert inside.resistance_characteristic_kN == 700.0
+    assert end.read("R_k") == 3000.0
+    assert inside.read("R_k") == 700.0
     assert (inside.verdict, end.verdict) == (Verdict.PASS, Verdict.PASS)
     assert wide > 2.0 * spacing - 0.5
 
 
 def test_row_that_goes_on_has_no_end(solved):
     _, study = judge(solved, gap=0.0)
-    assert {c.position for c in study.rows[0].checks if c.action} == {"intermediate"}
+    of_force = [one for one in study.rows[0].checks if one.is_of_force]
+    assert {one.position for one in of_force} == {"intermediate"}
 
 
 @pytest.mark.parametrize(("gap", "is_told"), [(1.99, True), (2.0, True), (1.7, False)])
 def test_gap_close_to_a_threshold_shows_both_values(solved, gap, is_told):
     """1.99 and 2.00 m give one demand, and the other value beside it."""
     _, study = judge(solved, gap=gap)
-    action = checks_of(study)["foot_anchor.tendon.end"].action
-    keys = [note.key for note in study.rows[0].notes]
-    assert ("row.gap_at_threshold" in keys) is is_told
-    assert (action.other_width_m is not None) is is_told
+    width = checks_of(study)["foot_anchor.tendon.end"].read("b_e")
+    told = [one for one in study.rows[0].notes if one.key == "row.gap_at_threshold"]
+    assert bool(told) is is_told
     free = 0.5 * ROW.layout.post_spacing + 4.0 * 4.0 / 3.0
-    assert (action.loaded_width_m == pytest.approx(free, rel=1e-9)) is is_told
+    assert (width == pytest.approx(free, rel=1e-9)) is is_told
     if is_told:
-        assert action.other_width_m < 0.7 * action.loaded_width_m
+        assert told[0].arguments["wider"] == pytest.approx(width, rel=1e-12)
+        assert told[0].arguments["other"] < 0.7 * width
 
 
 def test_comparison_ends_in_a_sentence_with_size_and_cause(solved):
@@ -303,7 +325,7 @@ def test_study_agrees_with_itself_its_site_and_its_floor(solved):
     for standard in (SWISS, replace(SWISS, floor="none")):
         site, study = judge(solved, standard)
         again = read_document(write_document(study))
-        assert audit_study(again, standard, site) == []
+        assert rejudge(again, standard, site) == []
     floor = study_floor(judge(solved)[1])
     assert set(floor) == set(CARRYING_MEMBERS)
 
