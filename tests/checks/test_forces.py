@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.calculation.quantity import given
 from netdesign.checks import forces as formulas
-from netdesign.checks.forces import MemberLoad, place_end_support, place_support
+from netdesign.checks.forces import MemberLoad, Support, place_end_support
 
 UNITS = {"E_s": "kN", "b": "m", "Δl": "m", "P": "kN", "β": "deg", "T_min": "kN"}
 UNITS |= {"T_r": "kN", "γ": "deg", "V_k": "kN", "R_k": "kN", "R_m": "kN", "R_min": "kN"}
@@ -31,8 +31,8 @@ def test_half_a_bay_and_the_end_effect_load_an_end_support():
     assert END.width.value == pytest.approx(3.2, rel=1e-15)
     assert END.width.source == "(S9)"
     assert END.position == "edge"
-    inside = place_support(q("b", 4.0))
-    assert inside.width is inside.spacing
+    inside = Support(position="intermediate")
+    assert inside.width is None
 
 
 def test_load_along_the_row_at_the_foot():
@@ -74,7 +74,7 @@ def test_a_force_inside_the_row_comes_to_its_support():
     )
     assert ends(force) == pytest.approx((64.0, 72.0, 89.0), rel=1e-14)
     plain = formulas.bring_to_support(
-        "E_c", q("E_s", 100.0), MemberLoad(), place_support(q("b", 4.0))
+        "E_c", q("E_s", 100.0), MemberLoad(), Support(position="intermediate")
     )
     assert plain.value == 100.0
     floor = formulas.bring_floor_to_support("E_g", q("E_g0", 100.0), load, END)
@@ -98,7 +98,7 @@ def test_a_rope_pulls_more_at_the_end_of_the_row():
         wide = place_end_support(q("b", 4.0), q("f_R", 1.5), q("Δl", reach))
         assert formulas.pull_at_end(rope, wide).value == pytest.approx(pull, rel=1e-14)
     with pytest.raises(ValueError, match="no end effect"):
-        formulas.pull_at_end(rope, place_support(q("b", 4.0)))
+        formulas.pull_at_end(rope, Support(position="intermediate"))
 
 
 def test_an_end_guy_pulls_and_presses():
