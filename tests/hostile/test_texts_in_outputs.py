@@ -49,7 +49,7 @@ ATTACKS = (
 )
 # Set by the program, compared with words of its own, or of a form that is checked.
 KEPT = {"schema", "member", "mode", "quantity", "anchor", "started", "status", "id"}
-KEPT |= {"sense", "governs"}
+KEPT |= {"sense", "governs", "symbol", "formula", "kind", "unit"}
 
 
 def attack(value, text, key=""):

@@ -19,7 +19,7 @@ from netdesign.report.view.check_view import find_governing, find_highest, rank_
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.audit import audit_study
+from netdesign.study.rejudge import rejudge
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import _find_worst
 from netdesign.words.catalogue import LANGUAGES
@@ -108,7 +108,7 @@ def test_audit_finds_infinity_taken_away_and_added(study):
 
     def count(checks):
         altered = replace(study, rows=[replace(row, checks=checks)])
-        return sum("given as infinite" in str(one) for one in audit_study(altered))
+        return sum("given as infinite" in str(one) for one in rejudge(altered))
 
     turned = [replace(one, is_unbounded=not one.is_unbounded) for one in row.checks]
     assert count(row.checks) == 0

@@ -97,8 +97,12 @@ class CheckLine:
     def conditions(self) -> list[tuple[str, str]]:
         """Conditions of a verdict by the numbers, and what is told without them."""
         profile, factor, lacks = (
-            self.book.words(f"caption.changed_{key}")
-            for key in ("profile", "factor", "lacks")
+            self.book.words(key)
+            for key in (
+                "caption.changed_profile",
+                "caption.changed_factor",
+                "caption.changed_lacks",
+            )
         )
         return [
             *((f"{name}=1", profile) for name in GIVEN_UNCHANGED.values()),
