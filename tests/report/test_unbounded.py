@@ -19,9 +19,9 @@ from netdesign.report.view.check_view import find_governing, find_highest, rank_
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.rejudge import rejudge
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import _find_worst
+from netdesign.study.rejudge import rejudge
 from netdesign.words.catalogue import LANGUAGES
 from tests.checks.given_pulls import POST, study_row
 from tests.report.build_study import build_row
