@@ -13,6 +13,7 @@ from tests.report.reading import PageReader
 FOOT, UP_GUY, UP = "Foot anchor", "Uphill guy", "Uphill anchor"
 DOWN_GUY, DOWN, POST, BASE = "Downhill guy", "Downhill anchor", "Post", "Post base"
 SLIDING = "Post base, sliding"
+ENDS = ("⁻", "", "⁺")  # of a band, as headings mark them
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
@@ -80,11 +81,11 @@ def _read_row(reader, row):
         symbols = {name_symbol(line[0]) for line in table}
         key = {"k": "held", "Support": "widths", "Member": "actions"}.get(first)
         key = key or {"Check": "checks", "Anchor": "turns"}.get(first)
+        key = "by_panel" if first == "Member" and "Es" not in head else key
         if first == "Bringsthelargest":
             key = "floors" if "λ" in symbols else "states"
-        key = "by_panel" if "Eq" in head else key
         if first == "No.":
-            key = "tests" if "n" in head else "resistances"
+            key = "tests" if "Rm" in head else "resistances"
         found[key] = _turn(table) if first == "Bringsthelargest" else _line_up(table)
     inputs = {one[0]: one[2] for one in reader.tables[f"{row}-inputs"][0][1:]}
     checks, *further = reader.tables[f"{row}-checks"]
@@ -93,7 +94,7 @@ def _read_row(reader, row):
         states=found.get("states", []),
         floors=found.get("floors", []),
         held=found["held"][0] if "held" in found else {},
-        widths={one["Support"]: one for one in found["widths"]},
+        widths={one["Support"]: one for one in found.get("widths", [])},
         actions=found["actions"],
         by_panel=found.get("by_panel", []),
         checks=found["checks"],
@@ -223,6 +224,8 @@ class RowAgain:
         self.widen()
         for action in self.row.actions:
             self.act(action)
+        for held in self.list_held_ends():
+            self.hold_end(held)
         for check in self.row.checks:
             self.judge(check)
         for given in self.row.resistances.values():
@@ -410,26 +413,19 @@ class RowAgain:
 
     def widen(self):
         for support, one in self.row.widths.items():
-            self.same(f"{support} b", one["b"], self.spacing)
-            if support == "inside":
-                self.same("inside b_e", one["be"], self.spacing)
-            elif support != "end":
-                self.widen_rope(support, one)
-            if support != "end":
-                continue
-            widths = self.list_end_widths()
-            (width, factor, length), *others = sorted(widths, reverse=True)
+            self.holds("support of widths", support == "end", support)
+            self.same("end b", one["b"], self.spacing)
+            width, factor, length = max(self.list_end_widths())
             self.same("end b_e", one["be"], width)
             self.same("end f_R", one["fR"], factor)
             self.same("end dl", one["Δl"], length)
-            self.same("end b_e'", one["be'"], others[0][0] if others else None)
 
-    def widen_rope(self, member, one):
-        """Width of what holds the ropes: that of a whole panel, and the end effect."""
+    def find_width(self, support):
+        """b_e / b of a support."""
+        if support == "inside":
+            return 1.0
         end = self.row.widths["end"]
-        for symbol in ("fR", "Δl"):
-            self.same(f"{member} {symbol}", one[symbol], end[symbol])
-        self.same(f"{member} b_e", one["be"], one["b"] + one["fR"] * one["Δl"])
+        return end["be"] / end["b"]
 
     def list_end_widths(self):
         glide = self.input("glide factor") or self.row.floors[0]["N"]
@@ -450,69 +446,97 @@ class RowAgain:
     # 5. actions
 
     def act(self, one):
+        """A base that slides has the forces across it, and t; the others E_k."""
         what = f"{one['Member']} {one['Support']}"
         member = BASE if one["Member"] == SLIDING else one["Member"]
-        if one["Member"] in self.row.widths:  # at the row's end, pulled by a rope
-            width = self.row.widths[one["Member"]]
-            pulled = one["g"] * one["Es"] * width["be"] / width["b"]
-            self.same(f"{what} k_q", one["kq"], 1.0)
-            self.same(f"{what} E_c", one["Ec"], pulled)
-            self.same(f"{what} E_k", one["Ek"], one["Ec"])
-            one["ends"] = {"⁻": None, "": pulled, "⁺": one["Ec⁺"]}
-            return
         solved = self.find_force(member, self.row.states)
         self.same(f"{what} E_s", one["Es"], solved)
         self.check_band(what, member, one)
-        share, added = self.add_sideways(one["Member"])
-        self.same(f"{what} g", one["g"], share)
-        for end in ("⁻", "", "⁺"):
-            near = 1e-5 * self.row.held.get("P", 0.0)
-            self.same(f"{what} A{end}", one[f"A{end}"], added[end], near)
+        self.add_sideways(what, member, one)
         is_shared = self.input("uphill anchor distance") == 0.0
         turns = member == FOOT or (is_shared and member == UP)
-        lateral = math.hypot(1.0, self.share) if turns else 1.0
-        self.same(f"{what} k_q", one["kq"], lateral)
-        width = self.row.widths[one["Support"]]
-        on_row = one["kq"] * width["be"] / width["b"]
-        coupled = {
-            end: (one["g"] * one[f"Es{end}"] + one[f"A{end}"]) * on_row
-            for end in ("⁻", "", "⁺")
-        }
+        lateral = math.hypot(1.0, self.share) if turns else None
+        self.same(f"{what} k_q", one.get("kq"), lateral)
+        coupled = {end: self.bring(one, one[f"Es{end}"], end) for end in ENDS}
         self.same(f"{what} E_c", one["Ec"], coupled[""])
         self.same(f"{what} E_c+", one["Ec⁺"], coupled["⁺"])
         least = 0.0
-        if one["Eg0"] is not None:
+        if one.get("Eg0") is not None:
             floor = self.find_force(member, self.row.floors)
             self.same(f"{what} E_g0", one["Eg0"], floor)
-            least = (one["g"] * one["Eg0"] + one["A"]) * on_row
+            least = self.bring(one, one["Eg0"])
             self.same(f"{what} E_g", one["Eg"], least)
-        beside = self.follow_panel(what, member, one, on_row)
+        beside = self.follow_panel(what, member, one)
+        slides = one["Member"] == SLIDING
+        self.same(f"{what} t", one.get("t"), self.lean() if slides else None)
+        along = one["t"] if slides else 1.0
+        one["across"] = max(coupled[""], beside[""], least)
         one["ends"] = {
-            end: max(force, beside[end], least) for end, force in coupled.items()
+            end: along * max(force, beside[end], least)
+            for end, force in coupled.items()
         }
         self.same(f"{what} E_k", one["Ek"], one["ends"][""])
 
-    def follow_panel(self, what, member, one, on_row):
+    def bring(self, one, force, end=""):
+        """Force on the support from one inside the row: (g E + A) k_q b_e / b."""
+        share, lateral = one.get("g") or 1.0, one.get("kq") or 1.0
+        added = one.get(f"A{end}") or 0.0
+        return (share * force + added) * lateral * self.find_width(one["Support"])
+
+    def follow_panel(self, what, member, one):
         """Force on the support by the panel at each end; 0 in a row without one."""
         found = [
             p for p in self.row.by_panel
             if (p["Member"], p["Support"]) == (one["Member"], one["Support"])
         ]  # fmt: skip
         if not found:
-            return dict.fromkeys(("⁻", "", "⁺"), 0.0)
+            return dict.fromkeys(ENDS, 0.0)
         (panel,) = found
         states = self.find_states(f"{member} by the panel", self.row.states)
         force = self.read_state(member, states[0]) if states else 0.0
         if member == FOOT and states:
             force = max(force, states[0]["Fm"])
-        self.same(f"{what} E_p", panel["Ep"], force)
+        self.same(f"{what} E_p0", panel["Ep0"], force)
+        pushes = dict.fromkeys(ENDS, 0.0)
+        if panel.get("Tr") is not None:
+            pushes = self.push(what, panel)
         beside = {
-            end: (one["g"] * panel[f"Ep{end}"] + one[f"A{end}"]) * on_row
-            + panel[f"Z{end}"]
+            end: self.bring(one, panel[f"Ep0{end}"], end) + pushes[end]
             for end in ("⁻", "")
         }
-        self.same(f"{what} E_q", panel["Eq"], beside[""])
-        return {**beside, "⁺": panel["Eq⁺"]}
+        self.same(f"{what} E_p", panel["Ep"], beside[""])
+        self.holds(f"{what} E_p+", panel["Ep⁺"] >= beside[""], panel["Ep⁺"])
+        self.same(f"{what} E_k beside", panel["Ek"], one["Ek"])
+        return {**beside, "⁺": panel["Ep⁺"]}
+
+    def push(self, what, panel):
+        """What the end guy adds to the end post at each end of its pull."""
+        pulls = self.pull_along(what, panel)
+        slope = math.tan(math.radians(panel["γ"]))
+        pushes = {end: pull * slope for end, pull in pulls.items()}
+        for end, push in pushes.items():
+            self.same(f"{what} Z{end}", panel[f"Z{end}"], push)
+        return pushes
+
+    def pull_along(self, what, panel):
+        """H at each end: rope's pull with the end effect, whose angle is an input."""
+        end = self.row.widths["end"]
+        factor, length = end["fR"], end["Δl"] / end["b"]
+        grown = 1.0 + factor * (length if length <= 0.5 else 1.0)
+        pulls = {at: panel[f"Tr{at}"] * grown for at in ENDS}
+        self.same(f"{what} H", panel["H"], pulls[""])
+        if panel["γ"] is not None:
+            angle = self.input("angle of the end guy to the row")
+            self.same(f"{what} gamma", panel["γ"], angle)
+        return pulls
+
+    def hold_end(self, one):
+        """Member that holds a border rope at the row's end, and has no other force."""
+        what = f"{one['Member']} {one['Support']}"
+        along = 1.0 if one["γ"] is None else math.cos(math.radians(one["γ"]))
+        pulls = self.pull_along(what, one)
+        one["ends"] = {end: pull / along for end, pull in pulls.items()}
+        self.same(f"{what} E_k", one["Ek"], one["ends"][""])
 
     def find_force(self, member, states):
         """Force of the state that brings a member most; 0 of a slack one."""
@@ -537,23 +561,26 @@ class RowAgain:
             is_in = one["Es⁻"] >= low * 0.999 and one["Es⁺"] >= high * 0.999
             self.holds(f"{what} band", is_in and one["Es⁻"] <= one["Es"], low, high)
 
-    def add_sideways(self, member):
-        """Share g, and addition A at each end."""
-        ends, held = ("⁻", "", "⁺"), self.row.held
-        nothing = dict.fromkeys(ends, 0.0)
-        share = self.lean() if member == SLIDING else 1.0
-        if not held or member == FOOT:
-            return share, nothing
-        beta, k = math.radians(held["β"]), held["k"]
-        if member in (UP_GUY, UP, DOWN_GUY, DOWN):
+    def add_sideways(self, what, member, one):
+        """Share g, and addition A at each end; none where nothing is added."""
+        held, share, added = self.row.held, None, dict.fromkeys(ENDS)
+        if held and member in (UP_GUY, UP, DOWN_GUY, DOWN):
+            beta = math.radians(held["β"])
             c = held["cu" if member in (UP_GUY, UP) else "cd"]
-            added = {end: c * k * held[f"P{end}"] / math.sin(beta) for end in ends}
-            return 0.5 / math.cos(beta), added
-        added = {
-            end: held["w"] * max(k * held[f"P{end}"] / math.tan(beta) - held["Tmin"], 0)
-            for end in ends
-        }
-        return share, {end: share * one for end, one in added.items()}
+            share = 0.5 / math.cos(beta)
+            added = {
+                end: c * held["k"] * held[f"P{end}"] / math.sin(beta) for end in ENDS
+            }
+        elif held and member != FOOT:
+            slope, least = math.tan(math.radians(held["β"])), held["Tmin"]
+            added = {
+                end: held["w"] * max(held["k"] * held[f"P{end}"] / slope - least, 0)
+                for end in ENDS
+            }
+        self.same(f"{what} g", one.get("g"), share)
+        for end in ENDS:
+            near = 1e-5 * held.get("P", 0.0)
+            self.same(f"{what} A{end}", one.get(f"A{end}"), added[end], near)
 
     def lean(self):
         """Largest tangent of the post's tilt."""
@@ -562,11 +589,15 @@ class RowAgain:
 
     # 6. checks
 
+    def list_held_ends(self):
+        """Members that only hold a rope; their other forces are missing."""
+        return [one for one in self.row.by_panel if one["Ep0"] is None]
+
     def find_action(self, title):
         support = "end" if title.endswith(", end of the row") else "inside"
         member = title.split(",")[0]
         member = SLIDING if title.startswith(SLIDING) else member
-        for one in self.row.actions:
+        for one in (*self.row.actions, *self.list_held_ends()):
             if (one["Member"], one["Support"]) == (member, support):
                 return one
         raise AssertionError(title)
@@ -576,9 +607,7 @@ class RowAgain:
         action = self.find_action(title)
         snow = "Factor on the characteristic force that the snow"
         self.same(f"{title} gamma_E", one["γE"], self.value(snow))
-        for end in ("⁻", "", "⁺"):
-            if action["ends"][end] is None:
-                continue
+        for end in ENDS:
             force = one["γE"] * action["ends"][end]
             self.same(f"{title} E_d{end}", one[f"Ed{end}"], force)
         if one["Rd"] is None:
@@ -588,7 +617,7 @@ class RowAgain:
         given = self.row.resistances[one["No."]]
         self.same(f"{title} R_k", one["Rk"], given["Rk"])
         self.same(f"{title} R_d", one["Rd"], one["Rk"] / one["γR"])
-        for end in ("⁻", "", "⁺"):
+        for end in ENDS:
             ratio = one[f"Ed{end}"] / one["Rd"]
             self.same(f"{title} mu{end}", one[f"μ{end}"], ratio)
         if one["Verdict"] == "PASS":
@@ -624,19 +653,21 @@ class RowAgain:
             worst = min(tests["Rm"] / tests["ξm"], tests["Rmin"] / tests["ξmin"])
             self.same(f"{what} of tests", given["Rk"], worst)
             self.same(f"{what} of tests, R_k", tests["Rk"], given["Rk"])
-            for key, name in (("ξm", "mean"), ("ξmin", "least")):
-                factor = self.find_correlation(name, int(tests["n"]))
-                self.same(f"{what} {key}", tests[key], factor)
+            pair = tests["ξm"], tests["ξmin"]
+            self.holds(f"{what} factors", pair in self.list_correlations(), *pair)
 
-    def find_correlation(self, name, count):
-        start = f"Correlation factor on the {name} of the tested resistances. Tests: "
-        found = {t.removeprefix(start): v for t, v in self.printed.profile.items()
-                 if t.startswith(start)}  # fmt: skip
-        return found.get(f"{count}", found.get("5 and more"))
+    def list_correlations(self):
+        """Factors on mean and least for each number of tests."""
+        start = "Correlation factor on the {} of the tested resistances. Tests: "
+        profile = self.printed.profile
+        mean, least = (start.format(one) for one in ("mean", "least"))
+        counts = [t.removeprefix(mean) for t in profile if t.startswith(mean)]
+        return [(profile[mean + one], profile[least + one]) for one in counts]
 
     def slide(self, told):
         friction, factor, pressing = list_numbers(told)
-        bases = [one["Ek"] for one in self.row.actions if one["Member"] == BASE]
+        slid = [one for one in self.row.actions if one["Member"] == SLIDING]
+        bases = [one["across"] for one in slid]
         best = min(bases, key=lambda one: abs(one - pressing))
         self.same("force that presses the base", pressing, best)
         return friction * factor * best

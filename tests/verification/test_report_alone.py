@@ -37,10 +37,17 @@ from tests.verification.untidy_site import PROFILE, write_untidy_site
 SWISS = "swiss-guideline-2007"
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05), command="", started="")
 SEED = 7
-TABLES = ("states", "floors", "actions", "checks", "turns")
+TABLES = ("states", "floors", "actions", "by_panel", "checks", "turns")
 KEYED = ("widths", "resistances", "tests")
-# Nothing that is printed follows from these alone: errors of the pulls; a count.
-GIVEN = ("±f", "±h", "n")
+# Nothing that is printed follows from these alone: errors of the pulls.
+GIVEN = ("±f", "±h")
+# A hundredth of these may change nothing: an end of a band that another load covers;
+# the small component of a pull; the mean of tests where the least counts.
+MAY_HIDE = {
+    *(("actions", "Es⁻"), ("by_panel", "Ep0⁻"), ("by_panel", "Ep⁺")),
+    *(("states", one) for one in ("fx", "fy", "hx", "hy")),
+    ("tests", "Rm"),
+}
 
 
 @pytest.fixture(scope="module")
@@ -77,11 +84,13 @@ def test_the_drawn_site_has_what_the_example_lacks(pages):
     floored, shared, free = printed.rows.values()
     governed = [one for one in floored.actions if one["Eg"] >= one["Ec⁺"]]
     assert len(governed) > len(floored.actions) / 2
-    assert floored.widths["end"]["be'"] < floored.widths["end"]["be"]
+    gap = float(floored.inputs["gap to next work"])
+    (edge,) = (v for t, v in printed.profile.items() if t.startswith("From this gap A"))
+    assert 0.9 * edge < gap < 1.1 * edge  # two widths; the wider counts
     assert all(one["xU"] == 0.0 for one in shared.states)
     assert any(one["Td"] > 0.0 for one in shared.states)
     assert shared.held == {}
-    assert set(free.widths) == {"inside"}
+    assert free.widths == {}
     assert floored.held["β"] != free.held["β"]
     told = "; ".join(g["Rk="] for row in printed.rows.values()
                      for g in row.resistances.values())  # fmt: skip
@@ -114,9 +123,8 @@ def test_a_figure_that_is_off_by_a_hundredth_is_noticed(pages, name):
         line[symbol] *= 1.01
         if not work_out(replace(printed, rows={row: changed})).wrong:
             missed.append((row, table, place, symbol))
-    below_floor = [one for one in missed if one[1] == "actions" and one[3] == "Es⁻"]
-    assert missed == below_floor  # a low end that the floor cuts off
-    assert len(missed) <= 3
+    assert {one[1:4:2] for one in missed} <= MAY_HIDE
+    assert len(missed) <= 6
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])

@@ -195,7 +195,9 @@ def _tell_load(check: CheckRecord, words: Words) -> str:
             case=show_text(words.show(name("load_case", check.load_case))),
         )
         told.insert(len(told) if check.governs == "panel" else 0, pair)
-    return words.join(told)
+    is_across = "V_k" in check.known  # the demand is along the slope
+    both = words.join(told)
+    return words("show.load_across", loads=both) if is_across else both
 
 
 def _show_loads(check: CheckRecord, words: Words) -> str:

@@ -97,8 +97,12 @@ class CheckLine:
     def conditions(self) -> list[tuple[str, str]]:
         """Conditions of a verdict by the numbers, and what is told without them."""
         profile, factor, lacks = (
-            self.book.words(f"caption.changed_{key}")
-            for key in ("profile", "factor", "lacks")
+            self.book.words(key)
+            for key in (
+                "caption.changed_profile",
+                "caption.changed_factor",
+                "caption.changed_lacks",
+            )
         )
         return [
             *((f"{name}=1", profile) for name in GIVEN_UNCHANGED.values()),
@@ -154,13 +158,17 @@ class CheckLine:
         self.sheet.write_formula(*self._place(AS_CALCULATED), formula, None, 1)
 
     def _write_loads(self) -> None:
-        """Coupled bound and guideline's force, characteristic, and the larger one."""
+        """Coupled bound and guideline's force, characteristic, and the larger one.
+
+        A base that slides has none beside its demand: they act across it.
+        """
         check = self.check
         bound, least, governing = LOADS
         for field, load in ((bound, "c"), (least, "g")):
             symbol = check.name_force(load)
             source = self.calculations.refer(self.place, symbol, field.end)
-            if not (source and check.is_of_force):
+            is_across = "V_k" in check.known
+            if is_across or not (source and check.is_of_force):
                 self._put(field, Cell(text=MISSING))
                 continue
             value = check.known[symbol].ends[field.end + 1]
