@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -90,30 +89,6 @@ class Summary:
     style: str
     meaning: str
     changes: tuple[str, ...] = ()
-
-
-def dump_summary(summary: Summary) -> dict[str, Any]:
-    """Plain values of a summary, for JSON."""
-    return asdict(summary)
-
-
-def restore_summary(plain: Mapping[str, Any]) -> Summary:
-    """Summary from its plain values.
-
-    Raises
-    ------
-    KeyError, TypeError
-        If they are none.
-    """
-    return Summary(
-        **{
-            **plain,
-            "headings": Headings(**plain["headings"]),
-            "rows": tuple(RowLine(**row) for row in plain["rows"]),
-            "lines": tuple(plain["lines"]),
-            "changes": tuple(plain["changes"]),
-        }
-    )
 
 
 def open_console() -> Console:
