@@ -160,7 +160,7 @@ def home(tmp_path_factory):
 @pytest.fixture(scope="module")
 def checked(home):
     return run(
-        *("check", "site.xlsx", "--out", "out", *QUICK),
+        *("check", "site.xlsx", "--out", "out", "--no-cache", *QUICK),
         cwd=home,
         SOURCE_DATE_EPOCH="86400",
     )
@@ -338,7 +338,8 @@ def test_study_says_how_it_was_made(study):
 
 def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
     write_site(tmp_path / "site.xlsx")
-    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    options = ("--json", "--no-cache", *QUICK)
+    result = run("check", "site.xlsx", *options, cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     document = json.loads(result.stdout)
     assert listing(tmp_path) == {"site.xlsx"}

@@ -98,7 +98,10 @@ def test_tables_agree(page, book, section, sheet, attribute):
         mine = [line for line in lines if line["Net row"] == row.id]
         for cells, line in zip(table.rows, mine, strict=True):
             parts = [part for cell in cells for part in split(cell)]
-            for part, value in zip(parts, list(line.values())[1:], strict=True):
+            shown_values = list(line.values())[
+                1 : len(parts) + 1
+            ]  # a hidden one follows
+            for part, value in zip(parts, shown_values, strict=True):
                 if isinstance(part, str):
                     assert value == part
                 else:  # a workbook stores 16 digits

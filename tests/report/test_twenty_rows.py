@@ -98,6 +98,6 @@ def test_twenty_rows_are_quick_and_small(language):
     render_html(build_study(rows=1), language)  # imports are not what is measured
     start = time.process_time()
     page, book = render_html(study, language), render_workbook(study, language)
-    assert time.process_time() - start < 3.0
+    assert time.process_time() - start < 4.5  # 1.9 on a quiet machine
     assert len(page.encode()) < 2_200_000  # 5 kB a row are second opinions
     assert len(book) < 1_000_000

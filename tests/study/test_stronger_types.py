@@ -23,7 +23,7 @@ def workbook(tmp_path_factory):
 
 
 def list_offers(site, demand):
-    """Anchors of the row, each with the type that is offered for it."""
+    """Anchors of the row, each with the type that is offered for it [kN]."""
     (row,) = site.rows
     ends = row.row_end.resistances if row.row_end else ()
     for given in (*row.resistances, *ends):
@@ -39,7 +39,7 @@ def test_whatever_is_known_of_grounds_no_type_of_another_one_is_offered(workbook
         drawn = {f"Anchors!I{n}": dice.choice(("scree", "rock", "")) for n in LINES}
         site = read_site(workbook, instead=drawn)
         grounds = {one.type_id: one.ground for one in site.catalogue}
-        for given, told in list_offers(site, dice.uniform(2.3e5, 6.5e5)):
+        for given, told in list_offers(site, dice.uniform(230.0, 650.0)):
             pair = (given.ground, grounds[told.arguments["type"]])
             is_known = all(pair)
             assert not is_known or pair[0] == pair[1]
@@ -56,7 +56,7 @@ def test_a_type_of_the_same_ground_comes_before_a_weaker_one_that_is_asked(workb
         site = read_site(workbook, instead=instead or None)
         offers = {
             given.member: told
-            for given, told in list_offers(site, 3e5)
+            for given, told in list_offers(site, 300.0)
             if given.mode == "tendon"
         }
         assert offers["foot_anchor"].key == "change.type_of_workbook"
@@ -67,7 +67,7 @@ def test_a_type_of_the_same_ground_comes_before_a_weaker_one_that_is_asked(workb
 def test_the_question_stands_in_the_offer_itself(workbook, language):
     """No output can show the type without it."""
     site = read_site(workbook, instead=NO_GROUND)
-    (told, *_) = [told for _, told in list_offers(site, 3e5)]
+    (told, *_) = [told for _, told in list_offers(site, 300.0)]
     text = render(told, language)
     assert "A32-tested" in text
     assert "?" in text
@@ -77,5 +77,5 @@ def test_ropes_and_posts_stand_in_no_ground(workbook):
     site = read_site(workbook, instead=NO_GROUND)
     (row,) = site.rows
     rope = next(one for one in row.resistances if one.mode == "rope")
-    offer = find_type_change(site, row, rope, 2e5, PROFILE)
+    offer = find_type_change(site, row, rope, 200.0, PROFILE)
     assert offer.quantity.key == "change.type_of_workbook"
