@@ -81,3 +81,8 @@ def test_forces_are_told_as_they_were_given():
     told = [units.given_kilonewton_from_newton(1e3 * force) for force in given]
     assert told == given
     assert units.given_kilonewton_from_newton(1234.5678901234) == 1.23456789
+
+
+def test_a_force_that_is_not_known_stays_so():
+    assert units.kilonewton_if_known(None) is None
+    assert units.kilonewton_if_known(1234.5) == 1.2345
