@@ -27,12 +27,12 @@ Studies = list[RowStudy]  # of one row, one a profile
 def cut_site(site: Site, row: NetRow) -> Site:
     """Part of a site on which one of its rows is judged: the row, and what bears on it.
 
-    What is not listed here decides nothing of a row. The notes of a site, its project
-    and its file stand in the study beside the rows.
+    What is not listed here decides nothing of a row. The notes of a site, its file, and
+    of its project all but the creep law that it accepts stand beside the rows.
     """
     monitoring = tuple(one for one in site.monitoring if one.row_id == row.id)
     return Site(
-        project=Project(),
+        project=Project(accepted_law=site.project.accepted_law),
         ranges=site.ranges,
         rows=(row,),
         file_name="",
