@@ -5,7 +5,7 @@ Headings are symbols; the page's table of formulas says what they mean.
 
 from __future__ import annotations
 
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     name_columns,

@@ -13,6 +13,7 @@ from typing import Any
 
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
+from netdesign.report.blocks.table import Cell, Column
 from netdesign.report.view.check_formulas import (
     ROUNDING,
     ChangedReasons,
@@ -28,7 +29,6 @@ from netdesign.report.view.check_formulas import (
     write_verdict,
 )
 from netdesign.report.view.check_view import CheckView, find_case
-from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import (
