@@ -41,8 +41,10 @@ ROWS = (
     {"study"},
     {"study.rejudge", "files"},
     {"report.words"},
+    {"report.blocks"},
     {"report.view"},
     {"report.drawing"},
+    {"report.sections"},
     {"report.page", "report.workbook", "report.document"},
     {"report", "public", "examples"},  # examples see the public names only
     {"evidence"},

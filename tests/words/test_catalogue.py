@@ -113,7 +113,7 @@ def test_every_text_that_a_template_asks_for_is_there_with_its_gaps():
 def test_no_text_is_idle():
     files = [*PACKAGE.rglob("*.py"), *find_resource("templates").rglob("*.html")]
     source = "\n".join(path.read_text(encoding="utf-8") for path in files)
-    named = set(re.findall(r'"([a-z0-9_]+(?:\.[a-z0-9_]+)+)"', source))
+    named = set(re.findall(r"[\"']([a-z0-9_]+(?:\.[a-z0-9_]+)+)[\"']", source))
     # the reports list headings of tables and sheets without their family
     named |= {f"heading.{name}" for name in re.findall(r'"([a-z0-9_]+)"', source)}
     idle = {

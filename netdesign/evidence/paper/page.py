@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from netdesign import __version__
 from netdesign.evidence.paper.cases import (
     ASSUMED_SLOPE_DEG,
@@ -16,9 +18,21 @@ from netdesign.evidence.paper.findings import list_findings
 from netdesign.evidence.paper.runs import PaperRun
 from netdesign.evidence.paper.study import PaperStudy
 from netdesign.evidence.paper.tables import list_tables
-from netdesign.evidence.paper.words import word_finding
+from netdesign.evidence.paper.words import Claim, word_finding
+from netdesign.report.blocks.block import (
+    Block,
+    Figure,
+    Heading,
+    Pair,
+    Pairs,
+    Paragraph,
+    Part,
+    masthead,
+    section,
+)
+from netdesign.report.blocks.text import SMALL, Piece, strong
 from netdesign.report.page.csv_text import write_csv
-from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.page.render import render_page
 from netdesign.report.page.solution_page import describe_criterion
 from netdesign.report.words import ENGLISH, Words
 from netdesign.units import kilonewton_from_newton
@@ -94,28 +108,84 @@ def write_track(run: PaperRun) -> bytes:
 
 
 def _render_page(study: PaperStudy, plates: list[Plate], words: Words) -> str:
-    findings = list_findings(study)
-    template = build_environment(words.language).get_template("paper.html")
-    return template.render(
-        css=load_style("report.css", "study.css"),
-        language=words.language,
-        claims=[word_finding(finding, words) for finding in findings],
+    findings, scene = list_findings(study), _describe_scene(study, words)
+    lead = words(
+        "paper.lead",
+        length=scene["length"],
+        thickness=scene["thickness"],
+        density=scene["density"],
+        count=len(findings),
         agreed=sum(finding.call == "agrees" for finding in findings),
-        scene=_describe_scene(study, words),
-        criterion=describe_criterion(words),
-        version=__version__,
-        plates=[
-            {
-                "name": plate.name,
-                "heading": plate.heading,
-                "caption": plate.caption,
-                "svg": mark_safe(plate.svg),
-            }
-            for plate in plates
-        ],
-        tables=list_tables(study, words),
-        failures=[run for run in study.runs.values() if run.failure],
     )
+    rule = words("paper.rule", slope=scene["slope"], stiffness=scene["stiffness"])
+    blocks = (
+        masthead(
+            f"netdesign paper · {__version__}",
+            words("paper.heading"),
+            Paragraph(text=lead, look="lead"),
+        ),
+        section(
+            "statements",
+            words("paper.statements"),
+            Pairs(
+                look="claims",
+                pairs=tuple(_show_claim(word_finding(one, words)) for one in findings),
+            ),
+            Paragraph(text=rule, look="small"),
+        ),
+        section("pictures", words("paper.pictures"), *_show_plates(plates)),
+        section(
+            "tables", words("paper.tables"), *_show_tables(study, words), look="page"
+        ),
+        section("how", words("paper.how"), *_tell_method(scene, words)),
+    )
+    return render_page(blocks, words("paper.title"), words.language)
+
+
+def _show_claim(claim: Claim) -> Pair:
+    call = f"{claim.symbol} {claim.call}"
+    text = [Piece(claim.said, "said"), Piece(claim.found, "found")]
+    text += [Piece(claim.reason, SMALL)] if claim.reason else []
+    return Pair(name=call, text=tuple(text), look="differs" if claim.differs else "")
+
+
+def _show_plates(plates: list[Plate]) -> Iterator[Block]:
+    for number, plate in enumerate(plates, 1):
+        yield Heading(text=f"{number}. {plate.heading}", level=3)
+        yield Figure(
+            svg=plate.svg,
+            caption=plate.caption,
+            id=f"plate-{plate.name}",
+            look="plate",
+        )
+
+
+def _show_tables(study: PaperStudy, words: Words) -> Iterator[Block]:
+    for listed in list_tables(study, words):
+        yield Part(
+            kind="div", id=f"table-{listed.name}", blocks=(listed.table.shown("study"),)
+        )
+    failures = sum(bool(run.failure) for run in study.runs.values())
+    if failures:
+        count = strong(words("paper.failures", count=failures))
+        text = (*count, Piece(f" {words('paper.failures_mean')}"))
+        yield Part(
+            kind="div",
+            id="failures",
+            look="notes open",
+            blocks=(Paragraph(text=text),),
+        )
+
+
+def _tell_method(scene: dict[str, str], words: Words) -> list[Paragraph]:
+    histories = words(
+        "paper.how_histories",
+        days=scene["days"],
+        criterion=describe_criterion(words),
+        time_scale=scene["time_scale"],
+    )
+    told = (words("paper.how_forces"), histories, words("paper.how_files"))
+    return [Paragraph(text=text, look="text") for text in told]
 
 
 def _describe_scene(study: PaperStudy, words: Words) -> dict[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,8 +40,19 @@ from netdesign.evidence.verification.compaction import (
 )
 from netdesign.evidence.verification.pack import write_pack
 from netdesign.evidence.verification.verification_table import name_kind
-from netdesign.report.page.render import build_environment, load_style, mark_safe
-from netdesign.report.view.table import Cell, Table
+from netdesign.report.blocks.block import (
+    Block,
+    Figure,
+    Heading,
+    Items,
+    Paragraph,
+    Part,
+    masthead,
+    section,
+)
+from netdesign.report.blocks.table import Cell, Table
+from netdesign.report.blocks.text import CODE, Piece
+from netdesign.report.page.render import render_page
 from netdesign.report.words import Words, show_own
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, ZWINGER_2007
 from netdesign.words.catalogue import Language
@@ -108,34 +119,95 @@ def write_validation(evidence: Evidence) -> str:
 
 
 def _render_page(evidence: Evidence, words: Words) -> str:
+    first = masthead(
+        f"netdesign validate · {__version__}",
+        words("validation.heading"),
+        Paragraph(text=_lead(evidence, words), look="lead"),
+    )
+    blocks: list[Block] = [first, _list_marks(words)]
+    if evidence.validations:
+        blocks.append(_show_structures(evidence.validations, words))
+    blocks += [_show_settling(evidence, words), _show_cases(evidence.cases, words)]
+    return render_page(blocks, words("validation.title"), words.language)
+
+
+def _lead(evidence: Evidence, words: Words) -> str:
+    passed = sum(case.passes for case in evidence.cases)
+    told = words("validation.lead", passed=passed, count=len(evidence.cases))
     compared = [c for one in evidence.validations for c in one.comparisons]
-    is_measured = bool(evidence.validations)
-    return (
-        build_environment(words.language)
-        .get_template("validation.html")
-        .render(
-            css=load_style("report.css", "study.css"),
-            language=words.language,
-            version=__version__,
-            errors=mark_safe(draw_errors(evidence.cases, words)),
-            compaction=mark_safe(draw_compaction(evidence.places, words)),
-            bands=mark_safe(draw_bands(evidence.validations, words))
-            if is_measured
-            else "",
-            cases=_tabulate_cases(evidence.cases, words),
-            passed=sum(case.passes for case in evidence.cases),
-            quoted=_quote(words),
-            growth={key: f"{one:.0f}" for key, one in list_growth().items()},
-            models=_list_models(words),
-            layers=say("validation.layers", **_LAYERS),
-            softness=_tabulate_softness(_pick(evidence.places), words),
-            contrasts=_tabulate_contrasts(evidence.contrasts, words),
-            structures=[_show_structure(one, words) for one in evidence.validations],
-            inside=sum(one.is_inside for one in compared),
-            middle_of_five=sum(one.is_in_the_middle for one in compared),
-            measured=len(compared),
-            codes=_list_codes(words),
-        )
+    if not compared:
+        return told
+    measured = words(
+        "validation.lead_measured",
+        measured=len(compared),
+        inside=sum(one.is_inside for one in compared),
+        middle=sum(one.is_in_the_middle for one in compared),
+    )
+    return f"{told} {measured}"
+
+
+def _text(words: Words, key: str, more: str = "", **numbers: Any) -> Paragraph:
+    return Paragraph(text=words(f"validation.{key}", **numbers) + more, look="text")
+
+
+def _plate(name: str, svg: str, words: Words) -> Figure:
+    caption = words(f"validation.{name}_caption")
+    return Figure(svg=svg, caption=caption, id=f"plate-{name}", look="plate")
+
+
+def _list_marks(words: Words) -> Part:
+    """Meaning of each mark of an expected value."""
+    meant = [(_mark(one, words), one) for one in (_HERE, "code", _READ, _RECALLED)]
+    unknown = f"{_mark('assumed', words)}, {_mark('unknown', words)}"
+    items = tuple(
+        words("show.label", label=label, text=words(f"validation.{one}_means"))
+        for label, one in (*meant, (unknown, "unknown"))
+    )
+    return section("marks", words("validation.marks"), Items(items=items))
+
+
+def _show_structures(validations: Sequence[Validation], words: Words) -> Part:
+    owner = words("validation.owner")
+    command = Piece("netdesign validate FILE.toml --out DIR", CODE)
+    return section(
+        "structures",
+        words("validation.structures"),
+        _text(words, "structures_text"),
+        _plate("bands", draw_bands(validations, words), words),
+        *(block for one in validations for block in _show_structure(one, words)),
+        Paragraph(text=(Piece(f"{owner} "), command), look="text"),
+        look="page",
+    )
+
+
+def _show_settling(evidence: Evidence, words: Words) -> Part:
+    growth: dict[str, Any] = {key: f"{one:.0f}" for key, one in list_growth().items()}
+    layers = say("validation.layers", **_LAYERS)
+    return section(
+        "settling",
+        words("validation.settling"),
+        _text(words, "settling_text", f" {_list_models(words)}."),
+        _plate("compaction", draw_compaction(evidence.places, words), words),
+        _tabulate_softness(_pick(evidence.places), words).shown("study"),
+        _text(words, "quoted", **_quote(words)),
+        Heading(text=words("validation.meaning"), level=3),
+        _text(words, "meaning_text", layers=layers, **growth),
+        _tabulate_contrasts(evidence.contrasts, words).shown("study"),
+        _text(words, "uniform_text"),
+        look="page",
+    )
+
+
+def _show_cases(cases: Sequence[VerificationCase], words: Words) -> Part:
+    return section(
+        "verification",
+        words("validation.verification"),
+        _plate("errors", draw_errors(cases, words), words),
+        Heading(text=words("validation.another"), level=3),
+        _text(words, "another_text"),
+        Items(items=tuple(_list_codes(words)), look="small"),
+        _tabulate_cases(cases, words).shown("study pack"),
+        look="page",
     )
 
 
@@ -259,22 +331,28 @@ def _show_change(one: Contrast) -> str:
     return " / ".join(f"{100 * (other / own - 1):+.0f}" for own, other in pairs)
 
 
-def _show_structure(one: Validation, words: Words) -> dict[str, Any]:
+def _show_structure(one: Validation, words: Words) -> Iterator[Block]:
     structure = one.structure
     counts: dict[str, Any] = {"count": one.solved}
     if one.failed:
         counts |= {"failed": one.failed, "reasons": tuple(map(str, one.reasons))}
-    return {
-        "title": show_own(words, structure.title),
-        "source": show_own(words, structure.source),
-        "note": _tell(structure.note, words),
-        "told": words(
-            "validation.cases_failed" if one.failed else "validation.cases", **counts
-        ),
-        "measured": _tabulate_measured(one, words),
-        "inputs": _tabulate_inputs(structure, words),
-        "open": [show_own(words, text) for text in structure.open],
-    }
+    key = "validation.cases_failed" if one.failed else "validation.cases"
+    source, note = show_own(words, structure.source), _tell(structure.note, words)
+    yield Heading(text=show_own(words, structure.title), level=3)
+    told = f"{source}. {note} {words(key, **counts)}."
+    yield Paragraph(text=told, look="small")
+    yield _tabulate_measured(one, words).shown("study")
+    yield Part(
+        kind="div",
+        fold=words("validation.inputs"),
+        blocks=(_tabulate_inputs(structure, words).shown("study"),),
+    )
+    if structure.open:
+        label = words("show.label", label=words("validation.open"), text="")
+        yield Paragraph(text=label, look="small")
+        yield Items(
+            items=tuple(show_own(words, text) for text in structure.open), look="small"
+        )
 
 
 def _tabulate_measured(one: Validation, words: Words) -> Table:

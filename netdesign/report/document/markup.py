@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from html import escape
 from typing import Any
 
 from netdesign.edge.given_files import make_printable
-from netdesign.report.document.content import Content, Grid, Piece, plain, turn
+from netdesign.report.blocks.text import (
+    REFERENCE,
+    SMALL,
+    Badge,
+    Piece,
+    Text,
+    list_pieces,
+)
 
 _W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 NAMESPACE = f'xmlns:w="{_W}"'
@@ -25,6 +32,8 @@ _CAPITAL = 0.35  # more than the width of another sign
 _WIDE_FONT = 1.15  # of a template, against the font that _SIGN is of
 _PART = "xxxxx"  # of a word of a heading that may stand alone
 _FEW_LINES = 6  # of a table that may be turned
+# Looks that are bold in a document.
+_BOLD = ("strong", "name", "ratio", "figure", "hidden")
 _SUBSCRIPT = re.compile(r"_(\w+)")
 
 
@@ -35,12 +44,54 @@ def parse(markup: str) -> Any:
     return parse_xml(f"<w:body {NAMESPACE}>{markup}</w:body>")[0]
 
 
-def write_runs(content: Content, small_pt: float = SMALLEST_PT) -> str:
-    """Runs of some pieces of text."""
-    return "".join(_write_piece(piece, small_pt) for piece in content)
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Text in one look; a new line at each of its line ends."""
+
+    text: str
+    is_bold: bool = False
+    is_small: bool = False
+    has_symbols: bool = False  # E_d has a lowered d
 
 
-def _write_piece(piece: Piece, small_pt: float) -> str:
+Runs = tuple[Run, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grid:
+    """Cells under headings. A line of one cell goes over all columns.
+
+    Without headings the first column names the lines.
+    """
+
+    headings: tuple[Runs, ...] = ()
+    numbers: tuple[bool, ...]  # columns that are set to the right
+    lines: tuple[tuple[Runs, ...], ...]
+
+
+def list_runs(text: Text, *, has_symbols: bool = False) -> Runs:
+    """Runs of a block's text; sketches and references are for pages."""
+    runs: list[Run] = []
+    for piece in list_pieces(text, has_symbols=has_symbols):
+        if isinstance(piece, Badge):
+            shown = piece.verdict
+            end = "\n" if piece.look == "sign" else ""
+            runs.append(Run(f"{shown.symbol}\u00a0{shown.word}{end}", is_bold=True))
+        elif isinstance(piece, Piece) and piece.look != REFERENCE:
+            is_small = piece.look == SMALL
+            begins = is_small and runs and not runs[-1].text.endswith("\n")
+            begun = f"\n{piece.text}" if begins else piece.text
+            is_bold = piece.look in _BOLD
+            runs.append(Run(begun, is_bold, is_small, piece.has_symbols))
+    return tuple(runs)
+
+
+def write_runs(runs: Runs, small_pt: float = SMALLEST_PT) -> str:
+    """Runs as WordprocessingML."""
+    return "".join(_write_looks(one, small_pt) for one in runs)
+
+
+def _write_looks(piece: Run, small_pt: float) -> str:
     look = "<w:b/>" if piece.is_bold else ""
     look += f'<w:sz w:val="{round(2 * small_pt)}"/>' if piece.is_small else ""
     parts = _SUBSCRIPT.split(piece.text) if piece.has_symbols else [piece.text]
@@ -81,7 +132,7 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
     """
     least, wanted = _measure_columns(grid)
     if sum(least) > width_pt and _may_turn(grid):
-        grid = turn(grid)
+        grid = _turn(grid)
         least, wanted = _measure_columns(grid)
     is_tight = sum(least) > width_pt
     if is_tight:
@@ -110,6 +161,19 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
     )
 
 
+def _turn(grid: Grid) -> Grid:
+    """The same grid, its columns below each other: few lines of many cells."""
+    first, *further = grid.headings
+    return Grid(
+        headings=(first, *(cells[0] for cells in grid.lines)),
+        numbers=(False, *(True for _ in grid.lines)),
+        lines=tuple(
+            (heading, *(cells[place] for cells in grid.lines))
+            for place, heading in enumerate(further, 1)
+        ),
+    )
+
+
 def _may_turn(grid: Grid) -> bool:
     """Few lines, all of them of single cells below headings."""
     is_plain = all(len(line) == len(grid.headings) for line in grid.lines)
@@ -117,7 +181,7 @@ def _may_turn(grid: Grid) -> bool:
 
 
 def _write_line(
-    cells: Sequence[Content],
+    cells: Sequence[Runs],
     grid: Grid,
     widths: Sequence[int],
     style: str,
@@ -143,7 +207,7 @@ def _write_line(
 
 
 def _write_cell(
-    content: Content,
+    content: Runs,
     width: int,
     style: str,
     span: int,
@@ -153,7 +217,7 @@ def _write_cell(
 ) -> str:
     if is_head or is_tight:
         content = tuple(
-            Piece(one.text, one.is_bold or is_head, is_tight, one.has_symbols)
+            Run(one.text, one.is_bold or is_head, is_tight, one.has_symbols)
             for one in content
         )
     spanned = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
@@ -180,7 +244,7 @@ def _measure_columns(
 def _measure_tight(grid: Grid) -> tuple[list[float], list[float]]:
     """The same where words of headings have to break, before any number does."""
     wanted, _ = _measure_columns(grid, is_tight=True)
-    headings = tuple(plain(_PART) for _ in grid.headings)
+    headings = tuple((Run(_PART),) for _ in grid.headings)
     least, _ = _measure_columns(replace(grid, headings=headings), is_tight=True)
     return [_WIDE_FONT * one for one in least], wanted
 
@@ -188,7 +252,7 @@ def _measure_tight(grid: Grid) -> tuple[list[float], list[float]]:
 def _loosen(grid: Grid) -> Grid:
     """The same grid; the symbol of a verdict may stand above its number."""
 
-    def loosen(content: Content) -> Content:
+    def loosen(content: Runs) -> Runs:
         return tuple(
             replace(one, text=one.text.replace("\u00a0", " ")) for one in content
         )
@@ -197,7 +261,7 @@ def _loosen(grid: Grid) -> Grid:
     return replace(grid, lines=lines)
 
 
-def _join(content: Content) -> str:
+def _join(content: Runs) -> str:
     return "".join(piece.text for piece in content)
 
 

@@ -1,21 +1,15 @@
-"""Study -> docx: the page's sections in headings, tables and pictures of its own.
-
-Shows what the page shows on paper, in its order: from the same view, by the same words.
-"""
+"""Study -> docx: the blocks of the page, as it shows them on paper."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from netdesign.report.document import site_sections as site
 from netdesign.report.document import styles
-from netdesign.report.document.content import plain
-from netdesign.report.document.markup import POINT, parse, write_runs
+from netdesign.report.document.markup import POINT, list_runs, parse, write_runs
 from netdesign.report.document.package import pack, set_properties
-from netdesign.report.document.row_sections import RowWriter
 from netdesign.report.document.template import open_document
 from netdesign.report.document.writer import Writer, write_field
-from netdesign.report.drawing.row_drawings import draw_row
+from netdesign.report.sections.whole import build_report
 from netdesign.report.view.whole import Detail, ReportView, build_view
 from netdesign.report.words import Words
 from netdesign.study.records import Study
@@ -55,7 +49,7 @@ def render_document(
     styles.set_language(document, language)
     to = Writer(document=document, words=words)
     _write_footer(to, view)
-    _write_all(to, study, view, detail)
+    to.write(build_report(study, view, words, detail))
     set_properties(
         document,
         title=words("heading.anchor_check"),
@@ -64,26 +58,6 @@ def render_document(
         started=study.provenance.started,
     )
     return pack(document)
-
-
-def _write_all(to: Writer, study: Study, view: ReportView, detail: Detail) -> None:
-    is_full = detail != "summary"
-    site.write_verdict(to, view)
-    to.text(to.words("heading.contents"), styles.CONTENTS_HEADING)
-    last: Any = to.document.element.body.sectPr.getprevious()
-    site.write_identification(to, view)
-    after_contents: Any = last.getnext()
-    site.write_summary(to, view)
-    site.write_basis(to, view, is_full=is_full)
-    for row, shown in zip(study.rows, view.rows, strict=True):
-        drawn = draw_row(row, shown.anchor, to.words, is_full=is_full)
-        RowWriter(to, shown, drawn, detail).write()
-    if detail == "figures":
-        site.write_formulas(to, view)
-    if is_full:
-        site.write_profile(to, view)
-    site.write_end(to, view)
-    to.contents(after_contents)
 
 
 def _write_footer(to: Writer, view: ReportView) -> None:
@@ -98,12 +72,12 @@ def _write_footer(to: Writer, view: ReportView) -> None:
     right = round(POINT * to.width_pt)
     tab = "<w:r><w:tab/></w:r>"
     runs = (
-        write_runs(plain(view.running_title))
+        write_runs(list_runs(view.running_title))
         + tab
         + write_field("STYLEREF 1")
         + tab
         + write_field("PAGE", "1")
-        + write_runs(plain(" / "))
+        + write_runs(list_runs(" / "))
         + write_field("NUMPAGES", "1")
     )
     look = (

@@ -1,47 +1,60 @@
-"""Document that is written from top to bottom: headings, text, tables, drawings."""
+"""Blocks -> text of a document, from top to bottom."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.given_files import make_printable
-from netdesign.report.document import styles
-from netdesign.report.document.content import (
-    Content,
-    Grid,
-    Piece,
-    list_cells,
-    small,
+from netdesign.report.blocks.block import (
+    Block,
+    Contents,
+    Figure,
+    Heading,
+    Items,
+    Pair,
+    Pairs,
+    Paragraph,
+    Part,
 )
+from netdesign.report.blocks.table import Cell, Table
+from netdesign.report.blocks.text import Piece, Text
+from netdesign.report.document import styles
 from netdesign.report.document.markup import (
+    Grid,
+    Run,
+    Runs,
+    list_runs,
     parse,
     write_paragraph,
     write_runs,
     write_table,
 )
 from netdesign.report.document.picture import write_picture
-from netdesign.report.view.table import Table
-from netdesign.report.words import Words
+from netdesign.report.words import VERDICTS, Words
 
 if TYPE_CHECKING:
     from docx.document import Document
 
 _EMU = 12700  # of a point
 _HIGHEST = 0.8  # of a page that a drawing may take
+_VERDICTS = tuple(signs.symbol for signs in VERDICTS.values())
+_STYLES = {"kind": styles.SMALL, "word": styles.VERDICT}  # of looks; else plain text
+_SMALL_LOOKS = ("small", "none", "caption")
 
 
 @dataclass(kw_only=True)
 class Writer:
-    """Writes into a document; text of anybody comes in as text alone."""
+    """Writes blocks into a document; text of anybody comes in as text alone."""
 
     document: Document
     words: Words
     headings: list[tuple[str, str]] = field(default_factory=list)  # mark and text
     pictures: int = 0
+    place_of_contents: Any = None
 
     @cached_property
     def width_pt(self) -> float:
@@ -59,71 +72,102 @@ class Writer:
     def _ids(self) -> dict[str, str]:
         return {name: styles.find_id(self.document, name) for name in styles.NAMES}
 
-    def add(self, markup: str) -> None:
+    def write(self, blocks: Sequence[Block]) -> None:
+        """All blocks, and the contents, which are known at the end."""
+        for block in blocks:
+            self._write_block(block)
+        self._fill_contents()
+
+    def _write_block(self, block: Block) -> None:
+        if not isinstance(block, Contents) and block.on in ("screen", "page"):
+            return
+        writers: dict[type, Callable[[Any], None]] = {
+            Heading: self._write_heading,
+            Paragraph: self._write_text,
+            Items: self._write_items,
+            Pairs: lambda pairs: self._add_grid("", _list_pairs(pairs)),
+            Table: self._write_table,
+            Figure: self._write_figure,
+            Contents: self._open_contents,
+            Part: self._write_part,
+        }
+        writers[type(block)](block)
+
+    def _write_part(self, block: Part) -> None:
+        if block.is_open or not block.fold:
+            for one in block.blocks:
+                self._write_block(one)
+
+    def _write_items(self, block: Items) -> None:
+        for item in block.items:
+            self._add_paragraph(list_runs(item), styles.ITEM)
+
+    def _open_contents(self, block: Contents) -> None:
+        """Heading of the contents, and a line in whose place they come."""
+        self._add_paragraph(list_runs(block.heading), styles.CONTENTS_HEADING)
+        self._add_paragraph((), styles.CONTENTS)
+        self.place_of_contents = self.document.element.body.sectPr.getprevious()
+
+    def _write_heading(self, block: Heading) -> None:
+        runs = list_runs(block.text)
+        if block.level != 2:
+            style = styles.TITLE if block.level == 1 else styles.SUBHEADING
+            self._add_paragraph(runs, style)
+            return
+        number = len(self.headings) + 1
+        mark = f"_Toc{number:08d}"
+        self.headings.append((mark, "".join(one.text for one in runs)))
+        marked = (
+            f'<w:bookmarkStart w:id="{number}" w:name="{mark}"/>{write_runs(runs)}'
+            f'<w:bookmarkEnd w:id="{number}"/>'
+        )
+        self._add(write_paragraph(marked, self._ids[styles.HEADING]))
+
+    def _write_text(self, block: Paragraph) -> None:
+        runs = list_runs(block.text)
+        if block.look in _SMALL_LOOKS:
+            runs = tuple(replace(one, is_small=True) for one in runs)
+        self._add_paragraph(runs, _STYLES.get(block.look, styles.TEXT))
+
+    def _write_table(self, table: Table) -> None:
+        if table.rows:
+            note = (Piece(" "), *table.note) if table.note else ()
+            self._add_grid((Piece(table.caption), *note), _list_cells(table))
+            return
+        told = table.empty
+        if table.symbols:
+            told = self.words("show.label", label=table.caption, text=told)
+        self._write_text(Paragraph(text=told, look="none"))
+
+    def _write_figure(self, block: Figure) -> None:
+        self.pictures += 1
+        most = (self.width_pt, _HIGHEST * self.height_pt)
+        runs = write_picture(self.document, block.svg, self.pictures, most)
+        look = "<w:keepNext/>" if block.caption else ""
+        self._add(write_paragraph(runs, self._ids[styles.TEXT], look))
+        if block.caption:
+            self._add_paragraph(list_runs(block.caption), styles.SMALL)
+
+    def _add(self, markup: str) -> None:
         """Put a paragraph or table at the end of the text."""
         self.document.element.body.sectPr.addprevious(parse(markup))
 
-    def paragraph(self, content: Content, style: str = styles.TEXT) -> None:
-        """Text in a style."""
-        self.add(write_paragraph(write_runs(content), self._ids[style]))
+    def _add_paragraph(self, runs: Runs, style: str) -> None:
+        self._add(write_paragraph(write_runs(runs), self._ids[style]))
 
-    def text(self, text: str, style: str = styles.TEXT) -> None:
-        """Plain text in a style; nothing for an empty one."""
-        if text:
-            self.paragraph((Piece(text),), style)
-
-    def heading(self, content: Content) -> None:
-        """Heading that stands in the contents."""
-        mark = f"_Toc{len(self.headings) + 1:08d}"
-        number = len(self.headings) + 1
-        self.headings.append((mark, "".join(piece.text for piece in content)))
-        runs = (
-            f'<w:bookmarkStart w:id="{number}" w:name="{mark}"/>{write_runs(content)}'
-            f'<w:bookmarkEnd w:id="{number}"/>'
-        )
-        self.add(write_paragraph(runs, self._ids[styles.HEADING]))
-
-    def subheading(self, key: str) -> None:
-        """Heading of a part of a section, by its key."""
-        self.text(self.words(key), styles.SUBHEADING)
-
-    def items(self, texts: Sequence[str]) -> None:
-        """List of sentences."""
-        for text in texts:
-            self.text(text, styles.ITEM)
-
-    def none(self, text: str) -> None:
-        """Line that stands where there is nothing to show."""
-        self.paragraph(small([text]))
-
-    def grid(self, grid: Grid) -> None:
+    def _add_grid(self, caption: Text, grid: Grid) -> None:
         """Table below its caption; tables never touch, or a reader would join them."""
-        self.text(grid.caption or "\u00a0", styles.CAPTION)
-        if not grid.lines:
-            return
+        runs = list_runs(caption)
+        named = any(one.text for one in runs)
+        self._add_paragraph(runs if named else (Run("\u00a0"),), styles.CAPTION)
         both = (self._ids[styles.TABLE], self._ids[styles.CELL])
-        self.add(write_table(grid, both, self.width_pt))
+        self._add(write_table(grid, both, self.width_pt))
 
-    def table(self, table: Table, *, hidden: str = "") -> None:
-        """Table of the report, or why it is empty."""
-        grid = list_cells(table, hidden=hidden)
-        if grid.lines:
-            self.grid(grid)
-        else:
-            self.none(table.empty)
-
-    def figure(self, svg: str, caption: str = "") -> None:
-        """Drawing with its caption below."""
-        self.pictures += 1
-        most = (self.width_pt, _HIGHEST * self.height_pt)
-        runs = write_picture(self.document, svg, self.pictures, most)
-        look = "<w:keepNext/>" if caption else ""
-        self.add(write_paragraph(runs, self._ids[styles.TEXT], look))
-        self.text(caption, styles.SMALL)
-
-    def contents(self, mark: Any) -> None:
-        """Fill in the contents before ``mark``: a field that Word keeps up to date."""
-        last = len(self.headings) - 1
+    def _fill_contents(self) -> None:
+        """Lines of the contents: a field that Word keeps up to date."""
+        mark, last = self.place_of_contents, len(self.headings) - 1
+        if mark is None:
+            return
         for number, (name, text) in enumerate(self.headings):
             link = (
                 f'<w:hyperlink w:anchor="{name}"><w:r><w:t xml:space="preserve">'
@@ -133,6 +177,53 @@ class Writer:
             runs += _field("end") if number == last else ""
             line = write_paragraph(runs, self._ids[styles.CONTENTS])
             mark.addprevious(parse(line))
+        mark.getparent().remove(mark)
+
+
+def _list_pairs(block: Pairs) -> Grid:
+    return Grid(
+        numbers=(False, False),
+        lines=tuple(
+            ((Run(pair.name, is_bold=True),), _list_pair(pair)) for pair in block.pairs
+        ),
+    )
+
+
+def _list_pair(pair: Pair) -> Runs:
+    runs = list_runs(pair.text)
+    items = "\n".join(pair.items)
+    if not items:
+        return runs
+    return (*runs, Run(f"\n{items}" if runs else items))
+
+
+def _list_cells(table: Table) -> Grid:
+    """Grid of a table, without the rows that are not on paper."""
+    hidden, of_headings = table.not_on_paper, table.symbols == "headings"
+    return Grid(
+        headings=tuple(
+            list_runs(column.heading, has_symbols=of_headings)
+            for column in table.columns
+        ),
+        numbers=tuple(column.is_number for column in table.columns),
+        lines=tuple(
+            tuple(_list_cell(cell, table) for cell in cells)
+            for cells in table.rows
+            if not hidden or all(cell.text != hidden for cell in cells)
+        ),
+    )
+
+
+def _list_cell(cell: Cell, table: Table) -> Runs:
+    """Text of a cell; that of a verdict is bold: its symbol comes first."""
+    if cell.content:
+        return list_runs(cell.content)
+    if table.symbols == "cells":
+        return (Run(cell.text, has_symbols=True),)
+    starts = tuple(f"{one} " for one in _VERDICTS)
+    is_verdict = cell.text in _VERDICTS or cell.text.startswith(starts)
+    shown = cell.text.replace(" ", "\u00a0", int(is_verdict))
+    return (Run(shown, is_bold=is_verdict),)
 
 
 def _field(kind: str, more: str = "") -> str:

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from netdesign.edge.given_files import make_printable
-from netdesign.edge.output import PROFILES_FILE
-from netdesign.report.page.render import build_environment, load_style
+from netdesign.report.blocks.block import (
+    Items,
+    Paragraph,
+    Part,
+    masthead,
+    section,
+)
+from netdesign.report.blocks.text import strong
+from netdesign.report.page.render import render_page
 from netdesign.report.view.comparison import compare_profiles
+from netdesign.report.words import Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
@@ -22,8 +29,28 @@ def render_comparison(studies: Sequence[Study], language: Language = "en") -> by
     language : str
         Of the page.
     """
-    view = compare_profiles(studies, language)
-    template = build_environment(language).get_template(PROFILES_FILE)
-    css = load_style("report.css", "study.css")
-    page = template.render(language=language, css=css, view=view)
-    return make_printable(page).encode()
+    view, words = compare_profiles(studies, language), Words(language)
+    title = words("compare.title")
+    mark = (Paragraph(text=strong(view.mark), look="word"),) if view.mark else ()
+    blocks = (
+        masthead(title, view.name, *mark),
+        Part(
+            id="profiles",
+            blocks=(
+                Items(items=view.profiles),
+                Paragraph(text=words("compare.lead"), look="text"),
+                view.verdicts.shown("profiles"),
+                Paragraph(text=view.told, look="text"),
+            ),
+        ),
+        section(
+            "rows",
+            words("heading.net_rows"),
+            *(table.shown("profiles") for table in view.rows),
+        ),
+        section(
+            "values", words("heading.limit_profile"), view.values.shown("profiles")
+        ),
+    )
+    named = " - ".join(part for part in (view.mark, view.name, title) if part)
+    return render_page(blocks, named, language).encode()

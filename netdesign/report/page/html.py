@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import Any
-
-from netdesign.edge.given_files import make_printable
-from netdesign.report.drawing.row_drawings import RowDrawings, draw_row
-from netdesign.report.page.render import build_environment, load_style
+from netdesign.report.blocks.text import link
+from netdesign.report.page.render import render_page
+from netdesign.report.sections.whole import build_report
 from netdesign.report.view.gate import require_sections
 from netdesign.report.view.whole import Detail, ReportView, build_view
 from netdesign.report.words import Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
-_DRAWINGS = ("section", "envelope", "head", "panel", "monitoring")
 _PAGE_SECTIONS = (
     "verdict",
     "identification",
@@ -66,26 +62,20 @@ def render_html(
     NetDesignError
         If the study contradicts its own numbers or a section would be missing.
     """
-    from markupsafe import Markup
-
     words = Words(language)
-    environment = build_environment(language)
     view = view or build_view(study, language)
-    is_full = detail != "summary"
-    page = environment.get_template("report.html").render(
-        view=view,
-        is_full=is_full,
-        is_open=detail == "figures",
-        language=language,
-        css=load_style("report.css"),
-        running_title=Markup(_quote_css(view.running_title)),
-        figures=[
-            _mark_drawings(draw_row(row, row_view.anchor, words, is_full=is_full))
-            for row, row_view in zip(study.rows, view.rows, strict=True)
-        ],
+    title = (view.verdict.word, words("heading.anchor_check"), view.running_title)
+    running = _quote_css(view.running_title)
+    page = render_page(
+        build_report(study, view, words, detail),
+        " - ".join(title),
+        language,
+        skip=link("summary", words("heading.skip_to_summary")),
+        style=f"@page {{ @bottom-left {{ content: {running}; }} }}",
+        is_report=True,
     )
     require_sections(page, list_sections(view, detail))
-    return make_printable(page)
+    return page
 
 
 def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
@@ -97,22 +87,6 @@ def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
     if is_full:
         of_rows += [f"{row.anchor}-panel" for row in view.rows if row.panel]
     return [*of_page, *of_rows]
-
-
-def _mark_drawings(drawings: RowDrawings) -> dict[str, Any]:
-    """Drawings by name as HTML of ours; words beside them are escaped."""
-    from markupsafe import Markup, escape
-
-    named = {name: getattr(drawings, name) for name in _DRAWINGS}
-    searched = [
-        {name: Markup(svg) for name, svg in asdict(one).items()}
-        for one in drawings.searched
-    ]
-    return {
-        **{name: Markup(svg) for name, svg in named.items()},
-        "searched": searched,
-        "monitoring_note": escape(drawings.monitoring_note),
-    }
 
 
 def _quote_css(text: str) -> str:

@@ -1,4 +1,4 @@
-"""Tools of every page: templates that escape, styles inside the page."""
+"""Blocks -> one self-contained page: no script, no other file, all text escaped."""
 
 from __future__ import annotations
 
@@ -9,17 +9,70 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup, escape
 
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.given_files import find_resource, make_printable
+from netdesign.report.blocks.block import Block, Pair
+from netdesign.report.blocks.table import Cell, Column, Table
+from netdesign.report.blocks.text import (
+    CODE,
+    STRONG,
+    Badge,
+    Content,
+    Piece,
+    Sketch,
+    Text,
+    list_pieces,
+)
 from netdesign.report.words import Words
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     import jinja2
 
-    from netdesign.report.view.table import Cell, Column
-
 _LOWERED = re.compile(r"_(\w+)")
-_MARKS = re.compile("[&<>'\"]")  # what HTML has another sign for
+_MARKS = re.compile("[&<>'\"\n]")  # what HTML has another sign for
+_PLACES = {"screen": "screen", "paper": "print"}  # class of what is not everywhere
+_REPORT, _STUDY = ("report.css",), ("report.css", "study.css")
+
+
+def render_page(
+    blocks: Sequence[Block],
+    title: str,
+    language: Language,
+    *,
+    skip: Content = (),
+    style: str = "",
+    is_report: bool = False,
+) -> str:
+    """Page of some blocks.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+        From top to bottom.
+    title : str
+        Of the window.
+    language : str
+        Of the texts.
+    skip : tuple, optional
+        Link by which the keyboard gets to the contents.
+    style : str
+        Rules of this page alone; nothing that somebody typed may come here.
+    is_report : bool
+        The page is a study's report, and has no looks of other pages.
+    """
+    css = load_style(*(_REPORT if is_report else _STUDY))
+    page = (
+        build_environment(language)
+        .get_template("page.html")
+        .render(
+            blocks=blocks,
+            title=title,
+            language=language,
+            skip=skip,
+            css=css + Markup(style),
+        )
+    )
+    return make_printable(page.lstrip())
 
 
 @lru_cache(maxsize=8)
@@ -27,11 +80,6 @@ def build_environment(language: Language = "en") -> jinja2.Environment:
     """Templates in which all text is escaped and a missing value is an error.
 
     Kept with what they compile to: a check against several profiles has several pages.
-
-    Parameters
-    ----------
-    language : str
-        Of the texts; templates ask for one by its key: ``t("heading.checks")``.
     """
     import jinja2
 
@@ -44,15 +92,68 @@ def build_environment(language: Language = "en") -> jinja2.Environment:
         optimized=False,  # takes longer than it saves in a page or two
     )
     words = Words(language)
-    environment.globals["t"] = environment.globals["words"] = words
-    environment.filters["subscripts"] = write_subscripts
-    environment.filters["unbroken"] = _keep_units
-    environment.filters["line"] = write_line
     points = tuple(words("page.breaks").split())
-    # every row has the same headings
-    offer_breaks = lru_cache(maxsize=512)(partial(_offer_breaks, points))
-    environment.filters["breakable"] = offer_breaks
+    environment.filters |= {
+        "kind": lambda block: type(block).__name__,
+        "looks": _name_looks,
+        "inline": write_inline,
+        "drawing": Markup,
+        "mark": _mark_column,
+        # every row has the same headings
+        "heading": lru_cache(maxsize=512)(partial(_write_heading, points)),
+        "line": write_line,
+        "empty": partial(_tell_empty, words),
+    }
     return environment
+
+
+def _name_looks(block: Block | Pair, look: str = "") -> Markup:
+    """Attribute with the classes of a block; "" without any."""
+    looks = (
+        look or getattr(block, "look", ""),
+        _PLACES.get(getattr(block, "on", ""), ""),
+    )
+    named = " ".join(one for one in looks if one)
+    return Markup(' class="{}"').format(named) if named else Markup("")
+
+
+def write_inline(text: Text, has_symbols: bool = False) -> Markup:
+    """Text of a block as HTML."""
+    pieces = list_pieces(text, has_symbols=has_symbols)
+    return Markup("").join(_write_piece(piece) for piece in pieces)
+
+
+def _write_piece(piece: Piece | Badge | Sketch) -> Markup:
+    if isinstance(piece, Sketch):
+        return Markup(piece.svg)
+    if isinstance(piece, Badge):
+        return _write_badge(piece)
+    text = write_subscripts(piece.text) if piece.has_symbols else escape(piece.text)
+    text = text.replace("\n", Markup("<br>"))
+    if piece.link:
+        text = Markup('<a href="#{}">{}</a>').format(piece.link, text)
+    if piece.look in (STRONG, CODE):
+        return Markup("<{0}>{1}</{0}>").format(piece.look, text)
+    if piece.look:
+        return Markup('<span class="{}">{}</span>').format(piece.look, text)
+    return text
+
+
+def _write_badge(badge: Badge) -> Markup:
+    """Verdict: its symbol says the same as its word to who sees it."""
+    shown = badge.verdict
+    if badge.look == "sign":
+        form = (
+            '<span class="sign-of {}" aria-hidden="true">{}</span>'
+            '<span class="hidden">{}</span> '
+        )
+        return Markup(form).format(shown.style, shown.symbol, shown.word)
+    inside = Markup('<span aria-hidden="true">{}</span>{}{}').format(
+        shown.symbol, " " if badge.look == "word" else "\u00a0", shown.word
+    )
+    if badge.look == "word":
+        return inside
+    return Markup('<span class="badge {}">{}</span>').format(shown.style, inside)
 
 
 def write_subscripts(symbols: str) -> Markup:
@@ -61,48 +162,65 @@ def write_subscripts(symbols: str) -> Markup:
     return Markup(_LOWERED.sub(r"<sub>\1</sub>", shown) if "_" in shown else shown)
 
 
-def write_line(cells: Sequence[Cell], columns: Sequence[Column], mark: str) -> Markup:
-    """Cells of a table's line; the first one names it.
+def write_line(cells: Sequence[Cell], table: Table) -> Markup:
+    """Row of a table; the first cell names it.
 
-    ``mark`` is the class of numbers, ``n``, or that of texts, ``t``. A template that
-    writes cell by cell takes three times as long, and a page has 20,000 of them.
+    A template that writes cell by cell takes three times as long, and a page has
+    20,000 of them.
     """
-    looks = [
-        f' class="{mark}">' if column.is_number is (mark == "n") else ">"
-        for column in columns
-    ]
-    texts = [
-        escape(cell.text) if _MARKS.search(cell.text) else cell.text for cell in cells
-    ]
+    if len(cells) == 1 < len(table.columns):
+        form = '<tr class="more"><td colspan="{}">{}</td></tr>'
+        return Markup(form).format(len(table.columns), _write_cell(cells[0], table))
+    looks = [f"{_mark_column(column, table)}>" for column in table.columns]
+    texts = [_write_cell(cell, table) for cell in cells]
     written = [
         f"<td{look}{text}</td>" for look, text in zip(looks[1:], texts[1:], strict=True)
     ]
-    return Markup(f'<th scope="row"{looks[0]}{texts[0]}</th>{"".join(written)}')
+    hidden = table.not_on_paper
+    is_hidden = hidden and any(cell.text == hidden for cell in cells)
+    row = '<tr class="screen">' if is_hidden else "<tr>"
+    first = f'<th scope="row"{looks[0]}{texts[0]}</th>' if texts[0] else "<td></td>"
+    return Markup(f"{row}{first}{''.join(written)}</tr>")
 
 
-def _keep_units(case: str) -> str:
-    """``400 kg/m³, φ 15°`` that breaks at its commas only."""
-    return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
+def _write_cell(cell: Cell, table: Table) -> str:
+    if cell.content:
+        return write_inline(cell.content)
+    if table.symbols == "cells":
+        return write_subscripts(cell.text)
+    return write_inline(cell.text) if _MARKS.search(cell.text) else cell.text
 
 
-def _offer_breaks(points: tuple[str, ...], heading: str) -> Markup:
+def _mark_column(column: Column, table: Table) -> Markup:
+    """Class of a column: ``n`` of numbers; in tables of figures ``t`` of texts.
+
+    Those are so many that a class at each number would be a third of the table.
+    """
+    if table.look.startswith("figures"):
+        return Markup("") if column.is_number else Markup(' class="t"')
+    return Markup(' class="n"') if column.is_number else Markup("")
+
+
+def _write_heading(points: tuple[str, ...], heading: str, has_symbols: bool) -> Markup:
     """Heading whose long words may be broken at their joints, in narrow columns.
 
     Not every browser knows the hyphens of a language; without them it would break a
     word anywhere.
     """
-    shown = str(escape(heading))
-    for point in points:
+    shown = str(write_inline(heading, has_symbols))
+    for point in () if has_symbols else points:
         shown = shown.replace(point.replace("|", ""), point.replace("|", "&shy;"))
     return Markup(shown)
+
+
+def _tell_empty(words: Words, table: Table) -> Markup:
+    """Line that stands for a table without rows; one of figures is named."""
+    if not table.symbols:
+        return escape(table.empty)
+    return write_subscripts(words("show.label", label=table.caption, text=table.empty))
 
 
 def load_style(*names: str) -> Markup:
     """Style sheets of the templates, one after the other."""
     folder = find_resource("templates")
     return Markup("\n".join((folder / n).read_text(encoding="utf-8") for n in names))
-
-
-def mark_safe(svg: str) -> Markup:
-    """Mark a drawing of ours as HTML; nothing that somebody typed may come here."""
-    return Markup(svg)

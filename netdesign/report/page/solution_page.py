@@ -19,6 +19,27 @@ from netdesign.coupling.moments import (
     REST_WAY,
 )
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
+from netdesign.report.blocks.block import (
+    Block,
+    Figure,
+    Pair,
+    Pairs,
+    Paragraph,
+    Part,
+    masthead,
+    notes,
+    section,
+)
+from netdesign.report.blocks.table import (
+    Column,
+    Table,
+    name_columns,
+    number_cell,
+    number_column,
+    quantity_column,
+    text_cell,
+)
+from netdesign.report.blocks.text import SMALL, Piece, strong
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import (
     draw_meshes,
@@ -28,17 +49,8 @@ from netdesign.report.drawing.net_figures import (
 )
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.page.csv_text import write_csv
-from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.page.render import render_page
 from netdesign.report.view.solved_support import view_support
-from netdesign.report.view.table import (
-    Column,
-    Table,
-    name_columns,
-    number_cell,
-    number_column,
-    quantity_column,
-    text_cell,
-)
 from netdesign.report.words import (
     Words,
     show_text,
@@ -60,16 +72,6 @@ class Drawn:
     name: str
     caption: str
     svg: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Headline:
-    """A number that the page opens with."""
-
-    label: str
-    value: str
-    unit: str
-    note: str
 
 
 def list_solution_files(
@@ -225,31 +227,59 @@ def _size(vector: Any) -> float:
 def _render_page(
     document: dict[str, Any], drawings: Sequence[Drawn], scene_file: str, words: Words
 ) -> str:
-    proven = document["outcome"] == "converged"
-    plateau = document.get("plateau")
-    without_plateau = plateau is not None and not plateau["reached"]
-    support = document.get("support")
-    template = build_environment(words.language).get_template("solution.html")
-    return template.render(
-        language=words.language,
-        css=load_style("report.css", "study.css"),
-        title=show_text(scene_file),
-        method=words(f"solved_method.{document['method']}") if proven else "",
-        headline=_list_headlines(document, words) if proven else [],
-        without_plateau=without_plateau,
-        outcome=words(f"ended.{document['outcome']}").replace("_", " "),
-        reason=show_text(document.get("reason", "")),
-        flags=[show_text(flag) for flag in document.get("flags", ())],
-        criterion=describe_criterion(words) if plateau else "",
-        figures=[
-            {"caption": drawn.caption, "svg": mark_safe(drawn.svg), "name": drawn.name}
-            for drawn in drawings
-        ],
-        support=view_support(support, words) if support else None,
-        tables=[_tabulate_nodes(document, words), _tabulate_quality(document, words)]
-        if proven
-        else [],
+    is_proven = document["outcome"] == "converged"
+    title = show_text(scene_file)
+    kind = words("solved.page")
+    method = words(f"solved_method.{document['method']}") if is_proven else ""
+    blocks: list[Block] = [masthead(f"{kind} · {method}" if method else kind, title)]
+    if is_proven:
+        blocks += _show_solution(document, drawings, words)
+    else:
+        outcome = words(f"ended.{document['outcome']}").replace("_", " ")
+        failed = words("solved.no_result", outcome=outcome)
+        blocks.append(_warn(failed, show_text(document.get("reason", ""))))
+    return render_page(blocks, f"{title} - {kind}", words.language)
+
+
+def _warn(what: str, why: str) -> Part:
+    text = (*strong(what), Piece(f" {why}"))
+    return Part(
+        kind="div", id="outcome", look="notes open", blocks=(Paragraph(text=text),)
     )
+
+
+def _show_solution(
+    document: dict[str, Any], drawings: Sequence[Drawn], words: Words
+) -> list[Block]:
+    plateau, flags = document.get("plateau"), document.get("flags", ())
+    support = document.get("support")
+    blocks: list[Block] = []
+    if plateau is not None and not plateau["reached"]:
+        blocks.append(_warn(words("solved.no_plateau"), words("solved.largest_so_far")))
+    blocks.append(Pairs(look="numbers", pairs=tuple(_list_headlines(document, words))))
+    axes = words("solved.axes")
+    if plateau:
+        axes += " " + words("solved.plateau", criterion=describe_criterion(words))
+    blocks.append(Paragraph(text=axes, look="small"))
+    if flags:
+        blocks.append(notes(*(show_text(flag) for flag in flags)))
+    if support:
+        blocks.append(_show_support(support, words))
+    blocks += [
+        Figure(svg=one.svg, caption=one.caption, id=f"figure-{one.name}", look="plate")
+        for one in drawings
+    ]
+    tables = (_tabulate_nodes(document, words), _tabulate_quality(document, words))
+    numbers = [table.shown("study") for table in tables]
+    return [*blocks, section("tables", words("solved.numbers"), *numbers)]
+
+
+def _show_support(support: dict[str, Any], words: Words) -> Part:
+    view = view_support(support, words)
+    blocks: list[Block] = [table.shown("study") for table in view.tables]
+    if view.sentences:
+        blocks.append(notes(*view.sentences))
+    return section("support", words("support_view.title"), *blocks)
 
 
 def describe_criterion(words: Words) -> str:
@@ -264,34 +294,31 @@ def describe_criterion(words: Words) -> str:
     )
 
 
-def _list_headlines(document: dict[str, Any], words: Words) -> list[Headline]:
+def _list_headlines(document: dict[str, Any], words: Words) -> list[Pair]:
     if document["wall"]:
         return _list_wall_headlines(document["wall"], words)
     plateau = document.get("plateau")
     shown = [_show_pull(document, end, words) for end in ("foot", "head")]
-    sag = Headline(
-        label=words("solved.sag"),
-        value=words.show_number("sag_m", document["sag_m"]),
-        unit="m",
-        note=words(
-            "solved.normal_to_chord_end" if plateau else "solved.normal_to_chord"
-        ),
-    )
-    return [*shown, sag]
+    key = "solved.normal_to_chord_end" if plateau else "solved.normal_to_chord"
+    sag = words.show_number("sag_m", document["sag_m"])
+    return [*shown, _headline(words("solved.sag"), sag, "m", words(key))]
 
 
-def _list_wall_headlines(wall: dict[str, Any], words: Words) -> list[Headline]:
+def _list_wall_headlines(wall: dict[str, Any], words: Words) -> list[Pair]:
     error = words.show_number("error_kN_per_m", wall["error_kN_per_m"])
     note = words("solved.error", error=error)
-    moment = wall["moment_about_foot_kN"]
+    parts = (
+        ("solved.force_along", "force_x_kN_per_m", "kN/m", note),
+        ("solved.force_normal", "force_y_kN_per_m", "kN/m", note),
+        ("solved.moment", "moment_about_foot_kN", "kN", ""),
+    )
     return [
-        _headline(words, words("solved.force_along"), wall["force_x_kN_per_m"], note),
-        _headline(words, words("solved.force_normal"), wall["force_y_kN_per_m"], note),
-        _headline(words, words("solved.moment"), moment, "", unit="kN"),
+        _headline(words(name), _show_size(wall[key], words), unit, told)
+        for name, key, unit, told in parts
     ]
 
 
-def _show_pull(document: dict[str, Any], end: str, words: Words) -> Headline:
+def _show_pull(document: dict[str, Any], end: str, words: Words) -> Pair:
     """Pull on one end: its largest, and on the plateau of a history."""
     pull, plateau = document["anchor_forces"][end], document.get("plateau")
     error = words.show_number("error_kN_per_m", pull["error_kN_per_m"])
@@ -302,14 +329,18 @@ def _show_pull(document: dict[str, Any], end: str, words: Words) -> Headline:
     if plateau and plateau["reached"]:
         size = words.show_number("foot_size_kN_per_m", plateau[f"{end}_kN_per_m"])
         note = words("solved.on_plateau", note=note, size=size)
-    return _headline(words, label, pull["size_kN_per_m"], note)
+    size = _show_size(pull["size_kN_per_m"], words)
+    return _headline(label, size, "kN/m", note)
 
 
-def _headline(
-    words: Words, label: str, value: float, note: str, unit: str = "kN/m"
-) -> Headline:
-    shown = words.show_number("foot_size_kN_per_m", value)
-    return Headline(label=label, value=shown, unit=unit, note=note)
+def _show_size(value: float, words: Words) -> str:
+    return words.show_number("foot_size_kN_per_m", value)
+
+
+def _headline(label: str, value: str, unit: str, note: str) -> Pair:
+    """Number that the page opens with."""
+    text = (Piece(f"{value} ", "value"), Piece(unit, "unit"), Piece(note, SMALL))
+    return Pair(name=label, text=text)
 
 
 def _tabulate_nodes(document: dict[str, Any], words: Words) -> Table:

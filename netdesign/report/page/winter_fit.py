@@ -2,70 +2,83 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from netdesign.report.drawing.residual_figure import draw_residuals
-from netdesign.report.page.render import mark_safe
-from netdesign.report.view.table import (
+from netdesign.report.blocks.block import (
+    Block,
+    Figure,
+    Heading,
+    Paragraph,
+    notes,
+)
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     fixed_cell,
     name_columns,
     text_cell,
 )
+from netdesign.report.drawing.residual_figure import draw_residuals
 from netdesign.report.words import MISSING, Words, show_member, show_text, show_unit
 
 _DECIMALS = {"slip_length": 1, "friction_angle": 1, "slack": 4}  # else 3
 
 
-def view_fit(
-    fit: Mapping[str, Any] | None, density: float, words: Words
-) -> dict[str, Any] | None:
-    """Tables and sentences of a fit for the template; None without one.
+def show_fit(fit: Mapping[str, Any], density: float, words: Words) -> Iterator[Block]:
+    """Tables, sentences and residuals of a fit.
 
     Parameters
     ----------
-    fit : mapping or None
+    fit : mapping
         Entry ``fit`` of the winter document.
     density : float
         Of the design case [kg/m3].
     words : Words
         Language.
     """
-    if fit is None:
-        return None
-    noise = fit["noise"]
     is_fitted = fit["outcome"] == "fitted"
-    return {
-        "heading": words("fit_page.heading", winter=fit["winter"] or MISSING),
-        "why": show_text(fit["why"]),
-        "is_fitted": is_fitted,
-        "taken": words("fit_page.taken", readings=fit["readings"], days=fit["days"]),
-        "noise": words(
+    heading = words("fit_page.heading", winter=fit["winter"] or MISSING)
+    yield Heading(text=heading, level=3)
+    yield notes(*_describe_fit(fit, words), look="notes" if is_fitted else "notes open")
+    found = {"density": density, "share": fit["unconstrained_above"]}
+    for part, table in (
+        ("forces", _tabulate_forces(fit["forces"], words)),
+        ("parameters", _tabulate_parameters(fit, words)),
+    ):
+        if table.rows:
+            key = f"fit_page.{part}_{'note' if is_fitted else 'none'}"
+            yield table.shown("study")
+            yield Paragraph(text=words(key, **found), look="small")
+    correlations = _tabulate_correlations(fit, words)
+    if correlations.rows:
+        yield correlations.shown("study")
+    residuals = _tabulate_residuals(fit, words)
+    if residuals.rows:
+        svg = draw_residuals(fit["residuals"], words)
+        yield Figure(svg=svg, caption=words("fit_page.figure"), look="plate")
+        yield residuals.shown("study")
+
+
+def _describe_fit(fit: Mapping[str, Any], words: Words) -> list[str]:
+    """Outcome, readings and noise; days left out and known parameters if any."""
+    noise = fit["noise"]
+    told = [
+        show_text(fit["why"]),
+        words("fit_page.taken", readings=fit["readings"], days=fit["days"]),
+        words(
             "fit_page.noise",
             reading=noise["reading"],
             cell=noise["cell"],
             rope=noise["rope_K"],
         ),
-        "forces": _tabulate_forces(fit["forces"], words),
-        "forces_note": (
-            words("fit_page.forces_note", density=density)
-            if is_fitted
-            else words("fit_page.forces_none")
-        ),
-        "parameters": _tabulate_parameters(fit, words),
-        "parameters_note": (
-            words("fit_page.parameters_note", share=fit["unconstrained_above"])
-            if is_fitted
-            else words("fit_page.parameters_none")
-        ),
-        "known": _tell_known(fit, words),
-        "left_out": _tell_left_out(fit, words),
-        "correlations": _tabulate_correlations(fit, words),
-        "residuals": _tabulate_residuals(fit, words),
-        "svg": mark_safe(draw_residuals(fit["residuals"], words)),
-    }
+    ]
+    if fit["days_left_out"]:
+        told.append(words("fit_page.left_out", days=tuple(fit["days_left_out"])))
+    if fit["known"]:
+        names = tuple(words(f"fit_parameter.{one}") for one in fit["known"])
+        told.append(words("fit_page.known", names=names))
+    return told
 
 
 def _tabulate_forces(forces: Sequence[Mapping[str, Any]], words: Words) -> Table:
@@ -131,16 +144,6 @@ def _tell_worth(one: Mapping[str, Any], outcome: str, words: Words) -> str:
     if one["is_constrained"]:
         return words("fit_page.constrained")
     return words("fit_page.unconstrained")
-
-
-def _tell_known(fit: Mapping[str, Any], words: Words) -> str:
-    named = tuple(words(f"fit_parameter.{one}") for one in fit["known"])
-    return words("fit_page.known", names=named) if named else ""
-
-
-def _tell_left_out(fit: Mapping[str, Any], words: Words) -> str:
-    days = tuple(fit["days_left_out"])
-    return words("fit_page.left_out", days=days) if days else ""
 
 
 def _tabulate_correlations(fit: Mapping[str, Any], words: Words) -> Table:

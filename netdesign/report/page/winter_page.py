@@ -6,21 +6,30 @@ All numbers shown are the document's.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from netdesign.edge.given_files import make_printable
-from netdesign.report.drawing.measured_figure import draw_measured, find_detail
-from netdesign.report.drawing.winter_figure import draw_winter
-from netdesign.report.page.render import build_environment, load_style, mark_safe
-from netdesign.report.page.winter_fit import view_fit
-from netdesign.report.view.table import (
+from netdesign.report.blocks.block import (
+    Block,
+    Figure,
+    Heading,
+    Paragraph,
+    Part,
+    masthead,
+    notes,
+    section,
+)
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     fixed_cell,
     name_columns,
     text_cell,
 )
+from netdesign.report.drawing.measured_figure import draw_measured, find_detail
+from netdesign.report.drawing.winter_figure import draw_winter
+from netdesign.report.page.render import render_page
+from netdesign.report.page.winter_fit import show_fit
 from netdesign.report.words import MISSING, Words, show_member, show_text
 from netdesign.words.catalogue import Language
 
@@ -40,22 +49,32 @@ def render_winter(
         Of the page.
     """
     words = Words(language)
-    page = (
-        build_environment(language)
-        .get_template("winter.html")
-        .render(
-            language=language,
-            css=load_style("report.css", "study.css"),
-            title=show_text(document["site"]["name"] or document["site"]["file"]),
-            station=_describe_station(document, words),
-            notes=[show_text(note) for note in document["notes"]],
-            rows=[_view_row(row, document, words) for row in document["rows"]],
-        )
+    site = show_text(document["site"]["name"] or document["site"]["file"])
+    kind = words("winter_page.title")
+    told = (show_text(note) for note in document["notes"])
+    station = Part(
+        id="station",
+        blocks=(
+            *(Paragraph(text=one) for one in _describe_station(document, words)),
+            notes(words("winter_page.chain"), words("winter_page.law"), *told),
+        ),
+    )
+    blocks = (
+        masthead("netdesign winter", words("show.label", label=kind, text=site)),
+        station,
+        *(
+            section(
+                f"row-{place}",
+                words("winter_page.row", row=show_text(row["id"])),
+                *_show_row(row, document, words),
+            )
+            for place, row in enumerate(document["rows"], 1)
+        ),
     )
     text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
     return {
         DOCUMENT_FILE: text.encode(),
-        PAGE_FILE: make_printable(page).encode(),
+        PAGE_FILE: render_page(blocks, f"{site} - {kind}", language).encode(),
     }
 
 
@@ -82,67 +101,72 @@ def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
     return [show_text(text) for text in found]
 
 
-def _view_row(
+def _show_row(
     row: Mapping[str, Any], document: Mapping[str, Any], words: Words
-) -> dict[str, Any]:
+) -> Iterator[Block]:
     shown = [winter for winter in row["winters"] if winter["curve"]]
     air = document["air_temperatures_C"]
+    yield from _describe_row(row, words)
+    yield _tabulate_winters(row, words).shown("study winters")
+    unproven = [_label(one, words) for one in row["winters"] if not one["is_proven"]]
+    if unproven:
+        yield notes(*unproven, look="notes open")
+    for winter in shown:
+        drawn = draw_winter(winter, air, words)
+        yield Figure(svg=drawn, caption=_label(winter, words), look="plate")
+        if failed := _list_failed(winter, words):
+            yield notes(*failed)
+    if row["measured"] or row["not_compared"]:
+        yield Heading(text=words("winter_measured.heading"), level=3)
+    for one in row["measured"]:
+        yield from _show_measured(one, air, words)
+    for text in row["not_compared"]:
+        yield Paragraph(text=show_text(text), look="notes open")
+    members = _tabulate_members(shown, words)
+    if members.rows:
+        yield members.shown("study winters")
+    yield _tabulate_models(row, document["model"], words).shown("study winters")
+    statistics = _tabulate_statistics(row["statistics"], words)
+    without = Paragraph(text=words("winter_page.no_statistics"))
+    yield statistics.shown("study") if statistics else without
+    yield Heading(text=words("winter_page.density_heading"), level=3)
+    for text in _describe_range(row, document, words):
+        yield Paragraph(text=text)
+    if row["fit"]:
+        yield from show_fit(row["fit"], document["check_density_kg_m3"][1], words)
+
+
+def _describe_row(row: Mapping[str, Any], words: Words) -> list[Paragraph]:
     is_given = row["height_factor_given"]
     factor = "winter_page.factor_given" if is_given else "winter_page.factor_assumed"
-    return {
-        "id": show_text(row["id"]),
-        "factor": words(factor, factor=row["height_factor"]),
-        "scene": words(
-            "winter_page.scene",
-            friction=row["friction_deg"],
-            inclination=row["inclination_deg"],
-            height=row["net_height_m"],
-            slope=row["slope_deg"],
-        ),
-        "summary": _tabulate_winters(row, words),
-        "unproven": [
-            words("show.label", label=one["name"], text=show_text(one["why"]))
-            for one in row["winters"]
-            if not one["is_proven"]
-        ],
-        "members": _tabulate_members(shown, words),
-        "models": _tabulate_models(row, document["model"], words),
-        "statistics": _tabulate_statistics(row["statistics"], words),
-        "without_statistics": words("winter_page.no_statistics"),
-        "range": _describe_range(row, document, words),
-        "measured": [
-            view for one in row["measured"] for view in _view_measured(one, air, words)
-        ],
-        "not_compared": [show_text(text) for text in row["not_compared"]],
-        "fit": view_fit(row["fit"], document["check_density_kg_m3"][1], words),
-        "figures": [
-            {
-                "svg": mark_safe(draw_winter(winter, air, words)),
-                "caption": words(
-                    "show.label", label=winter["name"], text=show_text(winter["why"])
-                ),
-                "failed": _list_failed(winter, words),
-            }
-            for winter in shown
-        ],
-    }
+    scene = words(
+        "winter_page.scene",
+        friction=row["friction_deg"],
+        inclination=row["inclination_deg"],
+        height=row["net_height_m"],
+        slope=row["slope_deg"],
+    )
+    told = (scene, words(factor, factor=row["height_factor"]))
+    return [Paragraph(text=text, look="small") for text in told]
 
 
-def _view_measured(
+def _label(winter: Mapping[str, Any], words: Words) -> str:
+    return words("show.label", label=winter["name"], text=show_text(winter["why"]))
+
+
+def _show_measured(
     one: Mapping[str, Any], air: Mapping[str, float], words: Words
-) -> list[dict[str, Any]]:
+) -> Iterator[Figure]:
     """Figure of a member's readings, and a detail where they are dense."""
-    whole = {
-        "svg": mark_safe(draw_measured(one, air, words)),
-        "caption": _describe_measured(one, words),
-    }
+    whole = draw_measured(one, air, words)
+    yield Figure(svg=whole, caption=_describe_measured(one, words), look="plate")
     detail = find_detail(one)
     if detail is None:
-        return [whole]
+        return
     first, last = detail.first.date().isoformat(), detail.last.date().isoformat()
     caption = words("winter_measured.detail", first=first, last=last)
-    svg = mark_safe(draw_measured(one, air, words, detail))
-    return [whole, {"svg": svg, "caption": caption}]
+    svg = draw_measured(one, air, words, detail)
+    yield Figure(svg=svg, caption=caption, look="plate")
 
 
 def _describe_measured(one: Mapping[str, Any], words: Words) -> str:

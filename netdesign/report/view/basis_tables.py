@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from netdesign.outcome import Outcome
-from netdesign.report.view.table import Cell, Table, given_cell, name_columns, text_cell
+from netdesign.report.blocks.table import (
+    Cell,
+    Table,
+    given_cell,
+    name_columns,
+    text_cell,
+)
 from netdesign.report.view.tables import ASSUMED, DEFAULT, list_settings
 from netdesign.report.words import (
     MISSING,

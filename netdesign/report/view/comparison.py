@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from netdesign.report.blocks.table import Cell, Table, name_columns, text_cell
 from netdesign.report.view.check_view import find_governing
-from netdesign.report.view.table import Cell, Table, name_columns, text_cell
 from netdesign.report.view.tables import name_profile
 from netdesign.report.view.what_if import mark_verdict
 from netdesign.report.words import (

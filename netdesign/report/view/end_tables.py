@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     given_cell,

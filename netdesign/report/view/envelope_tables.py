@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     fixed_cell,

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 
 from netdesign.calculation.steps import evaluate
-from netdesign.report.view.steps import write_numbers
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Column,
     Table,
@@ -20,6 +19,7 @@ from netdesign.report.view.table import (
     text_cell,
     text_column,
 )
+from netdesign.report.view.steps import write_numbers
 from netdesign.report.words import (
     MISSING,
     Words,

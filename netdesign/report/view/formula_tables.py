@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from netdesign.report.view.table import Table, text_cell, text_column
+from netdesign.report.blocks.table import Table, text_cell, text_column
 from netdesign.report.words import Words
 
 # Names of the formulas, each with its symbols; what it gives is in the words.

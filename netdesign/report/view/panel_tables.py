@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     given_cell,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     given_cell,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from netdesign.report.blocks.table import Cell, Column, Table, name_columns, text_cell
 from netdesign.report.view.check_view import SEVERITY
-from netdesign.report.view.table import Cell, Column, Table, name_columns, text_cell
 from netdesign.report.view.tables import DEFAULT
 from netdesign.report.words import (
     MISSING,

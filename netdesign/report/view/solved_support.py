@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Table,
     number_cell,

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Table,
     name_columns,
     short_cell,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from netdesign.outcome import Outcome
-from netdesign.report.view.table import (
+from netdesign.report.blocks.table import (
     Cell,
     Column,
     Table,

@@ -14,6 +14,7 @@ from typing import Literal
 
 from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
+from netdesign.report.blocks.table import Table
 from netdesign.report.view import (
     basis_tables,
     end_tables,
@@ -47,7 +48,6 @@ from netdesign.report.view.check_view import (
 )
 from netdesign.report.view.gate import require_consistent
 from netdesign.report.view.steps import Worked, work_out
-from netdesign.report.view.table import Table
 from netdesign.report.words import (
     VerdictWords,
     Words,

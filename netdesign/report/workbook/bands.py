@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from netdesign.report.view.table import Cell, Column, Table
+from netdesign.report.blocks.table import Cell, Column, Table
 from netdesign.report.words import MISSING, Words
 
 _ENDS = ("heading.low", "heading.high")

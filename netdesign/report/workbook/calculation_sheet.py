@@ -14,13 +14,13 @@ from typing import Any
 from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
 from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate
+from netdesign.report.blocks.table import Column
 from netdesign.report.view.check_formulas import (
     is_given,
     write_guarded,
     write_link,
     write_same,
 )
-from netdesign.report.view.table import Column
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import MISSING, Words, show_text, show_unit
 from netdesign.report.workbook.given_cells import IN_FORCES, GivenCells

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from netdesign.quantities import QUANTITIES
-from netdesign.report.view.table import Column
+from netdesign.report.blocks.table import Column
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.words import Words, add_unit, name_heading
 

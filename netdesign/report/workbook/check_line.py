@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from netdesign.outcome import Verdict
+from netdesign.report.blocks.table import Cell
 from netdesign.report.view.check_formulas import (
     ROUNDING,
     ChangedReasons,
@@ -22,7 +23,6 @@ from netdesign.report.view.check_formulas import (
     write_verdict,
 )
 from netdesign.report.view.check_view import CheckView, find_case
-from netdesign.report.view.table import Cell
 from netdesign.report.words import (
     MISSING,
     UNBOUNDED,

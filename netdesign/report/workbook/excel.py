@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 
 from netdesign.errors import NetDesignError
+from netdesign.report.blocks.table import Cell, Column, Table
 from netdesign.report.view import tables
 from netdesign.report.view.hold_tables import build_hold_numbers
-from netdesign.report.view.table import Cell, Column, Table
 from netdesign.report.view.whole import ReportView, build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.calculation_sheet import (

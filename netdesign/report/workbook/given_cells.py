@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from netdesign.calculation.quantity import Kind
 from netdesign.calculation.steps import SAME, Step
 from netdesign.checks.schema import LATERAL_SHARE
+from netdesign.report.blocks.table import Cell
 from netdesign.report.view.check_formulas import write_same
-from netdesign.report.view.table import Cell
 from netdesign.report.view.whole import ReportView
 from netdesign.report.workbook.writer import Book
 from netdesign.study.records import CheckRecord, ProfileValue, RowStudy, Study

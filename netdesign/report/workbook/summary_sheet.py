@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.blocks.table import Cell, Column
 from netdesign.report.view.check_formulas import write_merged
 from netdesign.report.view.check_view import find_case, find_governing, find_highest
-from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.what_if import mark_title
 from netdesign.report.view.whole import ReportView, RowView
 from netdesign.report.words import MISSING, UNBOUNDED, Words, number_format

@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Sequence
 from functools import lru_cache
 
-from netdesign.report.view.table import Column, Table
+from netdesign.report.blocks.table import Column, Table
 
 # Widths are in digits of the default font.
 BOLD = 1.1  # width of bold letters over that of others

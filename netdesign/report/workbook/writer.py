@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.table import Cell, Column, Table
+from netdesign.report.blocks.table import Cell, Column, Table
 from netdesign.report.words import Words, number_format, show_verdict
 from netdesign.report.workbook.bands import split_bands
 from netdesign.report.workbook.pages import (

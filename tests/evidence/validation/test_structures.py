@@ -104,9 +104,9 @@ def test_known_structure_has_one_case_and_a_misfit():
 
 
 def render_rows(found):
-    from netdesign.evidence.validation.page import _show_structure
+    from netdesign.evidence.validation.page import _tabulate_measured
 
-    rows = _show_structure(found, Words("en"))["measured"].rows
+    rows = _tabulate_measured(found, Words("en")).rows
     return [{"name": row[0].text, "said": row[-1].text} for row in rows]
 
 

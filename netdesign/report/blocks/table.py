@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import TypeVar
+from dataclasses import dataclass, replace
+from typing import Literal, TypeVar
 
+from netdesign.report.blocks.text import Content, symbols
 from netdesign.report.words import MISSING, Words, name_heading, show_text
+
+# Where a block is shown: everywhere; on a screen alone; in a page, not in a document;
+# on paper and in a document, not on a screen.
+Medium = Literal["all", "screen", "page", "paper"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -14,11 +19,13 @@ class Cell:
     """Text that a reader sees, and the number behind it if it is one.
 
     ``ends`` are the numbers of an interval; the workbook gives each a cell.
+    ``content`` stands for the text where it has several looks.
     """
 
-    text: str
+    text: str = ""
     number: float | None = None
     ends: tuple[float | None, float | None] | None = None
+    content: Content = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,12 +39,52 @@ class Column:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
-    """Rows of cells under headings. Without rows, outputs print ``empty``."""
+    """Rows of cells under headings. Without rows, outputs print ``empty``.
+
+    A row of one cell goes over all columns. ``symbols`` says whose subscripts are
+    lowered: those of caption and headings, or those of all cells.
+    """
 
     caption: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[Cell, ...], ...]
     empty: str = MISSING
+    note: Content = ()  # after the caption
+    look: str = ""
+    on: Medium = "all"
+    symbols: Literal["", "headings", "cells"] = ""
+    not_on_paper: str = ""  # text of a cell whose row stands on a screen alone
+
+    def shown(
+        self,
+        look: str,
+        on: Medium = "all",
+        *,
+        symbols: Literal["", "headings", "cells"] = "",
+        not_on_paper: str = "",
+    ) -> Table:
+        """The same table with a look, and where it is shown."""
+        return replace(
+            self, look=look, on=on, symbols=symbols, not_on_paper=not_on_paper
+        )
+
+
+def turn(table: Table) -> Table:
+    """Few rows of many columns as many rows: a column for each row.
+
+    Headings become the first column, with their symbols. No rows stay no rows.
+    """
+    if not table.rows:
+        return table
+    first, *further = table.columns
+    names = [row[0].text for row in table.rows]
+    rows = tuple(
+        (rich_cell(symbols(column.heading)), *(row[place] for row in table.rows))
+        for place, column in enumerate(further, 1)
+    )
+    return replace(
+        table, columns=(first, *name_columns(names, numbers=names)), rows=rows
+    )
 
 
 _Item = TypeVar("_Item")
@@ -90,6 +137,11 @@ def symbol_columns(fields: Iterable[tuple[str, str]]) -> tuple[Column, ...]:
 def text_cell(text: str) -> Cell:
     """Text on one line, never empty."""
     return Cell(text=show_text(text))
+
+
+def rich_cell(content: Content) -> Cell:
+    """Text in several looks."""
+    return Cell(content=content)
 
 
 def number_cell(words: Words, key: str, value: float | None) -> Cell:

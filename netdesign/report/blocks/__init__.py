@@ -1,0 +1,1 @@
+"""Reports as blocks: what stands where, for every writer."""
