@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from netdesign.evidence.benchmark.summary import Row
+    from netdesign.evidence.benchmark.precision import Row
     from netdesign.report.words import Words
 
 Show = Callable[[dict[str, Any], "Console", "Words"], None]
@@ -295,7 +295,7 @@ def _run_named(
         require_free([plot], overwrite=force)
     rows = _measure(names, output.language, quick=quick)
     if plot is not None:
-        from netdesign.evidence.benchmark.bench_figure import draw_work_precision
+        from netdesign.evidence.benchmark.precision import draw_work_precision
         from netdesign.report.words import Words
 
         drawn = draw_work_precision(rows, Words(output.language))

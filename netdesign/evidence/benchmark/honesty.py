@@ -18,8 +18,7 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import find_end_pulls, solve_steady
 from netdesign.errors import ModelError, SolveError
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import (
     Truth,
     find_level,

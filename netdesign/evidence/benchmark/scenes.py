@@ -1,13 +1,19 @@
-"""Named scenes that span the ranges of use, as tables of scene files."""
+"""Scenes as tables of scene files: named ones, and random ones of a seed.
+
+Scene number k of a seed is the same however many are drawn, and in any order.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from netdesign.coupling.scene import Scene
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.random_scenes import Tables
 from netdesign.files.scene import SceneFile, build_scene
+from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.snow.ground import GROUND_KINDS
 from netdesign.words.message import say
 
 PAPER_SCENE = "paper-30"
@@ -125,3 +131,94 @@ def load_scenes(names: tuple[str, ...] = ()) -> dict[str, Scene]:
 def build_tables(tables: Tables) -> Scene:
     """Scene of the tables of a scene file."""
     return build_scene(SceneFile.model_validate(tables))[0]
+
+
+Tables = dict[str, dict[str, Any]]
+
+# Usual ranges of the symbols; stiffness and slip length are drawn on a log scale.
+SLOPE_DEG = (28.0, 55.0)
+THICKNESS_M = (0.5, 6.0)
+UPSLOPE_LENGTH_M = (5.0, 60.0)
+DENSITY_KG_M3 = (150.0, 600.0)
+INCLINATION_DEG = (0.0, 40.0)
+NET_HEIGHT_M = (1.5, 5.0)
+STIFFNESS_KN_PER_M = (2e3, 1e5)
+SLACK = (0.0, 0.15)
+FRICTION_DEG = (0.0, 45.0)
+SLIP_LENGTH_RATIO = (0.05, 20.0)  # over the thickness: glide factors 1.05 to 3
+
+# Shares of the drawn scenes.
+_FLUSH = 0.7  # net as high as the snow; else within NET_HEIGHT_M, if it can be
+_TAUT = 0.2  # no slack at all
+_SMOOTH = 0.05  # no friction at all
+_LAYERED = 0.3
+_ONE_SIDED = 0.2  # each of ground and net
+_PARALLEL = 0.1  # gravity along the slope only
+_MOST_LAYERS = 4
+
+
+def draw_scene(seed: int, number: int) -> Tables:
+    """Tables of the scene file of one random scene."""
+    rng = np.random.default_rng([seed, number])
+    thickness = _uniform(rng, THICKNESS_M)
+    return {
+        "slope": {"angle_deg": _uniform(rng, SLOPE_DEG)},
+        "snow": {
+            "thickness_m": thickness,
+            "upslope_length_m": _uniform(rng, UPSLOPE_LENGTH_M),
+            "creep_law": str(rng.choice(list(CREEP_LAWS))),
+        }
+        | _draw_density(rng, thickness),
+        "ground": _draw_ground(rng, thickness),
+        "net": _draw_net(rng, thickness),
+        "gravity": {"mode": "parallel" if rng.random() < _PARALLEL else "full"},
+    }
+
+
+def _draw_density(rng: np.random.Generator, thickness: float) -> dict[str, Any]:
+    """One density, or layers that add up to the thickness."""
+    if rng.random() >= _LAYERED:
+        return {"density_kg_m3": _uniform(rng, DENSITY_KG_M3)}
+    count = int(rng.integers(2, _MOST_LAYERS + 1))
+    shares = rng.uniform(0.2, 1.0, count)
+    heights = thickness * shares / shares.sum()
+    layers = [
+        {"thickness_m": float(height), "density_kg_m3": _uniform(rng, DENSITY_KG_M3)}
+        for height in heights
+    ]
+    # the file's thickness and the sum of the layers must agree to rounding
+    layers[-1]["thickness_m"] = thickness - sum(la["thickness_m"] for la in layers[:-1])
+    return {"layers": layers}
+
+
+def _draw_ground(rng: np.random.Generator, thickness: float) -> dict[str, Any]:
+    law = str(rng.choice(GROUND_KINDS))
+    ratio = _log_uniform(rng, SLIP_LENGTH_RATIO)
+    slip = {"slip_length_m": ratio * thickness} if law == "sliding" else {}
+    return {"law": law, "contact": _draw_contact(rng), **slip}
+
+
+def _draw_net(rng: np.random.Generator, thickness: float) -> dict[str, Any]:
+    height = thickness if rng.random() < _FLUSH else _uniform(rng, NET_HEIGHT_M)
+    slack = 0.0 if rng.random() < _TAUT else _uniform(rng, SLACK)
+    friction = 0.0 if rng.random() < _SMOOTH else _uniform(rng, FRICTION_DEG)
+    return {
+        "inclination_deg": _uniform(rng, INCLINATION_DEG),
+        "height_m": height,
+        "stiffness_kN_per_m": _log_uniform(rng, STIFFNESS_KN_PER_M),
+        "slack": slack,
+        "friction_deg": friction,
+        "contact": _draw_contact(rng),
+    }
+
+
+def _draw_contact(rng: np.random.Generator) -> str:
+    return "one-sided" if rng.random() < _ONE_SIDED else "two-sided"
+
+
+def _uniform(rng: np.random.Generator, bounds: tuple[float, float]) -> float:
+    return float(rng.uniform(*bounds))
+
+
+def _log_uniform(rng: np.random.Generator, bounds: tuple[float, float]) -> float:
+    return float(np.exp(rng.uniform(*np.log(bounds))))

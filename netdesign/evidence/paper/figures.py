@@ -18,8 +18,7 @@ from netdesign.evidence.paper.cases import (
     find_trend,
 )
 from netdesign.evidence.paper.findings import SETTLED
-from netdesign.evidence.paper.runs import Track
-from netdesign.evidence.paper.study import PaperStudy
+from netdesign.evidence.paper.runs import PaperStudy, Track
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import MeshPicture, draw_meshes
 from netdesign.report.words import Words

@@ -16,8 +16,7 @@ from netdesign.evidence.benchmark.honesty import (
     study_errors,
     write_errors,
 )
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import Truth
 from netdesign.outcome import Outcome
 

@@ -8,9 +8,15 @@ import pytest
 from netdesign.coupling.solution import FailedSolution
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark import precision
-from netdesign.evidence.benchmark.precision import Effort, measure_steady, write_bench
+from netdesign.evidence.benchmark.precision import (
+    Effort,
+    Row,
+    compare_at_error,
+    measure_steady,
+    summarise,
+    write_bench,
+)
 from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, SCENES, load_scenes
-from netdesign.evidence.benchmark.summary import Row, compare_at_error, summarise
 from netdesign.evidence.runner import fit_order, share, summarise_times
 from netdesign.outcome import Outcome
 

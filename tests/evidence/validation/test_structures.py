@@ -19,9 +19,9 @@ from netdesign.evidence.validation.page import (
     render_validation,
 )
 from netdesign.evidence.validation.structure import Span, read_structures
-from netdesign.evidence.verification.another_code import load_results
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, Contrast, list_places
+from netdesign.evidence.verification.exported import load_results
 from netdesign.report.words import Words, show_own
 from tests.commands.every_command import read_page
 from tests.words.english import list_vocabulary, list_words

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from netdesign.evidence.benchmark.random_scenes import Tables
-from netdesign.evidence.benchmark.scenes import SCENES
+from netdesign.evidence.benchmark.scenes import SCENES, Tables
 
 # The scenes that version 0.1.0 had; four layered ones came later, to be hard.
 NAMES = tuple(
