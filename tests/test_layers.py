@@ -131,7 +131,7 @@ def name_module(path: Path) -> str:
 
 
 # A script that other versions run by its path; no module imports it.
-PROBE = PACKAGE / "evidence" / "benchmark" / "versions" / "probe.py"
+PROBE = PACKAGE / "evidence" / "benchmark" / "probe.py"
 MODULES = {
     name_module(path): path
     for path in sorted(PACKAGE.rglob("*.py"))

@@ -180,7 +180,7 @@ def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
             **{name: version(name) for name in ("numpy", "scipy", "scikit-fem")},
         },
         "rows": [asdict(row) for row in rows],
-        "summary": asdict(summarise(rows)),
+        "summary": summarise(rows),
     }
 
 
@@ -234,64 +234,38 @@ class Row:
     peak_mb: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Summary:
-    """Figures over all scenes; None where there are too few rows.
+def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
+    """Figures of the steady rows over all scenes; None where there are too few.
 
-    Attributes
-    ----------
-    times_faster : float or None
-        Time of the plain path over that of the fast one on the same mesh, hence at
-        equal error; median over all scenes and meshes [-].
-    least_times_faster, most_times_faster : float or None
-        Over the same.
-    times_faster_at_error : float or None
-        Time of scikit-fem on even meshes over that of the fast path at equal error;
-        median over all scenes and even meshes [-].
-    cost_order : float or None
-        Median over the scenes of p in time ~ degrees of freedom^p, fast path [-].
-    worst_cost_order : float or None
-        Largest p of a scene [-].
-    error_order : float or None
-        Median over the scenes of q in error ~ degrees of freedom^-q/2 [-].
+    ``times_faster``: time of scikit-fem over that of the fast path on the same mesh,
+    hence at equal error; ``times_faster_at_error``: of scikit-fem on even meshes.
+    ``cost_order``: p in time ~ degrees of freedom^p, of the fast path; ``error_order``:
+    q in error ~ degrees of freedom^-q/2. All are medians unless named otherwise.
     """
-
-    times_faster: float | None
-    least_times_faster: float | None
-    most_times_faster: float | None
-    times_faster_at_error: float | None
-    cost_order: float | None
-    worst_cost_order: float | None
-    error_order: float | None
-
-
-def summarise(rows: Sequence[Row]) -> Summary:
-    """Summary of the steady rows."""
     steady = [row for row in rows if row.method == "steady"]
-    ratios = compare_paths(steady)
-    at_error = compare_at_error(steady)
+    ratios, at_error = compare_paths(steady), compare_at_error(steady)
     by_scene: dict[str, list[Row]] = defaultdict(list)
     for row in steady:
         if row.path == "fast":
             by_scene[row.scene].append(row)
     fitted = [group for group in by_scene.values() if len(group) > 2]
-    costs = [
-        fit_order([r.degrees_of_freedom for r in group], [r.wall_s for r in group])
-        for group in fitted
-    ]
-    orders = [
-        -2.0 * fit_order([r.degrees_of_freedom for r in g], [r.error for r in g])
-        for g in fitted
-    ]
-    return Summary(
-        times_faster=median(ratios) if ratios else None,
-        least_times_faster=min(ratios, default=None),
-        most_times_faster=max(ratios, default=None),
-        times_faster_at_error=median(at_error) if at_error else None,
-        cost_order=median(costs) if costs else None,
-        worst_cost_order=max(costs, default=None),
-        error_order=median(orders) if orders else None,
-    )
+    costs = [_fit(group, "wall_s") for group in fitted]
+    orders = [-2.0 * _fit(group, "error") for group in fitted]
+    return {
+        "times_faster": median(ratios) if ratios else None,
+        "least_times_faster": min(ratios, default=None),
+        "most_times_faster": max(ratios, default=None),
+        "times_faster_at_error": median(at_error) if at_error else None,
+        "cost_order": median(costs) if costs else None,
+        "worst_cost_order": max(costs, default=None),
+        "error_order": median(orders) if orders else None,
+    }
+
+
+def _fit(rows: Sequence[Row], name: str) -> float:
+    """Power of the degrees of freedom with which a field of the rows grows."""
+    sizes = [row.degrees_of_freedom for row in rows]
+    return fit_order(sizes, [getattr(row, name) for row in rows])
 
 
 def compare_paths(rows: Sequence[Row]) -> list[float]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.evidence.benchmark.peaks import build_peak, measure_peaks, search_peak
+from netdesign.evidence.benchmark.envelope import build_peak, measure_peaks, search_peak
 from netdesign.search.maxima import RESOLVED_SHARE
 
 

@@ -8,16 +8,17 @@ import pytest
 
 from netdesign import __version__
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.versions import inputs, probe
-from netdesign.evidence.benchmark.versions.inputs import NAMES, write_scene, write_site
-from netdesign.evidence.benchmark.versions.measures import (
+from netdesign.evidence.benchmark import inputs, probe
+from netdesign.evidence.benchmark.against import (
     Bench,
     RunFailure,
     Size,
+    open_version,
+    read_version,
     time_scenes,
     time_solve,
 )
-from netdesign.evidence.benchmark.versions.other import open_version, read_version
+from netdesign.evidence.benchmark.inputs import NAMES, write_scene, write_site
 from netdesign.files.scene import read_scene
 from netdesign.site.reader import read_site
 
