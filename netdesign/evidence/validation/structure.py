@@ -187,8 +187,7 @@ def _require_complete(structure: Structure, table: Mapping[str, Any]) -> None:
     if missing or len(set(_ROPE) & given) == 1:
         raise _refuse("inputs", ", ".join(missing or _ROPE))
     for name, span in structure.inputs.items():
-        if not span.low <= span.high:
-            raise _refuse(name, "low <= high")
+        _require_ascending(name, span, table["inputs"][name])
     if not structure.measured:
         raise _refuse("measured", "[[structure.measured]]")
     unit = _UNITS[structure.kind]
@@ -200,6 +199,14 @@ def _require_complete(structure: Structure, table: Mapping[str, Any]) -> None:
                 name.partition("_")[2] != unit
             ):
                 raise _refuse(f"measured.{name}", f"value_{unit}, uncertainty_{unit}")
+
+
+def _require_ascending(name: str, span: Span, table: Mapping[str, Any]) -> None:
+    """A value, or two ends in their order."""
+    if "value" in table and table.keys() & {"low", "high"}:
+        raise _refuse(name, "value, or low and high")
+    if not span.low <= span.high:
+        raise _refuse(name, "low <= high")
 
 
 def _refuse(field: str, accepted: str) -> ModelError:
