@@ -26,7 +26,7 @@ import numpy as np
 from netdesign.core.library import name_core
 from netdesign.core.sources import SWITCH, SWITCHED_OFF
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.inputs import (
+from netdesign.evidence.benchmark.scenes import (
     NAMES,
     ROW,
     SHORT,

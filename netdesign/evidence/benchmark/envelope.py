@@ -27,7 +27,7 @@ from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.against import Bench, Size, time_site
-from netdesign.evidence.benchmark.inputs import write_site
+from netdesign.evidence.benchmark.scenes import write_site
 from netdesign.evidence.runner import Clock
 from netdesign.evidence.scene import build_scene
 from netdesign.numerics.arrays import Floats
@@ -308,19 +308,6 @@ _SAMPLES = 21  # of each axis, for the true maximum
 _SIGMA = 2.3548  # widths at half height of a Gaussian bell, in its sigmas
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PeakEnd:
-    """Result of the search of one response.
-
-    ``excess`` is the true maximum over the upper bound, less 1: negative where the
-    bound holds.
-    """
-
-    excess: float
-    cases: int
-    is_closed: bool
-
-
 def build_peak(seed: int, width: float) -> Response:
     """Tilted plane with a peak as high as a tenth of it to itself; three parameters.
 
@@ -348,16 +335,15 @@ def build_peak(seed: int, width: float) -> Response:
     return respond
 
 
-def search_peak(response: Response) -> PeakEnd:
-    """Search one response and compare with its values on a dense grid."""
+def search_peak(response: Response) -> tuple[Maxima, float]:
+    """Search of one response, and its true maximum over the bound, less 1.
+
+    The truth is that of a dense grid; the excess is negative where the bound holds.
+    """
     found = _drive(response)
     axis = np.linspace(0.0, 1.0, _SAMPLES)
     truth = float(response(np.array(list(product(axis, repeat=3)))).max())
-    return PeakEnd(
-        excess=truth / found.upper_bound[0] - 1.0,
-        cases=len(found.points),
-        is_closed=found.is_closed,
-    )
+    return found, truth / found.upper_bound[0] - 1.0
 
 
 def measure_peaks(count: int, widths: tuple[float, ...]) -> list[dict[str, Any]]:
@@ -369,9 +355,11 @@ def measure_peaks(count: int, widths: tuple[float, ...]) -> list[dict[str, Any]]
             {
                 "width": width,
                 "searches": count,
-                "not_closed": sum(not end.is_closed for end in ends),
-                "missed": sum(end.is_closed and end.excess > _ROUNDING for end in ends),
-                "median_cases": median(end.cases for end in ends),
+                "not_closed": sum(not found.is_closed for found, _ in ends),
+                "missed": sum(
+                    found.is_closed and excess > _ROUNDING for found, excess in ends
+                ),
+                "median_cases": median(len(found.points) for found, _ in ends),
             }
         )
     return points

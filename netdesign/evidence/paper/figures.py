@@ -163,11 +163,7 @@ def _plate_methods(study: PaperStudy, words: Words) -> Plate | None:
             ),
         ]
         panels.append(_with_steady(study, straight, lines, words))
-    return _plate(
-        panels,
-        "methods",
-        words,
-    )
+    return _plate(panels, "methods", words)
 
 
 def _plate_trend(study: PaperStudy, words: Words) -> Plate | None:
@@ -222,11 +218,7 @@ def _plate_drift(study: PaperStudy, words: Words) -> Plate | None:
                     lines=lines,
                 )
             )
-    return _plate(
-        panels,
-        "drift",
-        words,
-    )
+    return _plate(panels, "drift", words)
 
 
 def _plate_inclination(study: PaperStudy, words: Words) -> Plate | None:
@@ -240,12 +232,7 @@ def _plate_inclination(study: PaperStudy, words: Words) -> Plate | None:
         if lines:
             title = words(f"paper_plate.pull_{end}")
             panels.append(Panel(title=title, lines=lines))
-    return _plate(
-        panels,
-        "inclination",
-        words,
-        across=2,
-    )
+    return _plate(panels, "inclination", words, across=2)
 
 
 def _plate_gravity(study: PaperStudy, words: Words) -> Plate | None:
@@ -268,12 +255,7 @@ def _plate_gravity(study: PaperStudy, words: Words) -> Plate | None:
             panels.append(
                 Panel(title=words("paper_plate.both_at", inclination=net), lines=lines)
             )
-    return _plate(
-        panels,
-        "gravity",
-        words,
-        across=2,
-    )
+    return _plate(panels, "gravity", words, across=2)
 
 
 def _plate(
