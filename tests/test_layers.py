@@ -97,6 +97,7 @@ THIRD_PARTY = {
     "defusedxml": ("site.cells.xlsx", "site.cells.ods", "site.cells.limits"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
+        "evidence.validation.structure",
         *("checks.schema", "files.scene", "files.support_tables", "study.document"),
         "edge.json_text",
     ),
