@@ -5,8 +5,7 @@ import math
 import numpy as np
 
 from netdesign.evidence.paper.cases import PaperSettings, list_cases
-from netdesign.evidence.paper.runs import PaperRun, Shape, Track
-from netdesign.evidence.paper.study import PaperStudy
+from netdesign.evidence.paper.runs import PaperRun, PaperStudy, Shape, Track
 from netdesign.words.message import say
 
 SETTINGS = PaperSettings()

@@ -99,6 +99,7 @@ THIRD_PARTY = {
     "defusedxml": ("site.cells.xlsx", "site.cells.ods", "site.cells.limits"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
+        "evidence.validation.structure",
         *("checks.schema", "files.scene", "files.support_tables", "study.document"),
         "edge.json_text",
     ),
@@ -133,7 +134,7 @@ def name_module(path: Path) -> str:
 
 
 # A script that other versions run by its path; no module imports it.
-PROBE = PACKAGE / "evidence" / "benchmark" / "versions" / "probe.py"
+PROBE = PACKAGE / "evidence" / "benchmark" / "probe.py"
 MODULES = {
     name_module(path): path
     for path in sorted(PACKAGE.rglob("*.py"))

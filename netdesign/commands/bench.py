@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from netdesign.evidence.benchmark.summary import Row
+    from netdesign.evidence.benchmark.precision import Row
     from netdesign.report.words import Words
 
 Show = Callable[[dict[str, Any], "Console", "Words"], None]
@@ -261,13 +261,15 @@ def _run_panel(output: _Output, *, quick: bool) -> int:
 def _run_against(path: Path, output: _Output, *, quick: bool) -> int:
     """Exit code: a quick look reaches nothing and so fails at nothing."""
     from netdesign.edge.progress import show_progress
-    from netdesign.evidence.benchmark.versions.compare import (
+    from netdesign.evidence.benchmark.against import (
+        QUICK,
+        Size,
         compare_versions,
         count_runs,
+        open_version,
+        print_versions,
+        read_version,
     )
-    from netdesign.evidence.benchmark.versions.measures import QUICK, Size
-    from netdesign.evidence.benchmark.versions.other import open_version, read_version
-    from netdesign.evidence.benchmark.versions.table import print_versions
 
     size, shown = QUICK if quick else Size(), output.language
     with open_version(path) as python:
@@ -295,7 +297,7 @@ def _run_named(
         require_free([plot], overwrite=force)
     rows = _measure(names, output.language, quick=quick)
     if plot is not None:
-        from netdesign.evidence.benchmark.bench_figure import draw_work_precision
+        from netdesign.evidence.benchmark.precision import draw_work_precision
         from netdesign.report.words import Words
 
         drawn = draw_work_precision(rows, Words(output.language))

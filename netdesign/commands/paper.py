@@ -41,7 +41,7 @@ def paper(
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.paper.cases import PaperSettings, list_cases
     from netdesign.evidence.paper.page import PAGE_FILE, render_paper
-    from netdesign.evidence.paper.study import run_study
+    from netdesign.evidence.paper.runs import run_study
 
     settings = PaperSettings()
     require_free([out / PAGE_FILE], overwrite=force)

@@ -114,7 +114,7 @@ def _run_pack(
     else:
         from rich.console import Console
 
-        from netdesign.evidence.verification.verification_table import print_cases
+        from netdesign.evidence.verification.pack import print_cases
         from netdesign.report.words import Words
 
         print_cases(cases, Console(), Words(language))

@@ -38,6 +38,7 @@ _ALIKE = {
     "int_parsing": "int_type",
     "int_from_float": "int_type",
     "bool_parsing": "bool_type",
+    "unexpected_keyword_argument": "extra_forbidden",
     "model_type": "dict_type",
     "model_attributes_type": "dict_type",
     "dataclass_type": "dict_type",

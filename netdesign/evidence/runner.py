@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -20,7 +19,6 @@ Name = TypeVar("Name", bound=str)
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
-_MEGABYTE = 2**20
 _CHUNK = 4  # items that a process takes at once, where they are short
 # Of a process's environment: one BLAS thread.
 SINGLE_THREADED = dict.fromkeys(
@@ -76,16 +74,6 @@ def _read_cpu() -> float:
     """Processor time of this process and of its ended children [s]."""
     ended = os.times()  # of the children of Windows it knows nothing
     return time.process_time() + ended.children_user + ended.children_system
-
-
-def read_peak() -> float | None:
-    """Largest memory of this process so far [MB]; None on Windows."""
-    try:
-        import resource
-    except ImportError:
-        return None
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / (_MEGABYTE if sys.platform == "darwin" else 1024)
 
 
 def measure(work: Callable[[], Result]) -> tuple[Result, Time]:

@@ -7,8 +7,7 @@ import numpy as np
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.snow.contact import Contact, FlowState, may_lift, start_contact
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh

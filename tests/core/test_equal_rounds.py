@@ -19,8 +19,7 @@ from netdesign.coupling.steady.net import (
 )
 from netdesign.coupling.steady.round import flow_along, place_along
 from netdesign.errors import ModelError, SolveError
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.snow import compiled_mesh
 from netdesign.snow.shared_mesh import share_template
 

@@ -11,8 +11,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables, load_scenes
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene, load_scenes
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
 

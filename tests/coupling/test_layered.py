@@ -17,8 +17,8 @@ from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.compiled import CompiledRounds
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
-from netdesign.evidence.benchmark.random_scenes import draw_scene as draw_any_scene
 from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import draw_scene as draw_any_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome
 from netdesign.snow.ground import GroundLaw

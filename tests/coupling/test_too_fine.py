@@ -10,7 +10,7 @@ from netdesign.coupling.history.transient import solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.solve import find_end_pulls, solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize
@@ -67,8 +67,3 @@ def test_so_it_is_for_the_source_paper_s_exchange(a_scene):
     settings = StaggeredSettings(size=TOO_FINE)
     failed = solve_staggered(a_scene(), settings)
     assert failed.outcome is Outcome.OUT_OF_VALIDITY
-
-
-def test_a_benchmark_of_one_mesh_raises_what_it_says(a_scene):
-    with pytest.raises(SolveError, match="too fine"):
-        find_end_pulls(build_net(a_scene), TOO_FINE, SolverSettings())

@@ -6,7 +6,7 @@ from rich.console import Console
 from netdesign.evidence.page_table import FORCES, TEXTS, Field, numbers, tabulate
 from netdesign.evidence.table import print_document
 from netdesign.evidence.verification.case import VerificationCase
-from netdesign.evidence.verification.verification_table import print_cases
+from netdesign.evidence.verification.pack import print_cases
 from netdesign.report.words import Words
 
 

@@ -9,8 +9,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import bound_by_less_slack
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables, load_scenes
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene, load_scenes
 from netdesign.files.solution import write_solution_document
 from netdesign.solving.solve import solve_scene
 

@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from netdesign.evidence.verification.another_code import (
-    list_another_code,
-    load_results,
-)
 from netdesign.evidence.verification.exported import (
+    list_another_code,
     list_files,
+    load_results,
     solve_exported,
     write_scenes,
 )

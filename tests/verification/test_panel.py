@@ -16,7 +16,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.verification.net_in_space import solve_net_in_space
+from netdesign.evidence.verification.panels import solve_net_in_space
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.ropes import estimate_force_along
 from netdesign.panel.row_forces import compute_end_forces, compute_interior_forces

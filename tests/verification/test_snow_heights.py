@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from netdesign.commands.winter import MODELS as COMMAND_MODELS
-from netdesign.evidence.verification.snow_heights import (
+from netdesign.evidence.verification.winters import (
     list_snow_heights,
     measure_imbalance,
     read_weissfluhjoch,

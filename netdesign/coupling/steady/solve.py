@@ -43,7 +43,6 @@ from netdesign.coupling.solution import (
 from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, hang_net
 from netdesign.coupling.steady.rounds import CoupledState, couple
 from netdesign.errors import ModelError, SolveError
-from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import FlowState
 from netdesign.snow.mesh import MeshSize, MeshTemplate
@@ -94,37 +93,6 @@ def solve_steady(
         if on_failure == "raise":
             raise
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
-
-
-def find_end_pulls(
-    scene: Scene, size: MeshSize, settings: SolverSettings
-) -> tuple[Floats, Floats]:
-    """Pulls at foot and head on one mesh, of unknown error.
-
-    A benchmark compares them with the truth; a check takes ``solve_steady``.
-
-    Parameters
-    ----------
-    scene : Scene
-        Snow, ground and net.
-    size : MeshSize
-        Of the one mesh.
-    settings : SolverSettings
-        Accuracy and tolerances.
-
-    Returns
-    -------
-    ndarray, ndarray, shape (2,)
-        [N/m].
-
-    Raises
-    ------
-    SolveError
-        If the mesh gives no converged solution.
-    """
-    _, net = find_net_equilibrium(scene, size, settings)
-    cable = net.cable
-    return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
 
 
 def find_net_equilibrium(

@@ -9,11 +9,12 @@ import math
 import random
 import sys
 import tempfile
-from collections import deque
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict, dataclass, replace
+from itertools import product
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import numpy as np
@@ -25,17 +26,16 @@ from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.peaks import measure_peaks
-from netdesign.evidence.benchmark.versions.inputs import write_site
-from netdesign.evidence.benchmark.versions.measures import Bench, Size, time_site
-from netdesign.evidence.runner import Clock, read_peak
+from netdesign.evidence.benchmark.against import Bench, Size, time_site
+from netdesign.evidence.benchmark.scenes import write_site
+from netdesign.evidence.runner import Clock
 from netdesign.evidence.scene import build_scene
-from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
+from netdesign.numerics.arrays import Floats
+from netdesign.search.maxima import RESOLVED_SHARE, Maxima, MaximaSearch, SearchSettings
 from netdesign.search.surrogate import Point
 from netdesign.snow.ground import GroundLaw
 from netdesign.solving.runner import Runner
-from netdesign.solving.store import CaseStore
-from netdesign.solving.workers import Job, ProcessPool
+from netdesign.solving.workers import ProcessPool
 from netdesign.structure.layout import SupportLayout
 from netdesign.words.message import say
 
@@ -64,21 +64,9 @@ class BenchSize:
     missed_scenes: int = 5
     missed_grid: int = 15
     peaks: int = 25  # of each width
-    worker_cases: int = 512  # of a grid; some need no solve
-    types: int = 40
-    portfolio: tuple[int, ...] = (2_500, 5_000, 10_000)
 
 
-QUICK = BenchSize(
-    grid=4,
-    rows=2,
-    missed_scenes=1,
-    missed_grid=5,
-    peaks=2,
-    worker_cases=27,
-    types=2,
-    portfolio=(500, 1_000, 2_000),
-)
+QUICK = BenchSize(grid=4, rows=2, missed_scenes=1, missed_grid=5, peaks=2)
 
 
 def run_envelope_bench(
@@ -97,12 +85,9 @@ def run_envelope_bench(
     measures: tuple[Callable[[], dict[str, Any]], ...] = (
         _measure_one_row,
         lambda: _measure_grid(size),
-        lambda: _measure_batches(size),
         lambda: _measure_site(size),
         lambda: _measure_missed(size),
         lambda: _measure_narrow(size),
-        lambda: _measure_workers(size),
-        lambda: _measure_portfolio(size),
     )
     rows = []
     for measure in measures:
@@ -258,27 +243,6 @@ def _measure_grid(size: BenchSize) -> dict[str, Any]:
     }
 
 
-def _measure_batches(size: BenchSize) -> dict[str, Any]:
-    """Lines of ascending friction, as a grid is solved, against each case alone."""
-    task, counts = _example_task(), dict(zip(_AXES, (3, size.grid, 3), strict=True))
-    runner = Runner()
-    with Clock() as as_grid:
-        grid = run_grid(task, counts, runner)
-    tasks = [build_point_task(task, point) for point in list_grid([*counts.values()])]
-    with Clock() as alone:
-        run_cases(tasks, Runner())
-    return {
-        "what": say("bench.batches_what"),
-        "reach": say("bench.batches_reach"),
-        "reached": as_grid.cpu_s < alone.cpu_s,
-        "cases": len(grid.results),
-        "solved": runner.counts.solved,
-        "batches_cpu_s": as_grid.cpu_s,
-        "one_by_one_cpu_s": alone.cpu_s,
-        "times_faster": alone.cpu_s / as_grid.cpu_s,
-    }
-
-
 def _measure_site(size: BenchSize) -> dict[str, Any]:
     """Two checks as a user runs them; the second is told from the store."""
     with tempfile.TemporaryDirectory() as folder:
@@ -338,60 +302,74 @@ def _measure_narrow(size: BenchSize) -> dict[str, Any]:
     }
 
 
-def _measure_workers(size: BenchSize) -> dict[str, Any]:
-    count = max(2, round(size.worker_cases ** (1.0 / 3.0)))
-    task = _example_task()
-    times = {}
-    for processes in (1, 2):
-        with closing(ProcessPool(processes, worth=1)) as pool:
-            job = Job(scene=task.scene, settings=task.settings)
-            deque(pool.solve([(job,)] * processes), maxlen=0)  # starts the processes
-            with Clock() as clock:
-                runner = Runner(workers=pool)
-                run_grid(task, dict.fromkeys(_AXES, count), runner)
-        times[processes] = clock.wall_s
-    return {
-        "what": say("bench.workers_what"),
-        "reach": say("bench.workers_reach"),
-        "reached": times[1] >= 1.7 * times[2] and runner.counts.solved >= 200,
-        "solved": runner.counts.solved,
-        "one_s": times[1],
-        "two_s": times[2],
-        "speed_up": times[1] / times[2],
-    }
+Response = Callable[[Floats], Floats]
+
+_SAMPLES = 21  # of each axis, for the true maximum
+_SIGMA = 2.3548  # widths at half height of a Gaussian bell, in its sigmas
 
 
-def _measure_portfolio(size: BenchSize) -> dict[str, Any]:
-    types = [build_random_task(seed) for seed in range(size.types)]
-    points: list[dict[str, Any]] = []
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "cases.sqlite"
-        with CaseStore(path, lambda _: None) as store:
-            search_rows(types, Runner(store=store))
-        for rows in size.portfolio:
-            with CaseStore(path, lambda _: None) as store, Clock() as clock:
-                runner = Runner(store=store)
-                found = search_rows(
-                    [types[k % len(types)] for k in range(rows)], runner
-                )
-            points.append(
-                {
-                    "rows": len(found),
-                    "wall_s": clock.wall_s,
-                    "solved": runner.counts.solved,
-                    "peak_mb": read_peak(),
-                }
-            )
-    first, last = points[0], points[-1]
-    growth = last["rows"] / first["rows"]
-    return {
-        "what": say("bench.portfolio_what", types=size.types),
-        "reach": say("bench.portfolio_reach"),
-        "reached": all(
-            last[key] <= growth * first[key]
-            for key in ("wall_s", "peak_mb")
-            if first[key] is not None
+def build_peak(seed: int, width: float) -> Response:
+    """Tilted plane with a peak as high as a tenth of it to itself; three parameters.
+
+    Parameters
+    ----------
+    seed : int
+        Equal seeds give equal responses.
+    width : float
+        Of the peak at half its height, as a share of a range.
+
+    Returns
+    -------
+    callable
+        Places of shape (n, 3) to values of shape (n,).
+    """
+    rng = np.random.default_rng(seed)
+    top, height = rng.uniform(0.0, 1.0, 3), rng.uniform(1.0, 10.0)
+    slope, sigma = 1.5 * rng.normal(size=3), width / _SIGMA
+
+    def respond(at: Floats) -> Floats:
+        square = np.sum((at - top) ** 2, axis=1)
+        bell: Floats = np.exp(-square / (2.0 * sigma**2))
+        return 10.0 + at @ slope + height * bell
+
+    return respond
+
+
+def search_peak(response: Response) -> tuple[Maxima, float]:
+    """Search of one response, and its true maximum over the bound, less 1.
+
+    The truth is that of a dense grid; the excess is negative where the bound holds.
+    """
+    found = _drive(response)
+    axis = np.linspace(0.0, 1.0, _SAMPLES)
+    truth = float(response(np.array(list(product(axis, repeat=3)))).max())
+    return found, truth / found.upper_bound[0] - 1.0
+
+
+def measure_peaks(count: int, widths: tuple[float, ...]) -> list[dict[str, Any]]:
+    """Missed peaks by width; a search that did not close states no bound."""
+    points = []
+    for width in widths:
+        ends = [search_peak(build_peak(seed, width)) for seed in range(count)]
+        points.append(
+            {
+                "width": width,
+                "searches": count,
+                "not_closed": sum(not found.is_closed for found, _ in ends),
+                "missed": sum(
+                    found.is_closed and excess > _ROUNDING for found, excess in ends
+                ),
+                "median_cases": median(len(found.points) for found, _ in ends),
+            }
         )
-        and not any(point["solved"] for point in points),
-        "points": points,
-    }
+    return points
+
+
+def _drive(response: Response) -> Maxima:
+    search = MaximaSearch(3, SearchSettings())
+    while points := search.ask():
+        values = response(np.array(points)).tolist()
+        search.tell([(value,) for value in values])
+    if search.result is None:
+        raise AssertionError("a search that asks no more has ended")
+    return search.result

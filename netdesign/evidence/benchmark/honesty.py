@@ -16,12 +16,10 @@ from typing import Any
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.solve import find_end_pulls, solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import (
-    Truth,
     find_level,
     solve_truth,
     state_error,
@@ -60,9 +58,6 @@ class Finding:
         Both ends' true errors lie within the stated ones.
     cpu_s : float
         Of the solve, its meshes included [s].
-    cpu_at_accuracy_s : float or None
-        Of the coarsest mesh alone whose true error is below the accuracy, once its
-        template is known: without the second mesh that shows it; None if none is [s].
     """
 
     number: int
@@ -72,7 +67,6 @@ class Finding:
     stated_error: float = float("nan")
     is_inside: bool = False
     cpu_s: float = float("nan")
-    cpu_at_accuracy_s: float | None = None
 
 
 def study_errors(
@@ -139,21 +133,7 @@ def judge_scene(number: int, scene: Scene, settings: SolverSettings) -> Finding:
         stated_error=state_error(solution),
         is_inside=all(t <= s for t, s in zip(true, stated, strict=True)),
         cpu_s=clock.cpu_s,
-        cpu_at_accuracy_s=_time_accurate_mesh(scene, truth, settings),
     )
-
-
-def _time_accurate_mesh(
-    scene: Scene, truth: Truth, settings: SolverSettings
-) -> float | None:
-    for size in settings.levels:
-        with suppress(SolveError):
-            pulls = find_end_pulls(scene, size, settings)
-            if max(truth.compare_pulls(*pulls)) <= settings.accuracy:
-                with Clock() as clock:
-                    find_end_pulls(scene, size, settings)
-                return clock.cpu_s
-    return None
 
 
 def write_errors(
@@ -175,13 +155,6 @@ def write_errors(
         "share_below_accuracy": below,
         "pass": all(x is not None and x >= LEAST_SHARE for x in (inside, below)),
         **summarise_times([one.cpu_s for one in compared]),
-        "at_accuracy_without_estimate": summarise_times(
-            [
-                one.cpu_at_accuracy_s
-                for one in compared
-                if one.cpu_at_accuracy_s is not None
-            ]
-        ),
         "outside": [
             {
                 "scene": one.number,

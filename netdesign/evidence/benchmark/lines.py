@@ -21,7 +21,7 @@ import numpy as np
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.errors import ModelError, SolveError
-from netdesign.evidence.benchmark.random_scenes import (
+from netdesign.evidence.benchmark.scenes import (
     DENSITY_KG_M3,
     FRICTION_DEG,
     INCLINATION_DEG,
@@ -32,9 +32,9 @@ from netdesign.evidence.benchmark.random_scenes import (
     THICKNESS_M,
     UPSLOPE_LENGTH_M,
     Tables,
+    build_tables,
     draw_scene,
 )
-from netdesign.evidence.benchmark.scenes import build_tables
 from netdesign.evidence.benchmark.truth import solve_fine
 from netdesign.evidence.runner import share, spread
 from netdesign.evidence.scene import solve

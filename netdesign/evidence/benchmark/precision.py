@@ -11,12 +11,14 @@ from __future__ import annotations
 import os
 import platform
 import tracemalloc
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from statistics import median
+from typing import TYPE_CHECKING, Any, Literal
 
 from netdesign import __version__
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
@@ -26,7 +28,6 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import reference_path
-from netdesign.evidence.benchmark.summary import Method, Path, Row, summarise
 from netdesign.evidence.benchmark.truth import (
     Truth,
     build_truth,
@@ -34,12 +35,21 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
-from netdesign.evidence.runner import measure, run_in_turns
+from netdesign.evidence.runner import fit_order, measure, run_in_turns
 from netdesign.evidence.table import print_document, print_rows
-from netdesign.report.words import Words
+from netdesign.report.drawing.figures import (
+    ACCENT,
+    GREY,
+    INK,
+    WIDTH_IN,
+    use_style,
+    write_svg,
+)
+from netdesign.report.words import ENGLISH, Words
 from netdesign.snow.mesh import MeshSize
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.console import Console
 
 BENCH_SCHEMA = "netdesign.bench/1"
@@ -170,7 +180,7 @@ def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
             **{name: version(name) for name in ("numpy", "scipy", "scikit-fem")},
         },
         "rows": [asdict(row) for row in rows],
-        "summary": asdict(summarise(rows)),
+        "summary": summarise(rows),
     }
 
 
@@ -178,3 +188,173 @@ def print_bench(document: dict[str, Any], console: Console, words: Words) -> Non
     """Print a line for each row, then what they say together."""
     print_rows(document["rows"], console, words)
     print_document(document["summary"], console, words)
+
+
+Path = Literal["fast", "reference", "plain"]
+Method = Literal["steady", "transient"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """One method on one mesh.
+
+    Attributes
+    ----------
+    scene, method : str
+        What was solved, and how.
+    path : str
+        ``fast`` kernel; its meshes solved in scikit-fem (``reference``); scikit-fem on
+        even meshes, without grading, each from the start (``plain``).
+    elements, degrees_of_freedom : int
+        Of the finer mesh.
+    wall_s : float
+        Shortest of the repeated timings: what else runs can only lengthen one [s].
+    error : float
+        Worse of the end pulls, relative, against a mesh twice as fine as the
+        finest that is measured [-].
+    stated_error : float
+        What the solution itself says [-].
+    linear_solves, rounds : int
+        Of both meshes.
+    peak_mb : float
+        Most memory that Python and NumPy held at once, beyond what they held before;
+        SciPy's sparse factors are not seen [MB].
+    """
+
+    scene: str
+    method: Method
+    path: Path
+    elements: int
+    degrees_of_freedom: int
+    wall_s: float
+    error: float
+    stated_error: float
+    linear_solves: int
+    rounds: int
+    peak_mb: float
+
+
+def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
+    """Figures of the steady rows over all scenes; None where there are too few.
+
+    ``times_faster``: time of scikit-fem over that of the fast path on the same mesh,
+    hence at equal error; ``times_faster_at_error``: of scikit-fem on even meshes.
+    ``cost_order``: p in time ~ degrees of freedom^p, of the fast path; ``error_order``:
+    q in error ~ degrees of freedom^-q/2. All are medians unless named otherwise.
+    """
+    steady = [row for row in rows if row.method == "steady"]
+    ratios, at_error = compare_paths(steady), compare_at_error(steady)
+    by_scene: dict[str, list[Row]] = defaultdict(list)
+    for row in steady:
+        if row.path == "fast":
+            by_scene[row.scene].append(row)
+    fitted = [group for group in by_scene.values() if len(group) > 2]
+    costs = [_fit(group, "wall_s") for group in fitted]
+    orders = [-2.0 * _fit(group, "error") for group in fitted]
+    return {
+        "times_faster": median(ratios) if ratios else None,
+        "least_times_faster": min(ratios, default=None),
+        "most_times_faster": max(ratios, default=None),
+        "times_faster_at_error": median(at_error) if at_error else None,
+        "cost_order": median(costs) if costs else None,
+        "worst_cost_order": max(costs, default=None),
+        "error_order": median(orders) if orders else None,
+    }
+
+
+def _fit(rows: Sequence[Row], name: str) -> float:
+    """Power of the degrees of freedom with which a field of the rows grows."""
+    sizes = [row.degrees_of_freedom for row in rows]
+    return fit_order(sizes, [getattr(row, name) for row in rows])
+
+
+def compare_paths(rows: Sequence[Row]) -> list[float]:
+    """Time of the plain path over that of the fast one, wherever both were measured.
+
+    Both are on one mesh, so their errors are equal to the solvers' tolerances.
+    """
+    fast = {(r.scene, r.elements): r.wall_s for r in rows if r.path == "fast"}
+    return [
+        row.wall_s / fast[row.scene, row.elements]
+        for row in rows
+        if row.path == "reference" and (row.scene, row.elements) in fast
+    ]
+
+
+def compare_at_error(rows: Sequence[Row]) -> list[float]:
+    """Time of each plain row over the least that the fast path takes for its error.
+
+    The fast path counts with the cheapest of its meshes that is at least as accurate;
+    plain rows more accurate than all of them are left out.
+    """
+    ratios = []
+    for row in rows:
+        if row.path != "plain":
+            continue
+        as_good = [
+            fast.wall_s
+            for fast in rows
+            if fast.path == "fast"
+            and fast.scene == row.scene
+            and fast.error <= row.error
+        ]
+        if as_good:
+            ratios.append(row.wall_s / min(as_good))
+    return ratios
+
+
+_HEIGHT_IN = 3.6
+_PATHS: tuple[Path, ...] = ("fast", "reference", "plain")
+_COLOURS: dict[Path, str] = {"fast": ACCENT, "reference": INK, "plain": GREY}
+
+
+def draw_work_precision(rows: Sequence[Row], words: Words = ENGLISH) -> str:
+    """Run time against error: a dot a row, the median of each resolution joined."""
+    from matplotlib.figure import Figure
+
+    with use_style("work-precision"):
+        figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
+        axes = figure.add_subplot()
+        steady = [row for row in rows if row.method == "steady"]
+        for path in _PATHS:
+            of_path = [row for row in steady if row.path == path]
+            _draw_path(axes, of_path, _COLOURS[path], words(f"bench_plot.{path}"))
+        histories = [row for row in rows if row.method == "transient"]
+        _draw_histories(axes, histories, words("bench_plot.transient"))
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel(words("bench_plot.error"))
+        axes.set_ylabel(words("bench_plot.time"))
+        axes.invert_xaxis()
+        axes.grid(visible=True, which="major", color=GREY, alpha=0.25, linewidth=0.4)
+        figure.legend(frameon=False, loc="outside upper left", ncols=2)
+    return write_svg(figure, "work-precision", words("bench_plot.title"))
+
+
+def _draw_path(axes: Axes, rows: Sequence[Row], colour: str, label: str) -> None:
+    if not rows:
+        return
+    axes.plot(*_places(rows), ".", color=colour, alpha=0.35, markersize=4)
+    by_mesh = _group_by_resolution(rows)
+    errors = [100.0 * median(row.error for row in group) for group in by_mesh]
+    times = [1e3 * median(row.wall_s for row in group) for group in by_mesh]
+    axes.plot(errors, times, "-o", color=colour, markersize=4, label=label)
+
+
+def _draw_histories(axes: Axes, rows: Sequence[Row], label: str) -> None:
+    if rows:
+        axes.plot(*_places(rows), "x", color=ACCENT, markersize=5, label=label)
+
+
+def _places(rows: Sequence[Row]) -> tuple[list[float], list[float]]:
+    return [100.0 * row.error for row in rows], [1e3 * row.wall_s for row in rows]
+
+
+def _group_by_resolution(rows: Sequence[Row]) -> list[list[Row]]:
+    """First rows of all scenes, second rows, ...: one group a mesh level."""
+    seen: dict[str, int] = defaultdict(int)
+    groups: dict[int, list[Row]] = defaultdict(list)
+    for row in rows:
+        groups[seen[row.scene]].append(row)
+        seen[row.scene] += 1
+    return [groups[place] for place in sorted(groups)]

@@ -19,7 +19,7 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.random_scenes import Tables, draw_scene
+from netdesign.evidence.benchmark.scenes import Tables, draw_scene
 from netdesign.evidence.benchmark.truth import state_error
 from netdesign.evidence.runner import Clock, spread, summarise_times
 from netdesign.files.scene import SceneFile, build_scene

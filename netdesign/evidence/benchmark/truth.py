@@ -40,13 +40,10 @@ class Truth:
 
     def compare_ends(self, solution: Solution) -> tuple[float, float]:
         """Relative errors of the pulls at foot and head [-]."""
-        return self.compare_pulls(_vector(solution.foot), _vector(solution.head))
-
-    def compare_pulls(
-        self, foot: NDArray[np.float64], head: NDArray[np.float64]
-    ) -> tuple[float, float]:
-        """Relative errors of two pulls, vectors of shape (2,) [N/m]."""
-        return _relative(foot, self.foot), _relative(head, self.head)
+        return (
+            _relative(_vector(solution.foot), self.foot),
+            _relative(_vector(solution.head), self.head),
+        )
 
 
 def solve_truth(

@@ -18,8 +18,7 @@ from netdesign.evidence.paper.cases import (
     find_trend,
 )
 from netdesign.evidence.paper.findings import SETTLED
-from netdesign.evidence.paper.runs import Track
-from netdesign.evidence.paper.study import PaperStudy
+from netdesign.evidence.paper.runs import PaperStudy, Track
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import MeshPicture, draw_meshes
 from netdesign.report.words import Words
@@ -164,11 +163,7 @@ def _plate_methods(study: PaperStudy, words: Words) -> Plate | None:
             ),
         ]
         panels.append(_with_steady(study, straight, lines, words))
-    return _plate(
-        panels,
-        "methods",
-        words,
-    )
+    return _plate(panels, "methods", words)
 
 
 def _plate_trend(study: PaperStudy, words: Words) -> Plate | None:
@@ -223,11 +218,7 @@ def _plate_drift(study: PaperStudy, words: Words) -> Plate | None:
                     lines=lines,
                 )
             )
-    return _plate(
-        panels,
-        "drift",
-        words,
-    )
+    return _plate(panels, "drift", words)
 
 
 def _plate_inclination(study: PaperStudy, words: Words) -> Plate | None:
@@ -241,12 +232,7 @@ def _plate_inclination(study: PaperStudy, words: Words) -> Plate | None:
         if lines:
             title = words(f"paper_plate.pull_{end}")
             panels.append(Panel(title=title, lines=lines))
-    return _plate(
-        panels,
-        "inclination",
-        words,
-        across=2,
-    )
+    return _plate(panels, "inclination", words, across=2)
 
 
 def _plate_gravity(study: PaperStudy, words: Words) -> Plate | None:
@@ -269,12 +255,7 @@ def _plate_gravity(study: PaperStudy, words: Words) -> Plate | None:
             panels.append(
                 Panel(title=words("paper_plate.both_at", inclination=net), lines=lines)
             )
-    return _plate(
-        panels,
-        "gravity",
-        words,
-        across=2,
-    )
+    return _plate(panels, "gravity", words, across=2)
 
 
 def _plate(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -24,9 +25,9 @@ from netdesign.evidence.paper.cases import (
     find_steady,
     find_trend,
 )
-from netdesign.evidence.paper.runs import PaperRun, Track
-from netdesign.evidence.paper.study import PaperStudy
+from netdesign.evidence.paper.runs import PaperRun, PaperStudy, Track
 from netdesign.numerics.arrays import Floats
+from netdesign.report.words import ENGLISH, Words
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.units import SECONDS_PER_DAY
 
@@ -393,3 +394,41 @@ def _decide_seconds(study: PaperStudy) -> Finding:
             "ratio": begin / PAPER_TIME,
         },
     )
+
+
+_SYMBOLS: dict[Call, str] = {"agrees": "✓", "does not agree": "✗", "not decided": "?"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Claim:
+    """One statement with its call, the numbers and the reason."""
+
+    said: str
+    call: str
+    symbol: str
+    differs: bool
+    found: str
+    reason: str
+
+
+def word_finding(finding: Finding, words: Words = ENGLISH) -> Claim:
+    """Sentences of a finding with its numbers put in."""
+    key, call = finding.key, finding.call
+    if call == "not decided":
+        found, reason = words("paper.no_run"), ""
+    else:
+        found = words(f"paper_found.{key}", **finding.numbers)
+        reason = words(f"paper_reason.{key}", **finding.numbers)
+    return Claim(
+        said=words(f"paper_said.{key}"),
+        call=words(f"paper_call.{call.replace(' ', '_')}"),
+        symbol=_SYMBOLS[call],
+        differs=call != "agrees",
+        found=_write_minus(found),
+        reason=_write_minus(reason),
+    )
+
+
+def _write_minus(text: str) -> str:
+    """Proper minus signs before digits; none before a rounded zero."""
+    return re.sub(r"-(?=\d)", "−", re.sub(r"[+-](?=0[.,]0\s?%)", "", text))

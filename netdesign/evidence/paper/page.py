@@ -14,11 +14,9 @@ from netdesign.evidence.paper.cases import (
     find_history,
 )
 from netdesign.evidence.paper.figures import Plate, draw_plates
-from netdesign.evidence.paper.findings import list_findings
-from netdesign.evidence.paper.runs import PaperRun
-from netdesign.evidence.paper.study import PaperStudy
+from netdesign.evidence.paper.findings import Claim, list_findings, word_finding
+from netdesign.evidence.paper.runs import PaperRun, PaperStudy
 from netdesign.evidence.paper.tables import list_tables
-from netdesign.evidence.paper.words import Claim, word_finding
 from netdesign.report.blocks.block import (
     Block,
     Figure,

@@ -1,9 +1,10 @@
-"""One run of the paper's study: what it recorded, at what error."""
+"""Runs of the paper's study: what each recorded, at what error."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -17,7 +18,13 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
-from netdesign.evidence.paper.cases import PaperCase, PaperSettings, horizon_of
+from netdesign.evidence.paper.cases import (
+    PaperCase,
+    PaperSettings,
+    horizon_of,
+    list_cases,
+)
+from netdesign.evidence.runner import spread
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.words.message import Message, say
 
@@ -230,3 +237,44 @@ def _shape_of(solution: Solution) -> Shape:
         curve=solution.net_curve,
         sag=solution.sag,
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PaperStudy:
+    """All runs by their case, and how they were computed."""
+
+    settings: PaperSettings
+    runs: Mapping[PaperCase, PaperRun]
+
+    def __getitem__(self, case: PaperCase) -> PaperRun:
+        """Run of a case; every case of ``list_cases`` has one."""
+        return self.runs[case]
+
+
+def run_study(
+    settings: PaperSettings | None = None,
+    *,
+    jobs: int = 1,
+    on_done: Callable[[PaperRun], object] | None = None,
+) -> PaperStudy:
+    """Run every case of the study.
+
+    Parameters
+    ----------
+    settings : PaperSettings, optional
+        Meshes, horizons, drags.
+    jobs : int
+        Processes; 1 stays in this one.
+    on_done : callable, optional
+        Called with each run as it ends.
+
+    Returns
+    -------
+    PaperStudy
+        The same whatever the number of processes.
+    """
+    settings = settings or PaperSettings()
+    cases = list_cases(settings)
+    work = partial(run_case, settings=settings)
+    runs = spread(work, cases, jobs=jobs, chunk=1, on_done=on_done)
+    return PaperStudy(settings=settings, runs=dict(zip(cases, runs, strict=True)))

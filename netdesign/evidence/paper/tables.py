@@ -34,8 +34,7 @@ from netdesign.evidence.paper.cases import (
     find_trend,
 )
 from netdesign.evidence.paper.findings import judge_growth, last_swing
-from netdesign.evidence.paper.runs import PaperRun
-from netdesign.evidence.paper.study import PaperStudy
+from netdesign.evidence.paper.runs import PaperRun, PaperStudy
 from netdesign.report.blocks.table import Table, text_cell
 from netdesign.report.page.csv_text import write_csv
 from netdesign.report.words import MISSING, Words

@@ -27,7 +27,6 @@ from netdesign.evidence.validation.pictures import (
     name_validated,
 )
 from netdesign.evidence.validation.structure import Measurement, Span, Structure
-from netdesign.evidence.verification.another_code import load_results
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import (
     MODELS,
@@ -38,8 +37,8 @@ from netdesign.evidence.verification.compaction import (
     find_middle,
     list_growth,
 )
-from netdesign.evidence.verification.pack import write_pack
-from netdesign.evidence.verification.verification_table import name_kind
+from netdesign.evidence.verification.exported import load_results
+from netdesign.evidence.verification.pack import name_kind, write_pack
 from netdesign.report.blocks.block import (
     Block,
     Figure,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from netdesign.evidence.validation.band import Validation
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, STRESSES, Place
-from netdesign.evidence.verification.verification_table import name_kind
+from netdesign.evidence.verification.pack import name_kind
 from netdesign.report.drawing.charts import SHADES
 from netdesign.report.drawing.figures import (
     ACCENT,

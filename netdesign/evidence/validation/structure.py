@@ -6,19 +6,19 @@ gets a misfit; one with any range gets a plausibility band.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, ClassVar, Literal
 
-from netdesign.edge.given_files import parse_toml
+from pydantic import AliasChoices, Field, TypeAdapter, ValidationError
+
+from netdesign.edge.causes import explain_shape
+from netdesign.edge.given_files import list_faults, parse_toml
 from netdesign.errors import ModelError
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 SCHEMA = "netdesign.measured/1"
-KINDS = ("net", "wall")
-MARKS = ("read", "assumed", "unknown", "measured")
 _WALL = (
     "slope_deg",
     "net_height_m",
@@ -38,16 +38,26 @@ _NET = (
 )
 _ROPE = ("rope_stiffness_kN", "rope_sag")  # both, for the ropes between posts
 ALONG_SLOPE = "along_slope"  # of a wall, per metre
-_MOST = 200  # structures, and characters of a name
+_MOST = 200  # structures
+_UNITS = {"net": "kN", "wall": "kN_per_m"}  # of what is measured
+
+Mark = Literal["read", "assumed", "unknown", "measured"]
+_Number = Annotated[float, Field(ge=0, allow_inf_nan=False, strict=True)]
+
+
+def _named(*names: str) -> Any:
+    """Field under one of several names in the file."""
+    return Field(validation_alias=AliasChoices(*names))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Span:
     """Knowledge of one input: a value, or a range with its reason."""
 
-    low: float
-    high: float
-    mark: str
+    __pydantic_config__: ClassVar = {"extra": "forbid"}
+    low: Annotated[_Number, _named("low", "value")]
+    high: Annotated[_Number, _named("high", "value")]
+    mark: Mark
     reason: str = ""
 
     @property
@@ -64,11 +74,15 @@ class Span:
 class Measurement:
     """One measured force, and the members of the model that it may be."""
 
+    __pydantic_config__: ClassVar = {"extra": "forbid"}
     name: str
     members: tuple[str, ...]
-    value: float  # [kN], or [kN/m] of a wall
-    uncertainty: float  # the same unit; 0 where none is stated
-    mark: str
+    # [kN], or [kN/m] of a wall; uncertainty 0 where none is stated
+    value: Annotated[_Number, _named("value_kN", "value_kN_per_m")]
+    mark: Mark
+    uncertainty: Annotated[
+        _Number, _named("uncertainty_kN", "uncertainty_kN_per_m")
+    ] = 0.0
     note: str = ""
 
 
@@ -88,9 +102,10 @@ class Structure:
         What is not known, and the public document that would close it.
     """
 
+    __pydantic_config__: ClassVar = {"extra": "forbid"}
     id: str
     title: str
-    kind: str
+    kind: Literal["net", "wall"]
     source: str
     measured: tuple[Measurement, ...]
     inputs: Mapping[str, Span]
@@ -139,110 +154,60 @@ def read_structures(content: bytes) -> tuple[Structure, ...]:
 def _read_named(number: int, table: Any) -> Structure:
     """Structure; a refusal names it by its id, else by its number."""
     try:
-        return _read_structure(table)
+        structure = _READER.validate_python(table)
+        _require_complete(structure, table)
+    except ValidationError as error:
+        told = list_faults([_describe(fault) for fault in error.errors()])
     except ModelError as error:
-        name = table.get("id") if isinstance(table, dict) else None
-        place = f"structure {name if isinstance(name, str) else number!s:.60}"
-        raise ModelError(
-            say("text.at_place", place=place, text=error.message)
-        ) from None
+        told = error.message
+    else:
+        return structure
+    name = table.get("id") if isinstance(table, dict) else None
+    place = f"structure {name if isinstance(name, str) else number!s:.60}"
+    raise ModelError(say("text.at_place", place=place, text=told))
+
+
+_READER = TypeAdapter(Structure)
+
+
+def _describe(fault: Any) -> Message:
+    value = fault["input"]
+    shown = f" = {value!r:.100}" if isinstance(value, str | int | float) else ""
+    place = ".".join(map(str, fault["loc"])) or "structure"
+    return say("scene_file.fault", place=place, value=shown, fault=explain_shape(fault))
+
+
+def _require_complete(structure: Structure, table: Mapping[str, Any]) -> None:
+    """Inputs and units are those of the kind, ranges ascend, forces have members."""
+    is_net = structure.kind == "net"
+    wanted, given = _NET if is_net else _WALL, structure.inputs.keys()
+    for name in given - {*wanted, *(_ROPE if is_net else ())}:
+        raise _refuse(f"inputs.{name}", ", ".join(wanted))
+    missing = [name for name in wanted if name not in given]
+    if missing or len(set(_ROPE) & given) == 1:
+        raise _refuse("inputs", ", ".join(missing or _ROPE))
+    for name, span in structure.inputs.items():
+        _require_ascending(name, span, table["inputs"][name])
+    if not structure.measured:
+        raise _refuse("measured", "[[structure.measured]]")
+    unit = _UNITS[structure.kind]
+    for one, force in zip(table["measured"], structure.measured, strict=True):
+        if not force.members:
+            raise _refuse("members", "foot_anchor, uphill_guy, post ...")
+        for name in one:
+            if name.partition("_")[0] in ("value", "uncertainty") and (
+                name.partition("_")[2] != unit
+            ):
+                raise _refuse(f"measured.{name}", f"value_{unit}, uncertainty_{unit}")
+
+
+def _require_ascending(name: str, span: Span, table: Mapping[str, Any]) -> None:
+    """A value, or two ends in their order."""
+    if "value" in table and table.keys() & {"low", "high"}:
+        raise _refuse(name, "value, or low and high")
+    if not span.low <= span.high:
+        raise _refuse(name, "low <= high")
 
 
 def _refuse(field: str, accepted: str) -> ModelError:
     return ModelError(say("measured.field", field=field[:_MOST], accepted=accepted))
-
-
-def _read_structure(table: Any) -> Structure:
-    if not isinstance(table, dict):
-        raise _refuse("structure", "[[structure]]")
-    known = {"id", "title", "kind", "source", "note", "open", "measured", "inputs"}
-    _require_known(table, known, "structure")
-    kind = _text(table, "kind")
-    if kind not in KINDS:
-        raise _refuse("kind", ", ".join(KINDS))
-    inputs = table.get("inputs")
-    if not isinstance(inputs, dict):
-        raise _refuse("inputs", "[structure.inputs]")
-    wanted = _NET if kind == "net" else _WALL
-    _require_known(inputs, {*wanted, *(_ROPE if kind == "net" else ())}, "inputs")
-    missing = [name for name in wanted if name not in inputs]
-    if missing or len(set(_ROPE) & inputs.keys()) == 1:
-        raise _refuse("inputs", ", ".join(missing or _ROPE))
-    measured = table.get("measured")
-    if not isinstance(measured, list) or not measured:
-        raise _refuse("measured", "[[structure.measured]]")
-    remarks = table.get("open", [])
-    if not isinstance(remarks, list) or not all(isinstance(r, str) for r in remarks):
-        raise _refuse("open", "texts")
-    return Structure(
-        id=_text(table, "id"),
-        title=_text(table, "title"),
-        kind=kind,
-        source=_text(table, "source"),
-        note=_text(table, "note", ""),
-        open=tuple(remarks),
-        measured=tuple(_read_measurement(one, kind) for one in measured),
-        inputs={name: _read_span(name, one) for name, one in inputs.items()},
-    )
-
-
-def _read_measurement(table: Any, kind: str) -> Measurement:
-    if not isinstance(table, dict):
-        raise _refuse("measured", "[[structure.measured]]")
-    unit = "kN" if kind == "net" else "kN_per_m"
-    known = {"name", "members", f"value_{unit}", f"uncertainty_{unit}", "mark", "note"}
-    _require_known(table, known, "measured")
-    members = table.get("members")
-    if not isinstance(members, list) or not members:
-        raise _refuse("members", "foot_anchor, uphill_guy, post ...")
-    return Measurement(
-        name=_text(table, "name"),
-        members=tuple(str(one) for one in members),
-        value=_number(table, f"value_{unit}"),
-        uncertainty=_number(table, f"uncertainty_{unit}", 0.0),
-        mark=_read_mark(table),
-        note=_text(table, "note", ""),
-    )
-
-
-def _read_span(name: str, table: Any) -> Span:
-    if not isinstance(table, dict):
-        raise _refuse(name, "{ value = 1.0, mark = ... }")
-    _require_known(table, {"value", "low", "high", "mark", "reason"}, name)
-    if "value" in table:
-        low = high = _number(table, "value")
-    else:
-        low, high = _number(table, "low"), _number(table, "high")
-    if not low <= high:
-        raise _refuse(name, "low <= high")
-    return Span(
-        low=low, high=high, mark=_read_mark(table), reason=_text(table, "reason", "")
-    )
-
-
-def _read_mark(table: dict[str, Any]) -> str:
-    mark = _text(table, "mark")
-    if mark not in MARKS:
-        raise _refuse("mark", ", ".join(MARKS))
-    return mark
-
-
-def _require_known(table: dict[str, Any], known: set[str], place: str) -> None:
-    for name in table.keys() - known:
-        raise _refuse(f"{place}.{name}", ", ".join(sorted(known)))
-
-
-def _text(table: dict[str, Any], name: str, default: str | None = None) -> str:
-    value = table.get(name, default)
-    if not isinstance(value, str):
-        raise _refuse(name, '"..."')
-    return value
-
-
-def _number(table: dict[str, Any], name: str, default: float | None = None) -> float:
-    value = table.get(name, default)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise _refuse(name, "0.0 ...")
-    if not math.isfinite(value) or value < 0.0:
-        raise _refuse(name, "0.0 ...")
-    return float(value)

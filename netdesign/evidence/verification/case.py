@@ -14,7 +14,7 @@ Kind = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class VerificationCase:
     """Result of one comparison.
 
@@ -61,6 +61,13 @@ class VerificationCase:
         if self.least_order is None:
             return True
         return self.order is not None and self.order >= self.least_order
+
+
+def expect_zero(
+    name: str, reference: str, got: float, tolerance: float = 1e-8
+) -> VerificationCase:
+    """Invariant whose expected value is 0."""
+    return VerificationCase(name, "invariant", reference, 0.0, got, tolerance)
 
 
 def observe_order(sizes: Sequence[float], errors: Sequence[float]) -> float:

@@ -14,8 +14,8 @@ from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.errors import SolveError
 from netdesign.evidence.scene import build_scene, solve
 from netdesign.evidence.verification.case import (
-    Kind,
     VerificationCase,
+    expect_zero,
     largest_difference,
     observe_order,
 )
@@ -76,7 +76,7 @@ def list_reference() -> list[VerificationCase]:
             ("sag", sag, solution.sag),
         ):
             cases.append(
-                _case(
+                VerificationCase(
                     f"reference-{inclination:g}-{name}",
                     "cross model",
                     _TWO_CODES.format(inclination),
@@ -99,7 +99,9 @@ def list_layered() -> list[VerificationCase]:
         ):
             case = f"layered-{ground}-{name}"
             got = pull.size / 1e3
-            cases.append(_case(case, "cross model", source, value, got, 1e-3))
+            cases.append(
+                VerificationCase(case, "cross model", source, value, got, 1e-3)
+            )
     return cases
 
 
@@ -113,17 +115,19 @@ def list_invariants() -> list[VerificationCase]:
     scaled = _solve(build_paper_scene(size=2.0, stiffness=8e7, density=366.8))
     warm = _solve(replace(base, fluidity=7.0 * base.creep_fluidity))
     return [
-        _zero(
+        expect_zero(
             "balance-along-slope", "sum of end pulls less weight, phi 0 to 45", balance
         ),
-        _zero(
+        expect_zero(
             "load-equals-weight", "all mesh levels, curved net", _load_error(), 1e-12
         ),
-        _zero(
+        expect_zero(
             "rotation-of-axes", "nodal forces turn with the mesh", _rotation(), 1e-11
         ),
-        _zero("mirror-image", "nodal forces mirror with the mesh", _mirror(), 1e-11),
-        _case(
+        expect_zero(
+            "mirror-image", "nodal forces mirror with the mesh", _mirror(), 1e-11
+        ),
+        VerificationCase(
             "similarity",
             "invariant",
             "same dimensionless groups, lengths twice, ES four times as large",
@@ -131,7 +135,7 @@ def list_invariants() -> list[VerificationCase]:
             scaled.foot.size,
             1e-9,
         ),
-        _case(
+        VerificationCase(
             "fluidity-leaves-forces",
             "invariant",
             "fluidity 7 times as large",
@@ -139,7 +143,7 @@ def list_invariants() -> list[VerificationCase]:
             warm.foot.size,
             1e-12,
         ),
-        _case(
+        VerificationCase(
             "fluidity-scales-velocity",
             "invariant",
             "fluidity 7 times as large",
@@ -159,7 +163,7 @@ def list_limits() -> list[VerificationCase]:
         _solve(build_paper_scene(inclination=0.0, friction=phi)) for phi in (15.0, 45.0)
     ]
     return [
-        _case(
+        VerificationCase(
             "no-friction-uniform-tension",
             "limit",
             "phi = 0: head tension equals foot tension",
@@ -167,7 +171,7 @@ def list_limits() -> list[VerificationCase]:
             smooth.head.size,
             5e-3,
         ),
-        _case(
+        VerificationCase(
             "stiff-net-rigid-wall",
             "limit",
             "ES to infinity, sticking snow: force along X of a rigid wall",
@@ -175,7 +179,7 @@ def list_limits() -> list[VerificationCase]:
             stiff.foot.x + stiff.head.x,
             1e-3,
         ),
-        _case(
+        VerificationCase(
             "sticking-friction-is-enough",
             "limit",
             "theta = 0: every phi above 10 degrees gives the same",
@@ -190,7 +194,7 @@ def list_numerics() -> list[VerificationCase]:
     """Two elements and two stress floors give the same forces."""
     coarse, fine = _floor_forces(1e-3), _floor_forces(5e-4)
     return [
-        _case(
+        VerificationCase(
             "two-elements-agree",
             "cross model",
             "P2-P1 against P2, compressible snow",
@@ -198,7 +202,7 @@ def list_numerics() -> list[VerificationCase]:
             _mixed_over_velocity(),
             2e-3,
         ),
-        _case(
+        VerificationCase(
             "stress-floor-does-not-matter",
             "limit",
             "net forces with half the stress floor",
@@ -337,22 +341,3 @@ def _floor_forces(floor: float) -> float:
 def _mixed_over_velocity() -> float:
     law = build_paper_scene(ground="no-slip").flow_problem
     return _flow_resultant(replace(law, element="mixed")) / _flow_resultant(law)
-
-
-def _case(
-    name: str, kind: Kind, reference: str, expected: float, got: float, tolerance: float
-) -> VerificationCase:
-    return VerificationCase(
-        id=name,
-        kind=kind,
-        reference=reference,
-        expected=expected,
-        got=got,
-        tolerance=tolerance,
-    )
-
-
-def _zero(
-    name: str, reference: str, got: float, tolerance: float = 1e-8
-) -> VerificationCase:
-    return _case(name, "invariant", reference, 0.0, got, tolerance)

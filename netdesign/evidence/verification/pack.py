@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from netdesign.evidence.verification.another_code import list_another_code
+from netdesign.evidence.table import print_lines, print_rows
 from netdesign.evidence.verification.case import VerificationCase
-from netdesign.evidence.verification.closed_forms import list_cable, list_law, list_snow
+from netdesign.evidence.verification.closed_forms import (
+    list_cable,
+    list_law,
+    list_sliding_net,
+    list_snow,
+)
 from netdesign.evidence.verification.compaction import list_compaction
 from netdesign.evidence.verification.coupled import (
     list_invariants,
@@ -17,14 +22,17 @@ from netdesign.evidence.verification.coupled import (
     list_orders,
     list_reference,
 )
+from netdesign.evidence.verification.exported import list_another_code
 from netdesign.evidence.verification.histories import list_histories
 from netdesign.evidence.verification.manufactured import list_manufactured
 from netdesign.evidence.verification.panels import list_panels
 from netdesign.evidence.verification.plan_view import list_plan_view
-from netdesign.evidence.verification.sliding_net import list_sliding_net
-from netdesign.evidence.verification.snow_heights import list_snow_heights
 from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
-from netdesign.evidence.verification.winters import list_winters
+from netdesign.evidence.verification.winters import list_snow_heights, list_winters
+from netdesign.report.words import Words
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 # Lowest rung first: a rung is believed only when the one below stands.
 GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
@@ -83,3 +91,28 @@ def write_pack(cases: Sequence[VerificationCase]) -> dict[str, Any]:
             for case in cases
         ],
     }
+
+
+def print_cases(
+    cases: Sequence[VerificationCase], console: Console, words: Words
+) -> None:
+    """Print one line per case, then how many of each kind pass."""
+    rows = [
+        row | {"kind": name_kind(row["kind"], words)}
+        for row in write_pack(cases)["cases"]
+    ]
+    print_rows(rows, console, words, "verify_table")
+    for kind in dict.fromkeys(case.kind for case in cases):
+        passes = [case.passes for case in cases if case.kind == kind]
+        line = words(
+            "verify_table.of_kind",
+            kind=name_kind(kind, words),
+            passed=sum(passes),
+            count=len(passes),
+        )
+        print_lines([line], console)
+
+
+def name_kind(kind: str, words: Words) -> str:
+    """Kind of a case: ``closed form``."""
+    return words(f"case_kind.{kind.replace(' ', '_')}")

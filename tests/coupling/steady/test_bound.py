@@ -9,8 +9,7 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve as steady_solve
 from netdesign.coupling.steady.solve import bound_by_less_slack, solve_steady
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import Outcome
 from netdesign.snow.wall import Wall
 

@@ -6,12 +6,15 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 from rich.console import Console
 
-from netdesign.evidence.benchmark.bench_figure import draw_work_precision
 from netdesign.evidence.benchmark.honesty import Finding, write_errors
 from netdesign.evidence.benchmark.lines import Line, write_lines
-from netdesign.evidence.benchmark.precision import print_bench, write_bench
+from netdesign.evidence.benchmark.precision import (
+    Row,
+    draw_work_precision,
+    print_bench,
+    write_bench,
+)
 from netdesign.evidence.benchmark.stress import Attempt, write_stress
-from netdesign.evidence.benchmark.summary import Row
 from netdesign.evidence.table import print_document, print_figure
 from netdesign.report.words import Words
 from netdesign.words.catalogue import load_texts

@@ -16,8 +16,7 @@ from netdesign.evidence.benchmark.honesty import (
     study_errors,
     write_errors,
 )
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import Truth
 from netdesign.outcome import Outcome
 
@@ -63,28 +62,6 @@ def test_a_truth_that_fails_is_told(monkeypatch):
     monkeypatch.setattr(honesty, "solve_truth", fail)
     (finding,) = study_errors(1, 1, 0.05)
     assert "too fine" in str(finding.missing)
-
-
-def test_coarsest_mesh_whose_true_error_is_small_enough_is_timed(monkeypatch, a_scene):
-    settings = SolverSettings(accuracy=0.01)
-    levels = settings.levels
-    off = dict(zip(levels, (0.5, 0.02, 0.009, 0.001, 0.0), strict=True))
-    solved_sizes = []
-
-    def pull(scene, size, settings):
-        solved_sizes.append(size)
-        if size == levels[0]:
-            raise SolveError(Outcome.DIVERGED, "too coarse")
-        vector = np.array([1.0 + off[size], 0.0])
-        return vector, vector
-
-    monkeypatch.setattr(honesty, "find_end_pulls", pull)
-    truth = Truth(foot=np.array([1.0, 0.0]), head=np.array([1.0, 0.0]))
-    took = honesty._time_accurate_mesh(a_scene(), truth, settings)
-    assert took is not None
-    assert solved_sizes == [levels[0], levels[1], levels[2], levels[2]]
-    off.update(dict.fromkeys(levels, 0.5))
-    assert honesty._time_accurate_mesh(a_scene(), truth, settings) is None
 
 
 def finding(number, true, stated, *, inside=True):

@@ -20,8 +20,7 @@ from netdesign.evidence.benchmark.lines import (
     follow_line,
     write_lines,
 )
-from netdesign.evidence.benchmark.random_scenes import draw_scene
-from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import Outcome
 
 ACCURACY = SolverSettings(accuracy=0.005)

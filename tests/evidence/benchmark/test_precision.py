@@ -8,9 +8,15 @@ import pytest
 from netdesign.coupling.solution import FailedSolution
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark import precision
-from netdesign.evidence.benchmark.precision import Effort, measure_steady, write_bench
+from netdesign.evidence.benchmark.precision import (
+    Effort,
+    Row,
+    compare_at_error,
+    measure_steady,
+    summarise,
+    write_bench,
+)
 from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, SCENES, load_scenes
-from netdesign.evidence.benchmark.summary import Row, compare_at_error, summarise
 from netdesign.evidence.runner import fit_order, share, summarise_times
 from netdesign.outcome import Outcome
 
@@ -92,12 +98,12 @@ def test_summary_of_known_rows():
         )
         rows += [fast, replace(fast, path="reference", wall_s=ratio * fast.wall_s)]
     found = summarise([*rows, a_row(method="transient", wall_s=1e9)])
-    assert found.times_faster == pytest.approx(20.0)
-    assert found.least_times_faster == pytest.approx(10.0)
-    assert found.most_times_faster == pytest.approx(40.0)
-    assert found.cost_order == pytest.approx(1.5)
-    assert found.worst_cost_order == pytest.approx(1.5)
-    assert found.error_order == pytest.approx(2.0)
+    assert found["times_faster"] == pytest.approx(20.0)
+    assert found["least_times_faster"] == pytest.approx(10.0)
+    assert found["most_times_faster"] == pytest.approx(40.0)
+    assert found["cost_order"] == pytest.approx(1.5)
+    assert found["worst_cost_order"] == pytest.approx(1.5)
+    assert found["error_order"] == pytest.approx(2.0)
 
 
 def test_paths_at_equal_error():
@@ -111,12 +117,12 @@ def test_paths_at_equal_error():
         a_row(path="plain", scene="another", wall_s=999.0, error=0.5),
     ]
     assert sorted(compare_at_error(rows)) == [20.0, 30.0]
-    assert summarise(rows).times_faster_at_error == pytest.approx(25.0)
+    assert summarise(rows)["times_faster_at_error"] == pytest.approx(25.0)
 
 
 def test_summary_of_too_few_rows():
     found = summarise([a_row()])
-    assert found.times_faster is found.cost_order is found.error_order is None
+    assert found["times_faster"] is found["cost_order"] is found["error_order"] is None
 
 
 def test_statistics():

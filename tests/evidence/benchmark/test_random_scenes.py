@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.evidence.benchmark.random_scenes import (
+from netdesign.evidence.benchmark.scenes import (
     DENSITY_KG_M3,
     FRICTION_DEG,
     INCLINATION_DEG,

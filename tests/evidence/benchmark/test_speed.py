@@ -2,9 +2,8 @@
 
 import pytest
 
-from netdesign.evidence.benchmark.precision import Effort, measure_steady
+from netdesign.evidence.benchmark.precision import Effort, measure_steady, summarise
 from netdesign.evidence.benchmark.scenes import load_scenes
-from netdesign.evidence.benchmark.summary import summarise
 
 pytestmark = pytest.mark.benchmark
 

@@ -13,8 +13,7 @@ from netdesign.evidence.paper.cases import (
     find_steady,
     list_cases,
 )
-from netdesign.evidence.paper.runs import Shape, run_case
-from netdesign.evidence.paper.study import run_study
+from netdesign.evidence.paper.runs import Shape, run_case, run_study
 from netdesign.snow.mesh import MeshSize
 from netdesign.words.message import say
 from tests.build_paper import CURVE, TRIANGLE
@@ -77,7 +76,7 @@ def test_a_failure_is_a_result_with_its_reason(monkeypatch):
 
 
 def test_study_runs_every_case_once(monkeypatch):
-    from netdesign.evidence.paper import study as module
+    from netdesign.evidence.paper import runs as module
     from netdesign.evidence.paper.runs import PaperRun
 
     done = []

@@ -19,9 +19,9 @@ from netdesign.evidence.validation.page import (
     render_validation,
 )
 from netdesign.evidence.validation.structure import Span, read_structures
-from netdesign.evidence.verification.another_code import load_results
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, Contrast, list_places
+from netdesign.evidence.verification.exported import load_results
 from netdesign.report.words import Words, show_own
 from tests.commands.every_command import read_page
 from tests.words.english import list_vocabulary, list_words
@@ -169,7 +169,9 @@ def test_structure_without_any_result_is_named():
         ("value_kN = 34.0", "value_N = 34.0", "value_N"),
         ('mark = "read"', 'mark = "known"', "mark"),
         ("slope_deg = { low = 30.0", "slope_deg = { low = 50.0", "slope_deg"),
+        ("slope_deg = { low = 30.0", "slope_deg = { value = 30.0", "slope_deg"),
         ("slope_deg = {", "slope = {", "slope"),
+        ("value_kN = 34.0", "value_kN_per_m = 34.0", "value_kN_per_m"),
         ("rope_sag = {", "rope_slack = {", "rope_slack"),
         ('title = "', 'name = "', "name"),
         ('members = ["post"]', "members = []", "members"),

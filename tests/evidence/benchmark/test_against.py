@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.evidence.benchmark.versions import compare
-from netdesign.evidence.benchmark.versions.compare import (
-    Figure,
-    Timing,
+from netdesign.evidence.benchmark import against
+from netdesign.evidence.benchmark.against import (
+    RunFailure,
+    Size,
+    Timed,
     compare_versions,
     count_runs,
+    print_versions,
 )
-from netdesign.evidence.benchmark.versions.measures import RunFailure, Size
-from netdesign.evidence.benchmark.versions.table import print_versions
 from netdesign.evidence.runner import Time
 from netdesign.report.words import Words
 from tests.words.english import list_vocabulary, list_words
@@ -39,11 +39,11 @@ def timed(monkeypatch):
         return [Time(cpu_s=0.02, wall_s=0.03)]
 
     timings = (
-        Timing(measure, (Figure("row", "cpu_s", 1.5),)),
-        Timing(fail, (Figure("solve", "cpu_s", 0.4),), is_long=True),
+        Timed(measure, (("row", "cpu_s", 1.5),)),
+        Timed(fail, (("solve", "cpu_s", 0.4),), is_long=True),
     )
-    monkeypatch.setattr(compare, "TIMINGS", timings)
-    monkeypatch.setattr(compare, "read_version", lambda python: f"of {python.name}")
+    monkeypatch.setattr(against, "TIMED", timings)
+    monkeypatch.setattr(against, "read_version", lambda python: f"of {python.name}")
     return order
 
 
@@ -98,8 +98,8 @@ def test_a_failure_of_this_version_fails(timed, monkeypatch):
     def fail(*_):
         raise RunFailure("both")
 
-    timings = (Timing(fail, (Figure("grid", "wall_s", 9.0),)),)
-    monkeypatch.setattr(compare, "TIMINGS", timings)
+    timings = (Timed(fail, (("grid", "wall_s", 9.0),)),)
+    monkeypatch.setattr(against, "TIMED", timings)
     document = compare_versions(OTHER, SIZE)
     assert [row["reached"] for row in document["rows"]] == [False, False]
     assert not document["pass"]

@@ -8,16 +8,17 @@ import pytest
 
 from netdesign import __version__
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.versions import inputs, probe
-from netdesign.evidence.benchmark.versions.inputs import NAMES, write_scene, write_site
-from netdesign.evidence.benchmark.versions.measures import (
+from netdesign.evidence.benchmark import probe
+from netdesign.evidence.benchmark.against import (
     Bench,
     RunFailure,
     Size,
+    open_version,
+    read_version,
     time_scenes,
     time_solve,
 )
-from netdesign.evidence.benchmark.versions.other import open_version, read_version
+from netdesign.evidence.benchmark.scenes import NAMES, SHORT, write_scene, write_site
 from netdesign.files.scene import read_scene
 from netdesign.site.reader import read_site
 
@@ -72,7 +73,7 @@ def test_rows_of_the_site_are_all_different(tmp_path):
 
 
 def test_a_command_in_a_process_that_has_loaded_what_it_needs(bench, monkeypatch):
-    write_scene(bench.folder / "short.toml", inputs.SHORT)
+    write_scene(bench.folder / "short.toml", SHORT)
     monkeypatch.chdir(bench.folder)
     monkeypatch.setattr(sys, "argv", [])
     words = ["envelope", "short.toml", "--density", "300:310:2", "--confirm", "none"]

@@ -1,1 +1,0 @@
-"""Two versions of the program timed beside each other, each in turn."""
