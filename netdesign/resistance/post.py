@@ -209,28 +209,3 @@ def compute_bent_post_resistance(
     # the smaller root, in the form that does not cancel
     design = 2.0 * (1.0 - used) / (buckling + amplified + root)
     return partial_factor * design
-
-
-def compute_sliding_resistance(pressing: float, friction: float) -> float:
-    """Resistance of a base plate to sliding; resistance/THEORY.md, eq. (R12).
-
-    Parameters
-    ----------
-    pressing : float
-        Force across the plate [N].
-    friction : float
-        Characteristic coefficient of plate on ground [-].
-
-    Returns
-    -------
-    float
-        mu V [N].
-
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
-    """
-    require_within("pressing force", pressing, 0.0, math.inf, "N")
-    require_within("friction", friction, 0.05, 1.5)
-    return friction * pressing

@@ -31,33 +31,6 @@ class PullOutTests:
         require_within("least tested resistance", self.least, 0.0, self.mean, "N")
 
 
-def compute_pull_out_from_tests(
-    tests: PullOutTests, *, correlation_mean: float, correlation_least: float
-) -> float:
-    """Characteristic pull-out resistance from tests; resistance/THEORY.md, (R1).
-
-    Parameters
-    ----------
-    tests : PullOutTests
-        What was measured [N].
-    correlation_mean, correlation_least : float
-        Factors on mean and least, by the number of tests [-].
-
-    Returns
-    -------
-    float
-        min(mean / xi_mean, least / xi_least) [N].
-
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
-    """
-    require_positive("correlation factor", correlation_mean)
-    require_positive("correlation factor", correlation_least)
-    return min(tests.mean / correlation_mean, tests.least / correlation_least)
-
-
 def compute_pull_out_from_bond(
     *,
     drill_diameter: float,

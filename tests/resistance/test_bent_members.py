@@ -10,7 +10,6 @@ from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,
     compute_post_moment,
-    compute_sliding_resistance,
 )
 from netdesign.resistance.steel import (
     RoundSection,
@@ -100,12 +99,6 @@ def test_moment_that_is_too_much_alone_leaves_no_compression(share):
 def test_moment_of_snow_on_a_hinged_post():
     found = compute_post_moment(POST, pressure=11e3, efficiency=1.7)
     assert found == pytest.approx(1.7 * 11e3 * 0.12 * 3.1**2 / 8, rel=1e-14)
-
-
-@pytest.mark.parametrize("friction", [0.0, 1.6, math.nan])
-def test_friction_of_a_base_out_of_range_is_refused(friction):
-    with pytest.raises(ModelError, match="friction"):
-        compute_sliding_resistance(1e5, friction)
 
 
 def test_a_bent_bar_tells_what_it_follows_from():

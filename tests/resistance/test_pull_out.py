@@ -2,12 +2,13 @@
 
 import pytest
 
+from netdesign.calculation.quantity import given
+from netdesign.checks.forces import resist_by_tests
 from netdesign.errors import ModelError
 from netdesign.resistance.catalogue import find_bond_stress
 from netdesign.resistance.pull_out import (
     PullOutTests,
     compute_pull_out_from_bond,
-    compute_pull_out_from_tests,
 )
 
 
@@ -33,24 +34,25 @@ def test_enlargement_multiplies_the_diameter():
     assert wide == pytest.approx(1.3 * plain, rel=1e-15)
 
 
+def correlate(*, mean, on_mean, least, on_least):
+    return resist_by_tests(
+        given("R_m", mean, "kN", "test"),
+        given("ξ_m", on_mean, "-", "test"),
+        given("R_min", least, "kN", "test"),
+        given("ξ_min", on_least, "-", "test"),
+    ).value
+
+
 def test_least_governs_where_the_tests_scatter():
     """Two tests: 400 / 1.30 = 307.7 on the mean, 300 / 1.20 = 250 on the least."""
-    found = compute_pull_out_from_tests(
-        PullOutTests(count=2, least=300e3, mean=400e3),
-        correlation_mean=1.30,
-        correlation_least=1.20,
-    )
-    assert found == pytest.approx(250e3, rel=1e-15)
+    found = correlate(mean=400.0, on_mean=1.30, least=300.0, on_least=1.20)
+    assert found == pytest.approx(250.0, rel=1e-15)
 
 
 def test_mean_governs_where_its_factor_is_the_larger():
     """Three tests within 5 %: 315 / 1.20 = 262.5 against 300 / 1.05 = 285.7."""
-    found = compute_pull_out_from_tests(
-        PullOutTests(count=3, least=300e3, mean=315e3),
-        correlation_mean=1.20,
-        correlation_least=1.05,
-    )
-    assert found == pytest.approx(262.5e3, rel=1e-15)
+    found = correlate(mean=315.0, on_mean=1.20, least=300.0, on_least=1.05)
+    assert found == pytest.approx(262.5, rel=1e-15)
 
 
 def test_tests_whose_least_exceeds_the_mean_are_refused():

@@ -11,12 +11,10 @@ from netdesign.resistance.post import (
     compute_bent_post_resistance,
     compute_buckling_resistance,
     compute_post_moment,
-    compute_sliding_resistance,
 )
 from netdesign.resistance.pull_out import (
     PullOutTests,
     compute_pull_out_from_bond,
-    compute_pull_out_from_tests,
 )
 from netdesign.resistance.steel import (
     RoundSection,
@@ -57,19 +55,12 @@ BAR = {"outer": 0.0317, "strength": 5e8}
 TUBE = BAR | {"inner": 0.011}
 LEVER = {"angle": 0.31, "lever": 0.043}
 SECTION = RoundSection(outer=0.0317, strength=5e8)
-TESTS = PullOutTests(count=3, least=271e3, mean=293e3)
-CORRELATIONS = {"correlation_mean": 1.4, "correlation_least": 1.3}
 SNOW = {"pressure": 6.3e3, "efficiency": 2.0}
 MOMENT = {"moment": 3.1e3, "partial_factor": 1.05}
-SLIDING = {"pressing": 9.7e4, "friction": 0.53}
 
 
 def bend(**changes):
     return compute_bent_bar_resistance(SECTION, **changes)
-
-
-def correlate(**changes):
-    return compute_pull_out_from_tests(TESTS, **changes)
 
 
 def press(**changes):
@@ -89,8 +80,6 @@ WITHIN = [
     (press, SNOW, "efficiency", 0.1, 50.0, ""),
     (bend_post, MOMENT, "moment", 0.0, math.inf, " N m"),
     (bend_post, MOMENT, "partial_factor", 0.1, 10.0, ""),
-    (compute_sliding_resistance, SLIDING, "pressing", 0.0, math.inf, " N"),
-    (compute_sliding_resistance, SLIDING, "friction", 0.05, 1.5, ""),
     (compute_pull_out_from_bond, BOND, "drill_diameter", 0.02, 0.5, " m"),
     (compute_pull_out_from_bond, BOND, "bond_length", 0.5, 30.0, " m"),
     (compute_pull_out_from_bond, BOND, "enlargement", 1.0, 2.0, ""),
@@ -116,8 +105,6 @@ POSITIVE = [
     (PostSection, POST, "critical", " N"),
     (PostSection, POST, "buckling", " N"),
     (press, SNOW, "pressure", " Pa"),
-    (correlate, CORRELATIONS, "correlation_mean", ""),
-    (correlate, CORRELATIONS, "correlation_least", ""),
     (compute_pull_out_from_bond, BOND, "bond_stress", " Pa"),
 ]
 # Names in refusals, where they are not those of the argument.
@@ -134,9 +121,6 @@ NAMES = {
     (press, "pressure"): "snow pressure",
     (press, "efficiency"): "efficiency factor",
     (bend_post, "moment"): "design moment",
-    (compute_sliding_resistance, "pressing"): "pressing force",
-    (correlate, "correlation_mean"): "correlation factor",
-    (correlate, "correlation_least"): "correlation factor",
     (RoundSection, "outer"): "bar diameter",
     (RoundSection, "inner"): "inner diameter",
     (RoundSection, "strength"): "steel strength",

@@ -9,12 +9,13 @@ import math
 
 import pytest
 
+from netdesign.calculation.quantity import given
+from netdesign.checks.forces import resist_by_friction
 from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,
     compute_buckling_resistance,
     compute_post_moment,
-    compute_sliding_resistance,
 )
 from netdesign.resistance.steel import RoundSection, compute_bent_bar_resistance
 from netdesign.structure.layout import SupportPoints
@@ -127,4 +128,9 @@ def test_post_under_snow():
 
 def test_sliding_of_a_base_plate():
     """106 kN on ground with a friction of 0.55: 58.3 kN."""
-    assert compute_sliding_resistance(106e3, 0.55) == pytest.approx(58.3e3, **CLOSE)
+    found = resist_by_friction(
+        given("μ_b", 0.55, "-", "test"),
+        given("γ_E", 1.0, "-", "test"),
+        given("V_k", 106.0, "kN", "test"),
+    )
+    assert found.value == pytest.approx(58.3, **CLOSE)
