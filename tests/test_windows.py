@@ -20,7 +20,7 @@ from netdesign.edge.streams import _spell_sign
 from netdesign.errors import OutputError, SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, load_texts
-from tests.test_cli import write_site
+from tests.tiny_site import write_site
 
 PACKAGE = Path(netdesign.__file__).parent
 POSIX = {
