@@ -20,7 +20,7 @@ if "NETDESIGN_STORE" not in os.environ:
 
 import math  # noqa: E402  (all of these after the environment)
 from collections.abc import Callable  # noqa: E402
-from functools import cache, partial  # noqa: E402
+from functools import cache  # noqa: E402
 from pathlib import Path  # noqa: E402
 
 import numpy as np  # noqa: E402
@@ -165,6 +165,7 @@ def solved() -> Callable[..., Solution]:
 
 
 @pytest.fixture
-def call(tmp_path: Path) -> Callable[..., Ended]:
+def call(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., Ended]:
     """Calls the program in this process, in an empty folder: ``call("init")``."""
-    return partial(call_program, cwd=tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return call_program

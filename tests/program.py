@@ -26,21 +26,32 @@ class Ended:
     err: str
 
 
-def call_program(*arguments, cwd, **environment) -> Ended:
+class _Stream(io.TextIOWrapper):
+    """Takes text and bytes, as a standard stream does."""
+
+    def __init__(self):
+        super().__init__(io.BytesIO(), encoding="utf-8", newline="")
+
+    def read_all(self) -> str:
+        self.seek(0)
+        return self.read()
+
+
+def call_program(*arguments, cwd=".", **environment) -> Ended:
     """Runs in this process: the start of another takes longer than most commands."""
-    out, err = io.StringIO(), io.StringIO()
+    out, err = _Stream(), _Stream()
     with (
         pytest.MonkeyPatch.context() as patch,
         redirect_stdout(out),
         redirect_stderr(err),
     ):
         patch.chdir(cwd)
-        for name, value in {"COLUMNS": _WIDTH, **environment}.items():
+        for name, value in environment.items():
             patch.setenv(name, value)
         patch.setattr("sys.argv", ["netdesign", *map(str, arguments)])
         with pytest.raises(SystemExit) as caught:
             cli.main()
-    return Ended(int(caught.value.code or 0), out.getvalue(), err.getvalue())
+    return Ended(int(caught.value.code or 0), out.read_all(), err.read_all())
 
 
 def start_program(
