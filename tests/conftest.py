@@ -20,7 +20,6 @@ if "NETDESIGN_STORE" not in os.environ:
 
 import math  # noqa: E402  (all of these after the environment)
 from collections.abc import Callable  # noqa: E402
-from dataclasses import dataclass  # noqa: E402
 from functools import cache  # noqa: E402
 from pathlib import Path  # noqa: E402
 
@@ -28,7 +27,6 @@ import numpy as np  # noqa: E402
 import pytest  # noqa: E402
 from hypothesis import settings  # noqa: E402
 
-from netdesign import cli  # noqa: E402
 from netdesign.cable.net import Net  # noqa: E402
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings  # noqa: E402
 from netdesign.coupling.solution import Solution  # noqa: E402
@@ -39,6 +37,7 @@ from netdesign.snow.law import FlowLayer, FlowProblem  # noqa: E402
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes  # noqa: E402
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh  # noqa: E402
 from netdesign.snow.snowpack import GravityMode, Snowpack  # noqa: E402
+from tests.program import Ended, call_program  # noqa: E402
 
 # Drawn values are the same in every run, and a slow machine is no failure.
 settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
@@ -165,29 +164,8 @@ def solved() -> Callable[..., Solution]:
     return _solve
 
 
-@dataclass(frozen=True)
-class Ended:
-    """How a command of the program ended."""
-
-    code: int
-    out: str
-    err: str
-
-
 @pytest.fixture
-def call(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> Callable[..., Ended]:
+def call(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., Ended]:
     """Calls the program in this process, in an empty folder: ``call("init")``."""
     monkeypatch.chdir(tmp_path)
-
-    def run(*arguments: object) -> Ended:
-        argv = ["netdesign", *(str(argument) for argument in arguments)]
-        monkeypatch.setattr("sys.argv", argv)
-        with pytest.raises(SystemExit) as caught:
-            cli.main()
-        shown = capsys.readouterr()
-        code = caught.value.code
-        return Ended(code if isinstance(code, int) else 0, shown.out, shown.err)
-
-    return run
+    return call_program

@@ -1,6 +1,6 @@
-"""The command line in real processes: exit codes, streams, files.
+"""The command line: exit codes, streams, files; each command once in a process.
 
-One run of a tiny site feeds most tests; the rest starts only what it needs.
+One run of a tiny site feeds most tests; the rest runs only what it needs.
 """
 
 import copy
@@ -13,10 +13,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import openpyxl
 import pytest
 
-from netdesign import __version__, cli
+from netdesign import __version__
 from netdesign.commands.running import EXIT_CODES
 from netdesign.edge.given_files import find_resource
 from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
@@ -27,72 +26,11 @@ from netdesign.site.template.workbook import load_example
 from netdesign.study.document import read_document, write_document
 from netdesign.words.message import dump, restore, say
 from netdesign.words.names import name_check
+from tests.program import QUICK, call_program, spoilt_program, start_program
 from tests.report.reading import read_workbook
+from tests.tiny_site import SHEETS, write_site
 
-PROGRAM = (str(Path(sys.executable).with_name("netdesign")),)
 PROFILE = "nf-p-95-304-style"
-QUICK = ("--accuracy", "0.1", "--jobs", "1")
-
-# One net row; two densities, one friction angle, one inclination.
-SHEETS = {
-    "Nets": [
-        [
-            "id",
-            "slope angle [deg]",
-            "snow thickness [m]",
-            "upslope length [m]",
-            "ground law",
-            "net height [m]",
-            "net stiffness [kN/m]",
-            "post spacing [m]",
-            "foot anchor",
-            "uphill anchor",
-            "downhill anchor",
-            "uphill guy",
-            "downhill guy",
-            "post",
-            "guys on each side of the post",
-            "splay of the guys [deg]",
-            "slack [-]",
-            "post tilt [deg]",
-            "uphill anchor distance [m]",
-            "downhill anchor distance [m]",
-            "layers of the snow",
-            "axes of the anchors",
-            "panel system",
-        ],
-        [
-            *("R1", 38, 2.5, 6, "free", 2.5, 8000, 3),
-            *("A1", "A1", "A1", "G1", "G1", "P1", 2, 30),
-            *(0.02, 15, 2.5, 2.5, "uniform", "along the pull", "none"),
-        ],
-    ],
-    "Ranges": [
-        ["quantity", "low", "high", "samples"],
-        ["density [kg/m3]", 270, 400, 3],
-        ["friction angle [deg]", 30, 30, 1],
-        ["net inclination [deg]", 30, 30, 1],
-    ],
-    "Anchors": [
-        [
-            *("id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"),
-            "kind of anchor",
-        ],
-        ["A1", 2500, 2400, "tested", "rope anchor"],
-    ],
-    "Ropes": [["id", "minimum breaking force [kN]"], ["G1", 2300]],
-    "Posts": [
-        [
-            *("id", "section area [cm2]", "bearing resistance [kN]"),
-            *("second moment of area [cm4]", "buckling length [m]"),
-            *("yield strength [MPa]", "post width [mm]", "section modulus [cm3]"),
-            "sliding resistance of the base [kN]",
-        ],
-        ["P1", 180, 2500, 25000, 2.6, 355, 300, 1600, 1000],
-    ],
-    "Ends": [["net row", "types of the support"], ["R1", "as inside"]],
-    "Project": [["item", "value"], ["standard", "nf-p-95-304-style"]],
-}
 
 SCENE = """
 [slope]
@@ -110,41 +48,6 @@ accuracy = 0.1
 """
 
 
-def run(*arguments, cwd, program=PROGRAM, stdout=subprocess.PIPE, **environment):
-    return subprocess.run(
-        [*program, *(str(argument) for argument in arguments)],
-        cwd=cwd,
-        env={**os.environ, "COLUMNS": "100", **environment},
-        stdin=subprocess.DEVNULL,
-        stdout=stdout,
-        stderr=subprocess.PIPE,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
-
-
-def spoilt_program(preparation):
-    """The same program in a fresh interpreter, after some lines of Python."""
-    return (sys.executable, "-c", f"{preparation}\nimport netdesign.cli as c\nc.main()")
-
-
-def write_site(path, edit=None):
-    """Workbook of the tiny site; ``edit`` may change its sheets before."""
-    sheets = copy.deepcopy(SHEETS)
-    if edit:
-        edit(sheets)
-    workbook = openpyxl.Workbook()
-    workbook.remove(workbook.active)
-    for name, rows in sheets.items():
-        sheet = workbook.create_sheet(name)
-        for row in rows:
-            sheet.append(row)
-    workbook.save(path)
-    workbook.close()
-    return path
-
-
 def listing(folder):
     return {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
 
@@ -159,7 +62,7 @@ def home(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def checked(home):
-    return run(
+    return start_program(
         *("check", "site.xlsx", "--out", "out", "--no-cache", *QUICK),
         cwd=home,
         SOURCE_DATE_EPOCH="86400",
@@ -175,9 +78,9 @@ def study(home, checked):
 
 
 def test_a_pass_ends_with_0(checked, study):
-    assert checked.returncode == 0, checked.stderr
+    assert checked.code == 0, checked.err
     assert study["verdict"] == "pass"
-    assert "PASS" in checked.stdout.upper()
+    assert "PASS" in checked.out.upper()
 
 
 def test_a_fail_ends_with_1(tmp_path):
@@ -185,9 +88,9 @@ def test_a_fail_ends_with_1(tmp_path):
         sheets["Anchors"][1][1:3] = [2, 2]
 
     write_site(tmp_path / "site.xlsx", weaken)
-    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
-    assert result.returncode == 1, result.stderr
-    assert json.loads(result.stdout)["verdict"] == "fail"
+    result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.code == 1, result.err
+    assert json.loads(result.out)["verdict"] == "fail"
 
 
 def test_a_missing_resistance_ends_with_4(tmp_path):
@@ -195,9 +98,9 @@ def test_a_missing_resistance_ends_with_4(tmp_path):
         sheets["Anchors"][1][2:4] = [None, None]
 
     write_site(tmp_path / "site.xlsx", forget)
-    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
-    assert result.returncode == 4, result.stderr
-    assert json.loads(result.stdout)["verdict"] == "not_proven"
+    result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.code == 4, result.err
+    assert json.loads(result.out)["verdict"] == "not_proven"
 
 
 def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
@@ -207,9 +110,9 @@ def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
         sheets["Nets"][1][1] = 65
 
     write_site(tmp_path / "site.xlsx", steepen)
-    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
-    assert result.returncode == 4, result.stderr
-    (row,) = json.loads(result.stdout)["rows"]
+    result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.code == 4, result.err
+    (row,) = json.loads(result.out)["rows"]
     slope = next(one for one in row["checks"] if one["id"] == "geometry.slope")
     assert slope["verdict"] == "not_proven"
     reason = str(restore(slope["reason"]))
@@ -222,10 +125,10 @@ def test_a_profile_that_cannot_be_read_ends_with_3(tmp_path, line):
     for name, rows in list(SHEETS.items())[:-1]:
         lines += ["", f"[{name}]", *(";".join(map(str, row)) for row in rows)]
     (tmp_path / "site.csv").write_text("\n".join(lines), encoding="utf-8")
-    result = run("check", "site.csv", *QUICK, cwd=tmp_path)
-    assert result.returncode == 3
-    assert f'site.csv › Project › A3: "{line.split(";")[0]}"' in result.stderr
-    assert '"standard"' in result.stderr
+    result = call_program("check", "site.csv", *QUICK, cwd=tmp_path)
+    assert result.code == 3
+    assert f'site.csv › Project › A3: "{line.split(";")[0]}"' in result.err
+    assert '"standard"' in result.err
     assert listing(tmp_path) == {"site.csv"}
 
 
@@ -244,9 +147,9 @@ def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
         sheets["Nets"][1][5] = 2.4
 
     write_site(tmp_path / "site.xlsx", bury)
-    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
-    assert result.returncode == 1, result.stderr
-    (row,) = json.loads(result.stdout)["rows"]
+    result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.code == 1, result.err
+    (row,) = json.loads(result.out)["rows"]
     verdicts = {check["id"]: check["verdict"] for check in row["checks"]}
     assert verdicts.pop("geometry.height") == "fail"
     assert verdicts.pop("geometry.inclination") == "pass"
@@ -261,12 +164,12 @@ def test_a_dry_run_says_beforehand_that_snow_overtops_a_net(tmp_path):
         sheets["Nets"][1][5] = 2.4
 
     write_site(tmp_path / "site.xlsx", bury)
-    shown = run("check", "site.xlsx", "--dry-run", cwd=tmp_path)
-    assert shown.returncode == 0, shown.stderr
-    assert "Nets › F2" in shown.stdout
-    assert "the check of the height fails" in shown.stdout
-    as_json = run("check", "site.xlsx", "--dry-run", "--json", cwd=tmp_path)
-    (note,) = json.loads(as_json.stdout)["notes"]
+    shown = call_program("check", "site.xlsx", "--dry-run", cwd=tmp_path)
+    assert shown.code == 0, shown.err
+    assert "Nets › F2" in shown.out
+    assert "the check of the height fails" in shown.out
+    as_json = call_program("check", "site.xlsx", "--dry-run", "--json", cwd=tmp_path)
+    (note,) = json.loads(as_json.out)["notes"]
     assert "is less than the snow thickness of 2.5 m" in note
 
 
@@ -279,18 +182,18 @@ def test_a_declared_check_ends_with_6_and_is_named_on_every_output(tmp_path):
         ]
 
     write_site(tmp_path / "site.xlsx", declare)
-    result = run("check", "site.xlsx", "--out", "out", *QUICK, cwd=tmp_path)
-    assert result.returncode == 6, result.stderr
+    result = call_program("check", "site.xlsx", "--out", "out", *QUICK, cwd=tmp_path)
+    assert result.code == 6, result.err
     proof = "R1 Post base, bearing: Report G-17, B. Rüegg, 2026-03-09, cell Declared!B2"
-    assert f"Declared as proven elsewhere: {proof}" in result.stdout
-    assert "1 DECLARED" in result.stdout
+    assert f"Declared as proven elsewhere: {proof}" in result.out
+    assert "1 DECLARED" in result.out
     assert proof in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     book = read_workbook((tmp_path / "out" / "report.xlsx").read_bytes())
     assert proof in {
         cell.value for line in book["Summary"].iter_rows() for cell in line
     }
-    again = run("report", "out/study.json", "--out", "again", cwd=tmp_path)
-    assert again.returncode == 6, again.stderr
+    again = call_program("report", "out/study.json", "--out", "again", cwd=tmp_path)
+    assert again.code == 6, again.err
 
 
 def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
@@ -298,11 +201,11 @@ def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
         sheets["Anchors"][1][1] = 20
 
     write_site(tmp_path / "site.xlsx", weaken)
-    result = run("check", "site.xlsx", "--explain", *QUICK, cwd=tmp_path)
-    assert result.returncode == 1, result.stderr
+    result = call_program("check", "site.xlsx", "--explain", *QUICK, cwd=tmp_path)
+    assert result.code == 1, result.err
     told = [
         line
-        for line in result.stdout.splitlines()
+        for line in result.out.splitlines()
         if "tendon" in line and "(FAIL)" in line
     ]
     for quantity in ("characteristic resistance at least", "post spacing", "density"):
@@ -318,13 +221,13 @@ def test_outputs_are_in_their_folder_and_nothing_else_is(home, checked):
     outputs = {path.name for path in (home / "out").iterdir()}
     assert outputs == {"study.json", "report.html", "report.xlsx"}
     for name in outputs:
-        assert f"wrote {Path('out') / name}" in checked.stderr
+        assert f"wrote {Path('out') / name}" in checked.err
 
 
 def test_progress_and_messages_go_to_stderr(checked):
-    assert "cases of the grid: 1 solved, about 92 to go" in checked.stderr
-    assert "to go" not in checked.stdout
-    assert "wrote" not in checked.stdout
+    assert "cases of the grid: 1 solved, about 92 to go" in checked.err
+    assert "to go" not in checked.out
+    assert "wrote" not in checked.out
 
 
 def test_study_says_how_it_was_made(study):
@@ -339,11 +242,11 @@ def test_study_says_how_it_was_made(study):
 def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
     write_site(tmp_path / "site.xlsx")
     options = ("--json", "--no-cache", *QUICK)
-    result = run("check", "site.xlsx", *options, cwd=tmp_path)
-    assert result.returncode == 0, result.stderr
-    document = json.loads(result.stdout)
+    result = call_program("check", "site.xlsx", *options, cwd=tmp_path)
+    assert result.code == 0, result.err
+    document = json.loads(result.out)
     assert listing(tmp_path) == {"site.xlsx"}
-    assert "cases of the grid: 1 solved, about 92 to go" in result.stderr
+    assert "cases of the grid: 1 solved, about 92 to go" in result.err
     for part in ("verdict", "rows", "profile", "range_inputs", "notes"):
         assert document[part] == study[part]
 
@@ -351,11 +254,11 @@ def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
 def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
     write_site(tmp_path / "site.xlsx")
     options = ("--accuracy", "0.1", "--jobs", "2", "--quiet", "--no-html")
-    result = run(
+    result = start_program(
         *("check", "site.xlsx", "--out", "o", "--no-excel", *options), cwd=tmp_path
     )
-    assert result.returncode == 0, result.stderr
-    assert result.stderr == ""
+    assert result.code == 0, result.err
+    assert result.err == ""
     assert listing(tmp_path) == {"site.xlsx", str(Path("o") / "study.json")}
     other = json.loads((tmp_path / "o" / "study.json").read_text(encoding="utf-8"))
     for row, expected in zip(other["rows"], study["rows"], strict=True):
@@ -368,31 +271,31 @@ def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
 
 
 def test_dry_run_counts_and_writes_nothing(home, checked, tmp_path):
-    result = run("check", home / "site.xlsx", "--dry-run", cwd=tmp_path)
-    assert result.returncode == 0, result.stderr
-    assert "1 net row, 3 cases" in result.stdout
-    assert "nothing was written" in result.stdout
+    result = call_program("check", home / "site.xlsx", "--dry-run", cwd=tmp_path)
+    assert result.code == 0, result.err
+    assert "1 net row, 3 cases" in result.out
+    assert "nothing was written" in result.out
     assert listing(tmp_path) == set()
 
 
 def test_existing_outputs_are_refused_before_solving(home, checked):
     before = (home / "out" / "study.json").read_bytes()
-    result = run("check", "site.xlsx", "--out", "out", *QUICK, cwd=home)
-    assert result.returncode == 2
-    assert "exists already" in result.stderr
-    assert "--force" in result.stderr
-    assert "cases" not in result.stderr
+    result = call_program("check", "site.xlsx", "--out", "out", *QUICK, cwd=home)
+    assert result.code == 2
+    assert "exists already" in result.err
+    assert "--force" in result.err
+    assert "cases" not in result.err
     assert (home / "out" / "study.json").read_bytes() == before
 
 
 def test_force_replaces_outputs(home, checked, tmp_path):
     shutil.copytree(home / "out", tmp_path / "out")
     (tmp_path / "out" / "report.html").write_text("old")
-    result = run(
+    result = call_program(
         *("report", tmp_path / "out" / "study.json", "--out", "out", "--force"),
         cwd=tmp_path,
     )
-    assert result.returncode == 0, result.stderr
+    assert result.code == 0, result.err
     expected = (home / "out" / "report.html").read_bytes()
     assert (tmp_path / "out" / "report.html").read_bytes() == expected
 
@@ -402,13 +305,13 @@ def test_several_profiles_get_a_folder_each(home, checked, tmp_path):
     shutil.copytree(find_resource("standards") / PROFILE, own)
     document = own / "document.toml"
     document.write_text(document.read_text().replace(PROFILE, "mine", 1))
-    result = run(
+    result = call_program(
         *("check", home / "site.xlsx", "--standard", PROFILE, "--standard", "mine"),
         *("--out", "out", "--no-html", "--no-excel", "--json", *QUICK),
         cwd=tmp_path,
     )
-    assert result.returncode == 0, result.stderr
-    document = json.loads(result.stdout)
+    assert result.code == 0, result.err
+    document = json.loads(result.out)
     assert document["schema"] == "netdesign.studies/1"
     ids = [one["profile"]["id"] for one in document["studies"]]
     assert ids == [PROFILE, "mine"]
@@ -442,25 +345,27 @@ def test_several_profiles_get_a_folder_each(home, checked, tmp_path):
     ],
 )
 def test_wrong_usage_ends_with_2(home, tmp_path, arguments, message):
-    result = run(*arguments, cwd=tmp_path)
-    assert result.returncode == 2, result.stderr
-    assert message in result.stderr
-    assert result.stdout == ""
+    result = call_program(*arguments, cwd=tmp_path)
+    assert result.code == 2, result.err
+    assert message in result.err
+    assert result.out == ""
     assert listing(tmp_path) == set()
 
 
 def test_an_accuracy_that_is_no_number_ends_with_3(tmp_path):
     arguments = ("check", "--example", "--dry-run", "--accuracy", "nan")
-    result = run(*arguments, cwd=tmp_path)
-    assert result.returncode == 3
-    assert "accuracy = nan" in result.stderr
+    result = call_program(*arguments, cwd=tmp_path)
+    assert result.code == 3
+    assert "accuracy = nan" in result.err
 
 
 def test_an_unknown_profile_ends_with_3_and_a_guess(home, tmp_path):
-    result = run("check", home / "site.xlsx", "--standard", "nf-p-95-303", cwd=tmp_path)
-    assert result.returncode == 3
-    assert f"Did you mean {PROFILE}?" in result.stderr
-    assert result.stdout == ""
+    result = call_program(
+        "check", home / "site.xlsx", "--standard", "nf-p-95-303", cwd=tmp_path
+    )
+    assert result.code == 3
+    assert f"Did you mean {PROFILE}?" in result.err
+    assert result.out == ""
     assert listing(tmp_path) == set()
 
 
@@ -471,12 +376,12 @@ def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
         sheets["Ranges"][1][2] = "4OO"
 
     write_site(tmp_path / "site.xlsx", spoil)
-    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
-    assert result.returncode == 3
+    result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.code == 3
     for place in ('Nets › B2: "95"', 'Nets › I2: "A9"', 'Ranges › C2: "4OO"'):
-        assert f"site.xlsx › {place}" in result.stderr
-    assert "3 findings; nothing was checked" in result.stderr
-    assert result.stdout == ""
+        assert f"site.xlsx › {place}" in result.err
+    assert "3 findings; nothing was checked" in result.err
+    assert result.out == ""
     assert listing(tmp_path) == {"site.xlsx"}
 
 
@@ -484,10 +389,10 @@ def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
 def test_what_is_no_workbook_ends_with_3(tmp_path, content):
     if content is not None:
         (tmp_path / "site.xlsx").write_bytes(content)
-    result = run("check", "site.xlsx", cwd=tmp_path)
-    assert result.returncode == 3
-    assert "site.xlsx" in result.stderr
-    assert "Traceback" not in result.stderr
+    result = call_program("check", "site.xlsx", cwd=tmp_path)
+    assert result.code == 3
+    assert "site.xlsx" in result.err
+    assert "Traceback" not in result.err
 
 
 # --- bugs, interrupts, closed pipes ------------------------------------------------
@@ -502,25 +407,25 @@ netdesign.study.cases.search_site = solve_site
 
 
 def test_a_bug_ends_with_5_and_no_outputs(home, tmp_path):
-    result = run("check", home / "site.xlsx", cwd=tmp_path, program=spoilt_program(BUG))
-    assert result.returncode == 5
-    assert "internal error, please report it: ZeroDivisionError: spoilt" in (
-        result.stderr
+    result = start_program(
+        "check", home / "site.xlsx", cwd=tmp_path, program=spoilt_program(BUG)
     )
-    assert "Traceback" not in result.stderr
-    assert result.stdout == ""
+    assert result.code == 5
+    assert "internal error, please report it: ZeroDivisionError: spoilt" in (result.err)
+    assert "Traceback" not in result.err
+    assert result.out == ""
     assert listing(tmp_path) == set()
 
 
 def test_a_traceback_is_there_for_the_asking(home, tmp_path):
-    result = run(
+    result = start_program(
         *("check", home / "site.xlsx"),
         cwd=tmp_path,
         program=spoilt_program(BUG),
         NETDESIGN_TRACEBACK="1",
     )
-    assert result.returncode not in (0, 4, 130)
-    assert "Traceback" in result.stderr
+    assert result.code not in (0, 4, 130)
+    assert "Traceback" in result.err
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
@@ -557,27 +462,25 @@ def test_a_closed_pipe_changes_no_exit_code(tmp_path, arguments):
     reading, writing = os.pipe()
     os.close(reading)
     try:
-        result = run(*arguments, cwd=tmp_path, stdout=writing)
+        result = start_program(*arguments, cwd=tmp_path, stdout=writing)
     finally:
         os.close(writing)
-    assert result.returncode == 0
-    assert result.stderr == ""
+    assert result.code == 0
+    assert result.err == ""
 
 
 @pytest.mark.parametrize("step", ["fsync", "replace"])
 def test_a_full_disk_ends_with_2_and_leaves_no_trace(
-    home, checked, tmp_path, monkeypatch, capsys, step
+    home, checked, tmp_path, monkeypatch, step
 ):
     def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
-    arguments = ["netdesign", "report", str(home / "out" / "study.json")]
-    monkeypatch.setattr(sys, "argv", [*arguments, "--out", str(tmp_path)])
     monkeypatch.setattr(os if step == "fsync" else Path, step, fail)
-    with pytest.raises(SystemExit) as caught:
-        cli.main()
-    assert caught.value.code == 2
-    assert "No space left on device" in capsys.readouterr().err
+    study = home / "out" / "study.json"
+    ended = call_program("report", study, "--out", tmp_path, cwd=tmp_path)
+    assert ended.code == 2
+    assert "No space left on device" in ended.err
     assert listing(tmp_path) == set()
 
 
@@ -601,12 +504,12 @@ CHECK_KEYS = {
 
 
 def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
-    result = run(
+    result = start_program(
         *("check", "--example", "--json", "--accuracy", "0.1", "--jobs", "2"),
         cwd=tmp_path,
     )
-    assert result.returncode == 1, result.stderr
-    document = json.loads(result.stdout)
+    assert result.code == 1, result.err
+    document = json.loads(result.out)
     assert document["schema"] == "netdesign.study/3"
     assert document["verdict"] == "fail"
     assert set(document) >= STUDY_KEYS
@@ -639,41 +542,41 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
 
 
 def test_init_example_reads_back_as_the_example(tmp_path):
-    result = run("init", "site.xlsx", "--example", cwd=tmp_path)
-    assert result.returncode == 0, result.stderr
-    assert "wrote site.xlsx" in result.stderr
+    result = start_program("init", "site.xlsx", "--example", cwd=tmp_path)
+    assert result.code == 0, result.err
+    assert "wrote site.xlsx" in result.err
     site = read_site(tmp_path / "site.xlsx")
     assert [row.id for row in site.rows] == [
         line["id"] for line in load_example()["Nets"]
     ]
-    counted = run("check", "site.xlsx", "--dry-run", cwd=tmp_path)
-    assert counted.returncode == 0
-    assert "site.xlsx: 7 net rows, about 385 cases" in counted.stdout
+    counted = call_program("check", "site.xlsx", "--dry-run", cwd=tmp_path)
+    assert counted.code == 0
+    assert "site.xlsx: 7 net rows, about 385 cases" in counted.out
 
 
 @pytest.mark.parametrize("name", ["site.csv", "site"])
 def test_init_writes_nothing_under_another_kind_of_name(tmp_path, name):
-    result = run("init", name, cwd=tmp_path)
-    assert result.returncode == 2
-    assert f"{name}: the workbook is written as xlsx" in result.stderr
+    result = call_program("init", name, cwd=tmp_path)
+    assert result.code == 2
+    assert f"{name}: the workbook is written as xlsx" in result.err
     assert listing(tmp_path) == set()
 
 
 def test_init_gives_a_form_that_is_refused_until_filled_in(tmp_path):
-    assert run("init", "site.xlsx", cwd=tmp_path).returncode == 0
-    result = run("check", "site.xlsx", cwd=tmp_path)
-    assert result.returncode == 3
-    assert "nothing was checked" in result.stderr
+    assert call_program("init", "site.xlsx", cwd=tmp_path).code == 0
+    result = call_program("check", "site.xlsx", cwd=tmp_path)
+    assert result.code == 3
+    assert "nothing was checked" in result.err
 
 
 def test_init_never_overwrites_unasked(tmp_path):
     path = tmp_path / "site.xlsx"
     path.write_bytes(b"mine")
-    result = run("init", "site.xlsx", cwd=tmp_path)
-    assert result.returncode == 2
-    assert "exists already" in result.stderr
+    result = call_program("init", "site.xlsx", cwd=tmp_path)
+    assert result.code == 2
+    assert "exists already" in result.err
     assert path.read_bytes() == b"mine"
-    assert run("init", "site.xlsx", "--force", cwd=tmp_path).returncode == 0
+    assert call_program("init", "site.xlsx", "--force", cwd=tmp_path).code == 0
     assert path.read_bytes().startswith(b"PK")
 
 
@@ -683,12 +586,12 @@ def test_init_never_overwrites_unasked(tmp_path):
 def test_report_renders_the_same_bytes_without_a_solver(home, checked, tmp_path):
     # judged again it may be, never solved again
     without = "import netdesign.coupling.steady.solve as s\ns.solve_steady = None"
-    result = run(
+    result = start_program(
         *("report", home / "out" / "study.json", "--out", "again"),
         cwd=tmp_path,
         program=spoilt_program(without),
     )
-    assert result.returncode == 0, result.stderr
+    assert result.code == 0, result.err
     for name in ("report.html", "report.xlsx"):
         expected = (home / "out" / name).read_bytes()
         assert (tmp_path / "again" / name).read_bytes() == expected
@@ -712,12 +615,14 @@ def test_report_ends_with_the_verdict_of_the_study(study, tmp_path, verdict, cod
     path = tmp_path / "study.json"
     sealed = write_document(read_document(json.dumps(document)))
     path.write_text(sealed, encoding="utf-8")
-    result = run("report", path, "--no-html", "--no-excel", cwd=tmp_path)
-    assert result.returncode == code, result.stderr
+    result = call_program("report", path, "--no-html", "--no-excel", cwd=tmp_path)
+    assert result.code == code, result.err
     path.write_text(json.dumps(document), encoding="utf-8")  # the digest of before
-    refused = run("report", path, "--no-html", "--no-excel", "--force", cwd=tmp_path)
-    assert refused.returncode == 3
-    assert "altered after it was written" in refused.stderr
+    refused = call_program(
+        "report", path, "--no-html", "--no-excel", "--force", cwd=tmp_path
+    )
+    assert refused.code == 3
+    assert "altered after it was written" in refused.err
 
 
 @pytest.mark.parametrize(
@@ -732,9 +637,9 @@ def test_report_ends_with_the_verdict_of_the_study(study, tmp_path, verdict, cod
 def test_report_refuses_what_is_no_study(tmp_path, content, message):
     if content is not None:
         (tmp_path / "study.json").write_bytes(content)
-    result = run("report", "study.json", cwd=tmp_path)
-    assert result.returncode == 3
-    assert message in result.stderr
+    result = call_program("report", "study.json", cwd=tmp_path)
+    assert result.code == 3
+    assert message in result.err
     assert listing(tmp_path) <= {"study.json"}
 
 
@@ -742,57 +647,57 @@ def test_report_refuses_what_is_no_study(tmp_path, content, message):
 
 
 def test_standards_lists_ids_and_titles(tmp_path):
-    result = run("standards", "list", cwd=tmp_path)
-    assert result.returncode == 0
-    assert re.search(rf"(?m)^{PROFILE} +\S", result.stdout)
+    result = call_program("standards", "list", cwd=tmp_path)
+    assert result.code == 0
+    assert re.search(rf"(?m)^{PROFILE} +\S", result.out)
 
 
 def test_standards_shows_every_value_with_its_status(tmp_path, study):
-    result = run("standards", "show", PROFILE, cwd=tmp_path)
-    assert result.returncode == 0
-    assert study["profile"]["sha256"] in result.stdout
+    result = call_program("standards", "show", PROFILE, cwd=tmp_path)
+    assert result.code == 0
+    assert study["profile"]["sha256"] in result.out
     own = [v for v in study["profile"]["values"] if not v["id"].startswith("floor.")]
     assert len(own) < len(study["profile"]["values"])
     for value in own:
         line = f"{value['id']} = {round(value['value'], 5):g} {value['unit']}"
-        assert f"{line}  [{value['status']}]" in result.stdout
+        assert f"{line}  [{value['status']}]" in result.out
 
 
 def test_standards_validates_a_folder(tmp_path):
     own = tmp_path / "mine"
     shutil.copytree(find_resource("standards") / PROFILE, own)
-    result = run("standards", "validate", "mine", cwd=tmp_path)
-    assert result.returncode == 0
-    assert result.stdout.startswith(f"{PROFILE}: version 3, 25 values, 2 tables")
+    result = start_program("standards", "validate", "mine", cwd=tmp_path)
+    assert result.code == 0
+    assert result.out.startswith(f"{PROFILE}: version 3, 25 values, 2 tables")
     factors = own / "factors.toml"
     text = factors.read_text(encoding="utf-8").replace("value = 1.35", "value = -1.35")
     factors.write_text(text + "colour = 1\n", encoding="utf-8")
-    refused = run("standards", "validate", "mine", cwd=tmp_path)
-    assert refused.returncode == 3
-    assert "-1.35" in refused.stderr
-    assert "colour" in refused.stderr
+    refused = call_program("standards", "validate", "mine", cwd=tmp_path)
+    assert refused.code == 3
+    assert "-1.35" in refused.err
+    assert "colour" in refused.err
 
 
 def test_standards_copy_starts_a_profile_of_ones_own(tmp_path):
-    result = run("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
-    assert result.returncode == 0, result.stderr
-    assert result.stdout.startswith("my-annex: version 2, ")
+    result = call_program("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
+    assert result.code == 0, result.err
+    assert result.out.startswith("my-annex: version 2, ")
     source = find_resource("standards") / "eurocode"
     assert listing(tmp_path / "my-annex") == listing(source)
-    again = run("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
-    assert again.returncode == 2
-    assert "exists already" in again.stderr
-    wrong = run("standards", "copy", "eurocode", "my annex", cwd=tmp_path)
-    assert wrong.returncode == 2
-    assert "becomes the profile's id" in wrong.stderr
+    again = call_program("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
+    assert again.code == 2
+    assert "exists already" in again.err
+    wrong = call_program("standards", "copy", "eurocode", "my annex", cwd=tmp_path)
+    assert wrong.code == 2
+    assert "becomes the profile's id" in wrong.err
     assert not (tmp_path / "my annex").exists()
 
 
 @pytest.mark.parametrize("command", ["show", "validate"])
 def test_standards_refuses_the_unknown(tmp_path, command):
-    result = run("standards", command, "nothing-like-it", cwd=tmp_path)
-    assert result.returncode == 3
-    assert PROFILE in result.stderr
+    result = call_program("standards", command, "nothing-like-it", cwd=tmp_path)
+    assert result.code == 3
+    assert PROFILE in result.err
 
 
 # --- solve -------------------------------------------------------------------------
@@ -817,9 +722,9 @@ SOLUTION_KEYS = {
 
 def test_solve_prints_the_solution_of_the_interface(tmp_path):
     (tmp_path / "scene.toml").write_text(SCENE)
-    result = run("solve", "scene.toml", "--json", cwd=tmp_path)
-    assert result.returncode == 0, result.stderr
-    document = json.loads(result.stdout)
+    result = start_program("solve", "scene.toml", "--json", cwd=tmp_path)
+    assert result.code == 0, result.err
+    document = json.loads(result.out)
     assert set(document) == SOLUTION_KEYS
     assert document["schema"] == "netdesign.solution/1"
     assert document["outcome"] == "converged"
@@ -831,19 +736,19 @@ def test_solve_prints_the_solution_of_the_interface(tmp_path):
 
 def test_solve_shows_both_ends_in_words(tmp_path):
     (tmp_path / "scene.toml").write_text(SCENE)
-    result = run("solve", "scene.toml", cwd=tmp_path)
-    assert result.returncode == 0, result.stderr
-    assert re.search(r"(?m)^Foot +[0-9.]+ kN/m", result.stdout)
-    assert re.search(r"(?m)^Head +[0-9.]+ kN/m", result.stdout)
+    result = call_program("solve", "scene.toml", cwd=tmp_path)
+    assert result.code == 0, result.err
+    assert re.search(r"(?m)^Foot +[0-9.]+ kN/m", result.out)
+    assert re.search(r"(?m)^Head +[0-9.]+ kN/m", result.out)
 
 
 def test_solve_without_a_solution_ends_with_4(tmp_path):
     """A net with half its length to spare lets the snow bulge too far."""
     scene = SCENE.replace("slack = 0.05", "slack = 0.5\ninclination_deg = 20")
     (tmp_path / "scene.toml").write_text(scene)
-    result = run("solve", "scene.toml", "--json", cwd=tmp_path)
-    assert result.returncode == 4
-    document = json.loads(result.stdout)
+    result = call_program("solve", "scene.toml", "--json", cwd=tmp_path)
+    assert result.code == 4
+    document = json.loads(result.out)
     assert document["outcome"] == "out_of_validity"
     assert "touch the ground" in document["reason"]
     assert "anchor_forces" not in document
@@ -852,28 +757,28 @@ def test_solve_without_a_solution_ends_with_4(tmp_path):
 def test_solve_tells_every_fault_and_ends_with_3(tmp_path):
     scene = SCENE.replace("38", "95").replace("300", "917").replace("[net]", "[nets]")
     (tmp_path / "scene.toml").write_text(scene)
-    result = run("solve", "scene.toml", "--json", cwd=tmp_path)
-    assert result.returncode == 3
+    result = call_program("solve", "scene.toml", "--json", cwd=tmp_path)
+    assert result.code == 3
     for key in ("slope.angle_deg = 95", "snow.density_kg_m3 = 917", "net", "nets"):
-        assert f"scene.toml: {key}" in result.stderr
-    assert result.stdout == ""
+        assert f"scene.toml: {key}" in result.err
+    assert result.out == ""
 
 
 # --- the rest ----------------------------------------------------------------------
 
 
 def test_version_and_help_end_with_0(tmp_path):
-    version = run("--version", cwd=tmp_path)
-    assert version.returncode == 0
-    assert __version__ in version.stdout
+    version = call_program("--version", cwd=tmp_path)
+    assert version.code == 0
+    assert __version__ in version.out
     for command in ([], ["check"], ["solve"], ["standards", "show"]):
-        result = run(*command, "-h", cwd=tmp_path)
-        assert result.returncode == 0
-        assert result.stdout.startswith(f"Usage: {' '.join(['netdesign', *command])}")
+        result = call_program(*command, "-h", cwd=tmp_path)
+        assert result.code == 0
+        assert result.out.startswith(f"Usage: {' '.join(['netdesign', *command])}")
 
 
 def test_help_tells_the_exit_codes(tmp_path):
-    text = " ".join(run("--help", cwd=tmp_path).stdout.split())
+    text = " ".join(call_program("--help", cwd=tmp_path).out.split())
     for code in ("0 pass", "1 fail", "2 usage", "3 input refused", "4 not proven"):
         assert code in text
     for verdict, code in EXIT_CODES.items():

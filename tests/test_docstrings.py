@@ -6,13 +6,11 @@ import inspect
 import re
 import tomllib
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-import netdesign
+from tests.sources import PACKAGE, parse_package
 
-PACKAGE = Path(netdesign.__file__).parent
 ROOT = PACKAGE.parent
 PHYSICS = (
     *("numerics", "snow", "cable", "structure", "coupling", "checks"),
@@ -28,14 +26,7 @@ ANY_QUANTITY = {("judge", "low, high")}
 Documented = ast.Module | ast.ClassDef | ast.FunctionDef
 
 
-def read(path: Path) -> ast.Module:
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
-MODULES = {
-    path.relative_to(PACKAGE).as_posix(): read(path)
-    for path in sorted(PACKAGE.rglob("*.py"))
-}
+MODULES = parse_package()
 
 
 def public(node: Documented, name: str = "") -> Iterator[tuple[str, Documented]]:

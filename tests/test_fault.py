@@ -4,22 +4,20 @@ import ast
 import pickle
 import re
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import netdesign
 from netdesign.errors import ModelError, NetDesignError, SolveError, StandardError
 from netdesign.fault import Fault, catch_fault
 from netdesign.outcome import Outcome
 from netdesign.snow import mesh
 from netdesign.solving.workers import Job, solve_job
 from tests.solving.small_scene import COARSE
+from tests.sources import PACKAGE, walk_package
 
-PACKAGE = Path(netdesign.__file__).parent
 BUGS = (
     *(ValueError, TypeError, IndexError, KeyError, AssertionError, AttributeError),
     *(ZeroDivisionError, FloatingPointError, OverflowError, RecursionError),
@@ -130,13 +128,11 @@ CATCH_ALL = {
 
 
 def list_catch_alls():
-    for path in sorted(PACKAGE.rglob("*.py")):
-        tree = ast.parse(path.read_text())
-        for function in ast.walk(tree):
-            if isinstance(function, ast.FunctionDef):
-                for node in ast.walk(function):
-                    if isinstance(node, ast.ExceptHandler) and is_broad(node.type):
-                        yield path.relative_to(PACKAGE).as_posix(), function.name
+    for module, function in walk_package():
+        if isinstance(function, ast.FunctionDef):
+            for node in ast.walk(function):
+                if isinstance(node, ast.ExceptHandler) and is_broad(node.type):
+                    yield module, function.name
 
 
 def is_broad(kind):

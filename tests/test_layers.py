@@ -9,13 +9,13 @@ import re
 import sys
 from dataclasses import dataclass
 from fnmatch import fnmatch
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 import netdesign
-
-PACKAGE = Path(netdesign.__file__).parent
+from tests.sources import PACKAGE, walk_package
 
 # Rooms, from the ground up. A room is a package, or the modules beside them. Each row
 # sees what stands below it; rooms on one row do not see each other.
@@ -151,6 +151,7 @@ class Import:
     is_immediate: bool
 
 
+@cache
 def find_imports(source: str, module: str) -> list[Import]:
     """All imports of a module's text."""
     found: list[Import] = []
@@ -282,10 +283,7 @@ def test_the_page_of_the_architecture_names_every_room():
 def test_the_page_of_the_architecture_names_what_exists():
     page = (PACKAGE / "ARCHITECTURE.md").read_text(encoding="utf-8")
     classes = {
-        node.name
-        for path in MODULES.values()
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.ClassDef)
+        node.name for _, node in walk_package() if isinstance(node, ast.ClassDef)
     }
     values = set(re.findall(r"`([A-Z][a-z]\w+)`", page))
     files = set(re.findall(r"`(\w+(?:/\w+)+(?:\.py)?)`", page))

@@ -12,7 +12,6 @@ from types import SimpleNamespace
 
 import pytest
 
-import netdesign
 from netdesign.edge import locks
 from netdesign.edge.locks import LOCK_FILE
 from netdesign.edge.output import require_free, write_files
@@ -20,9 +19,9 @@ from netdesign.edge.streams import _spell_sign
 from netdesign.errors import OutputError, SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, load_texts
-from tests.test_cli import write_site
+from tests.sources import parse_package
+from tests.tiny_site import write_site
 
-PACKAGE = Path(netdesign.__file__).parent
 POSIX = {
     *("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "posix"),
     *("syslog", "readline", "curses"),
@@ -45,8 +44,7 @@ def list_imports(tree):
 
 def test_no_module_needs_what_only_posix_has():
     found = {}
-    for path in sorted(PACKAGE.rglob("*.py")):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+    for module, tree in parse_package().items():
         names = POSIX.intersection(list_imports(tree))
         names |= {
             node.attr
@@ -54,7 +52,7 @@ def test_no_module_needs_what_only_posix_has():
             if isinstance(node, ast.Attribute) and node.attr in POSIX_NAMES
         }
         if names:
-            found[path.relative_to(PACKAGE).as_posix()] = names
+            found[module] = names
     assert found == TRIED
 
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-import netdesign
 from netdesign.commands.config import _OF_ALL
 from netdesign.words.catalogue import LANGUAGES
+from tests.sources import walk_package
 
 LINE = "2003-01-01,10"
 TOLD = {
@@ -154,8 +154,7 @@ def test_a_variable_of_a_command_without_such_an_option_is_refused(call, monkeyp
 def test_every_variable_of_the_program_is_known():
     texts = {
         node.value
-        for path in Path(netdesign.__file__).parent.rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for _, node in walk_package()
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
     named = {one for one in texts if re.fullmatch(r"NETDESIGN_[A-Z]+", one)}

@@ -132,7 +132,7 @@ def history_faults(a_scene, grid, start, level=0):
 def test_histories_thinned(a_scene, start):
     grid = list_scenes(FRICTIONS)
     rng = np.random.default_rng(5)
-    chosen = [grid[place] for place in rng.choice(len(grid), 16, replace=False)]
+    chosen = [grid[place] for place in rng.choice(len(grid), 8, replace=False)]
     assert history_faults(a_scene, chosen, start) == {}
 
 

@@ -10,7 +10,8 @@ import pytest
 from netdesign import cli
 from netdesign.edge.output import require_free, write_files
 from netdesign.errors import OutputError
-from tests.test_cli import SCENE, write_site
+from tests.small_scene import SMALL_SCENE
+from tests.tiny_site import write_site
 
 
 def listing(folder):
@@ -189,7 +190,7 @@ def test_no_option_is_advised_that_a_command_lacks(name, call, tmp_path):
     for file in TAKEN:
         (place / file).write_bytes(b"kept")
     write_site(place / "site.xlsx")
-    (place / "scene.toml").write_text(SCENE)
+    (place / "scene.toml").write_text(SMALL_SCENE)
     ended = call(*WRITING[name].format(place, place).split())
     assert ended.code == 2, ended.err
     assert "exists already" in ended.err

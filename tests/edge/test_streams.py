@@ -12,7 +12,8 @@ import pytest
 
 from netdesign.edge.streams import _SPELLED, _Lasting, guard_streams
 from netdesign.words.catalogue import LANGUAGES, load_texts
-from tests.test_cli import QUICK, run, write_site
+from tests.program import QUICK, start_program
+from tests.tiny_site import write_site
 
 CODE_PAGES = ("cp437", "cp850", "ascii", "latin-1", "cp1252", "cp932")
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="POSIX pipes and devices")
@@ -51,16 +52,16 @@ def close_reader():
 def test_a_reader_who_stops_leaves_the_verdict(sites, tmp_path, code, json_option):
     writing = close_reader()
     try:
-        result = run(
+        result = start_program(
             *("check", sites / f"{code}.xlsx", *QUICK, "--out", "o", *json_option),
             cwd=tmp_path,
             stdout=writing,
         )
     finally:
         os.close(writing)
-    assert result.returncode == code, result.stderr
-    assert "Traceback" not in result.stderr
-    assert "BrokenPipe" not in result.stderr
+    assert result.code == code, result.err
+    assert "Traceback" not in result.err
+    assert "BrokenPipe" not in result.err
     assert (tmp_path / "o" / "report.html").stat().st_size > 0
 
 
@@ -71,9 +72,9 @@ def test_a_reader_who_stops_leaves_the_verdict(sites, tmp_path, code, json_optio
 )
 def test_a_full_disk_behind_standard_output_is_the_user_s(tmp_path, arguments):
     with FULL.open("w") as full:
-        result = run(*arguments, cwd=tmp_path, stdout=full)
-    assert result.returncode == 2
-    assert result.stderr == (
+        result = start_program(*arguments, cwd=tmp_path, stdout=full)
+    assert result.code == 2
+    assert result.err == (
         "error: standard output cannot be written to: No space left on device\n"
     )
 
@@ -81,10 +82,10 @@ def test_a_full_disk_behind_standard_output_is_the_user_s(tmp_path, arguments):
 @pytest.mark.skipif(not FULL.exists(), reason="no device that is always full")
 def test_so_is_one_behind_a_verdict_whose_files_are_written(sites, tmp_path):
     with FULL.open("w") as full:
-        result = run(
+        result = start_program(
             "check", sites / "1.xlsx", *QUICK, "--out", "o", cwd=tmp_path, stdout=full
         )
-    assert result.returncode == 2
+    assert result.code == 2
     study = json.loads((tmp_path / "o" / "study.json").read_text("utf-8"))
     assert study["verdict"] == "fail"
 
@@ -107,7 +108,7 @@ def test_a_standard_error_that_nobody_can_write_to_changes_nothing(sites, tmp_pa
 def test_no_code_page_ends_a_check(sites, tmp_path, encoding, language):
     result = subprocess.run(
         [Path(sys.executable).with_name("netdesign"), "check", sites / "4.xlsx",
-         *QUICK, "--language", language, "--out", "o"],
+         *QUICK, "--language", language, "--out", "o", "--no-html", "--no-excel"],
         cwd=tmp_path, capture_output=True, check=False,
         env={**os.environ, "PYTHONIOENCODING": encoding},
     )  # fmt: skip

@@ -6,7 +6,7 @@ from netdesign.errors import SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.site.replaced import split_replacement, write_replacement
 from tests.short_example import write_short_example
-from tests.test_cli import SHEETS
+from tests.tiny_site import SHEETS
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,6 @@ import json
 import sys
 from dataclasses import replace
 
-import openpyxl
 import pytest
 
 from netdesign import cli
@@ -15,7 +14,7 @@ from netdesign.outcome import Outcome
 from netdesign.study import cases as site_cases
 from netdesign.words.message import say
 from tests.short_example import write_short_example
-from tests.test_cli import SHEETS
+from tests.tiny_site import write_site
 
 MEMBERS = ["Foot anchor", "Uphill guy", "Post"]  # the downhill guy is slack
 ALLOWED = 0.05  # over the steady state on sliding ground (FACTS.md, section 12)
@@ -23,15 +22,7 @@ ALLOWED = 0.05  # over the steady state on sliding ground (FACTS.md, section 12)
 
 @pytest.fixture
 def site_file(tmp_path):
-    workbook = openpyxl.Workbook()
-    workbook.remove(workbook.active)
-    for name, lines in SHEETS.items():
-        sheet = workbook.create_sheet(name)
-        for line in lines:
-            sheet.append(line)
-    path = tmp_path / "site.xlsx"
-    workbook.save(path)
-    return path
+    return write_site(tmp_path / "site.xlsx")
 
 
 def check(monkeypatch, capsys, site_file, *options):

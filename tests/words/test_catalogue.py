@@ -3,16 +3,14 @@
 import ast
 import pickle
 import re
-from pathlib import Path
 
 import pytest
 
-import netdesign
 from netdesign.edge.given_files import find_resource
 from netdesign.words.catalogue import LANGUAGES, _fill, list_gaps, load_texts, render
 from netdesign.words.message import say
+from tests.sources import PACKAGE, walk_package
 
-PACKAGE = Path(netdesign.__file__).parent
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
 FAMILIES: tuple[str, ...] = (
@@ -75,16 +73,15 @@ def list_calls():
 
     The reports ask ``words("key", name=...)``, or ``book.words(...)``.
     """
-    for path in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if not isinstance(node, ast.Call) or len(node.args) != 1:
-                continue
-            called = getattr(node.func, "id", getattr(node.func, "attr", ""))
-            if called in ("say", "words"):
-                (key,) = node.args
-                if isinstance(key, ast.Constant):
-                    names = {one.arg for one in node.keywords}
-                    yield f"{path.name}:{node.lineno}", key.value, names
+    for module, node in walk_package():
+        if not isinstance(node, ast.Call) or len(node.args) != 1:
+            continue
+        called = getattr(node.func, "id", getattr(node.func, "attr", ""))
+        if called in ("say", "words"):
+            (key,) = node.args
+            if isinstance(key, ast.Constant):
+                names = {one.arg for one in node.keywords}
+                yield f"{module}:{node.lineno}", key.value, names
 
 
 def test_every_message_has_a_text_and_all_its_arguments():

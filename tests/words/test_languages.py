@@ -3,18 +3,16 @@
 import ast
 import re
 import string
-from pathlib import Path
 
 import pytest
 
-import netdesign
 from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
 from netdesign.site.columns.fields import normalise
 from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import dump, restore, say
+from tests.sources import walk_package
 from tests.words.english import find_words
 
-PACKAGE = Path(netdesign.__file__).parent
 GUARDS = ("require_positive", "require_count", "require_within", "require_one_of")
 # What a program's own tests of itself say, and the checks of the report's numbers.
 OF_DEVELOPERS = ("evidence", "report", "bench.py")
@@ -46,13 +44,12 @@ def test_no_text_shows_words_of_another_language(language):
 
 def list_raised():
     """Every ``raise SomeError(argument)`` of the program with its first arguments."""
-    for path in sorted(PACKAGE.rglob("*.py")):
-        if set(path.relative_to(PACKAGE).parts) & set(OF_DEVELOPERS):
+    for module, node in walk_package():
+        if set(module.split("/")) & set(OF_DEVELOPERS):
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
-                name = ast.unparse(node.exc.func)
-                yield f"{path.name}:{node.lineno}", name, node.exc.args
+        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+            name = ast.unparse(node.exc.func)
+            yield f"{module}:{node.lineno}", name, node.exc.args
 
 
 # Told to nobody: what code does wrong, or what a caller catches and words itself.
@@ -74,13 +71,12 @@ def test_nothing_is_raised_with_a_text():
 
 def list_guarded():
     """Every name that a guard is called with."""
-    for path in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-            if is_call and node.func.id in (*GUARDS, "require_lengths") and node.args:
-                name = node.args[0]
-                if isinstance(name, ast.Constant):
-                    yield name.value
+    for _, node in walk_package():
+        is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+        if is_call and node.func.id in (*GUARDS, "require_lengths") and node.args:
+            name = node.args[0]
+            if isinstance(name, ast.Constant):
+                yield name.value
 
 
 def test_every_guarded_quantity_has_a_name():

@@ -97,7 +97,9 @@ def test_the_papers_history_takes_few_steps_and_is_smooth(
         assert np.minimum(back, np.abs(change[:-1])).max() < 5e-3
 
 
-@pytest.mark.parametrize("friction_deg", [15.0, 30.0])
+@pytest.mark.parametrize(
+    "friction_deg", [pytest.param(15.0, marks=pytest.mark.slow), 30.0]
+)
 def test_stated_error_holds_on_a_finer_mesh_with_finer_steps(a_scene, friction_deg):
     """Coarse steps on the coarse mesh: the difference shows space and time."""
     scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg)

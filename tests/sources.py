@@ -1,0 +1,25 @@
+"""Modules of the package as syntax trees, parsed once for all tests that read them."""
+
+import ast
+from functools import cache
+from pathlib import Path
+
+import netdesign
+
+PACKAGE = Path(netdesign.__file__).parent
+
+
+@cache
+def parse_package() -> dict[str, ast.Module]:
+    """Trees by the path of their module inside the package."""
+    return {
+        path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text("utf-8"))
+        for path in sorted(PACKAGE.rglob("*.py"))
+    }
+
+
+def walk_package():
+    """Every node of every module, with the path of its module."""
+    for name, tree in parse_package().items():
+        for node in ast.walk(tree):
+            yield name, node
