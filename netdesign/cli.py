@@ -15,19 +15,18 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 from click.core import ParameterSource
 
-from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell
 from netdesign.commands.config import (
+    COMPLETE_VARIABLE,
     ENVIRONMENT_PREFIX,
+    find_command,
     find_idle_variables,
+    find_language,
     require_known_variables,
 )
-from netdesign.commands.faults import tell_faults
-from netdesign.commands.help import ToldContext
-from netdesign.commands.language import find_command, find_language, tell
 from netdesign.commands.options import language_option
-from netdesign.commands.running import EXIT_CODES, own_command
-from netdesign.commands.table import CommandTable
-from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal
+from netdesign.commands.running import EXIT_CODES, own_command, tell_faults
+from netdesign.commands.table import CommandTable, ToldContext
+from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal, tell
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import guard_streams
@@ -47,12 +46,20 @@ if TYPE_CHECKING:
 _OBJECTS = 100_000
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
 
-_NAMES = (
-    *("bench", "check", "completion", "diff", "doctor", "envelope", "glide", "init"),
-    *("paper", "report", "snowpack", "solve", "standards", "validate", "verify"),
-    "winter",
+_OWN_MODULES = (
+    *("bench", "check", "completion", "doctor", "envelope", "paper", "report"),
+    *("solve", "standards", "validate", "verify", "winter"),
 )
-_COMMANDS = CommandTable({**{name: name for name in _NAMES}, "map": "map_headings"})
+_COMMANDS = CommandTable(
+    {
+        **{name: f"{name}.{name}" for name in _OWN_MODULES},
+        "diff": "report.diff",
+        "glide": "snow.glide",
+        "init": "site_input.init",
+        "map": "site_input.map_headings",
+        "snowpack": "snow.snowpack",
+    }
+)
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 5 internal error, 6 declared (nothing fails, but some checks rest on a declaration), \
@@ -126,6 +133,8 @@ def _run() -> NoReturn:
     gc.set_threshold(_OBJECTS)
     logging.getLogger("netdesign").handlers[:] = [_LogTeller()]
     if instruction := os.environ.get(COMPLETE_VARIABLE):
+        from netdesign.commands.completion import answer_shell
+
         sys.exit(answer_shell(cli, instruction))
     _unset_empty("SOURCE_DATE_EPOCH")
     # nobody's plugin of pydantic belongs in a check; it would look for one for long

@@ -314,7 +314,7 @@ def test_no_module_imports_by_name_at_run_time():
             module == "commands.table"
         ):  # a command of its own room, when it is asked for
             text = text.replace("from importlib import import_module", "")
-            text = text.replace('import_module(f"netdesign.commands.{name}")', "")
+            text = text.replace('import_module(f"netdesign.commands.{module}")', "")
         assert "import_module" not in text, module
         assert "__import__" not in text, module
 

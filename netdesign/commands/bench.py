@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.idle import refuse_without
 from netdesign.commands.options import (
     accuracy_option,
     jobs_option,
     json_option,
     language_option,
+    refuse_without,
 )
 from netdesign.commands.usage import UsageRefusal
 from netdesign.words.catalogue import Language
@@ -289,7 +289,7 @@ def _run_named(
     quick: bool,
     force: bool,
 ) -> None:
-    from netdesign.commands.language import tell
+    from netdesign.commands.usage import tell
     from netdesign.edge.output import require_free, write_files
     from netdesign.evidence.benchmark.precision import print_bench, write_bench
 

@@ -7,34 +7,36 @@ import sys
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from netdesign.commands.check_outputs import plan_outputs
 from netdesign.commands.config import ConfiguredCommand
-from netdesign.commands.dry_run import announce
-from netdesign.commands.idle import refuse_delimiter, refuse_jobs
-from netdesign.commands.language import tell
 from netdesign.commands.options import (
     accuracy_option,
+    choice,
+    example_option,
+    flag,
     force_option,
     json_option,
     out_option,
     quiet_option,
+    refuse_delimiter,
+    refuse_jobs,
+    report_options,
+    site_options,
+    solving_options,
+    what_if_options,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
-from netdesign.commands.report_options import report_options
 from netdesign.commands.running import own_command, tell_time
 from netdesign.commands.site_input import (
+    READING,
     open_site,
     require_effect,
-    site_options,
     temporary_example,
 )
-from netdesign.commands.sizing import require_one, what_if_options
-from netdesign.commands.solving import solving_options
-from netdesign.commands.usage import UsageRefusal
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.errors import StandardError
 from netdesign.words.message import say
 
@@ -43,7 +45,6 @@ if TYPE_CHECKING:
 
     from netdesign.checks import Standard
     from netdesign.checks.schema import Floor
-    from netdesign.report.view.whole import Detail
     from netdesign.site.model import Site
     from netdesign.words.catalogue import Language
 
@@ -52,7 +53,7 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
-@click.option("--example", is_flag=True, help="Use the built-in example site.")
+@example_option("Use the built-in example site.")
 @site_options
 @click.option(
     "--standard",
@@ -62,12 +63,10 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
     help=f"Limit profile, or a folder with one; repeatable [{DEFAULT_STANDARD}].",
 )
 @accuracy_option("Relative error allowed in every end force of the net.", default=0.01)
-@click.option(
+@choice(
     "--method",
-    type=click.Choice(["steady", "transient"]),
-    default="steady",
-    show_default=True,
-    help="Steady states; transient confirms governing cases by their histories.",
+    ("steady", "transient"),
+    "Steady states; transient confirms governing cases by their histories.",
 )
 @click.option(
     "--floor",
@@ -78,40 +77,12 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
 @solving_options
 @out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
 @report_options
-@click.option("--explain", is_flag=True, help="Print what would flip each check.")
+@flag("--explain", help="Print what would flip each check.")
 @json_option("study")
-@click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
+@flag("--dry-run", help="Read and count only; write nothing.")
 @force_option
 @quiet_option
-def check(
-    site_file: Path | None,
-    *,
-    example: bool,
-    standards: tuple[str, ...],
-    accuracy: float,
-    method: Literal["steady", "transient"],
-    floor: Floor | None,
-    size: bool,
-    instead: dict[str, str],
-    jobs: int | None,
-    executor: str,
-    cache: bool,
-    out: Path | None,
-    language: Language,
-    detail: Detail,
-    html: bool,
-    excel: bool,
-    csv: bool,
-    pdf: bool,
-    docx: bool,
-    template: Path | None,
-    explain: bool,
-    as_json: bool,
-    dry_run: bool,
-    force: bool,
-    quiet: bool,
-    **reading: Any,
-) -> None:
+def check(site_file: Path | None, **asked: Any) -> None:
     """Check every anchor of a site and write the reports.
 
     \b
@@ -128,71 +99,78 @@ def check(
     may stand in netdesign.toml beside it, or in variables such as
     NETDESIGN_CHECK_JOBS.
     """
-    if example == (site_file is not None):
-        raise UsageRefusal(say("usage.site_or_example"))
-    refuse_delimiter(site_file, language=language)
-    refuse_jobs(executor, language)
-    folder = out or (None if as_json else Path(DEFAULT_FOLDER))
-    require_one(instead, size=size, has_folder=folder is not None, dry_run=dry_run)
-    reading |= {"overwrite": force, "language": language}
-    site = _read_site(site_file, instead, **reading)
+    folder = asked["out"] or (None if asked["as_json"] else Path(DEFAULT_FOLDER))
+    _refuse_contradictions(site_file, folder, asked)
+    site = _read_site(site_file, asked)
 
     # behind the reading: a faulty workbook is refused without a solver
-    from netdesign.commands.check_steps import CheckTask, carry_out
+    from netdesign.commands.check_run import Check, carry_out, plan_outputs
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
-    profiles = _choose_profiles(standards, site, floor)
-    _tell_other_profile(standards, site, language)
+    language: Language = asked["language"]
+    profiles = _choose_profiles(asked["standards"], site, asked["floor"])
+    _tell_other_profile(asked["standards"], site, language)
     run = CheckRun(
-        settings=SolverSettings(accuracy=accuracy),
-        method=method,
-        jobs=jobs or os.cpu_count() or 1,
+        settings=SolverSettings(accuracy=asked["accuracy"]),
+        method=asked["method"],
+        jobs=asked["jobs"] or os.cpu_count() or 1,
         command=own_command(),
         started=tell_time(),
     )
-    if dry_run:
-        count = len(profiles)
-        sys.exit(announce(site, run, count, as_json=as_json, language=language))
-    if not quiet:
+    if asked["dry_run"]:
+        from netdesign.commands.dry_run import announce
+
+        as_json = asked["as_json"]
+        sys.exit(announce(site, run, len(profiles), as_json=as_json, language=language))
+    if not asked["quiet"]:
         for question in site.questions:
             tell(say("cli.question", text=question), language, err=True)
-    outputs = plan_outputs(
-        folder,
-        [profile.id for profile in profiles],
-        {"html": html, "excel": excel, "csv": csv, "pdf": pdf, "docx": docx},
-        {"language": language, "detail": detail, "template": template},
-        size=size,
-        is_what_if=instead,
-        overwrite=force,
-    )
-    read = partial(_read_site, site_file, **reading | {"annotate": None})
-    task = CheckTask(
-        site=site,
-        profiles=profiles,
-        run=run,
-        executor=executor,
-        outputs=outputs,
-        read_instead=read if size else None,
-        cache=cache,
-        explain=explain,
-        as_json=as_json,
-        quiet=quiet,
-    )
-    sys.exit(carry_out(task, str(site_file or "--example"), overwrite=force))
+    outputs = plan_outputs(folder, [profile.id for profile in profiles], asked)
+    bare = asked | {"annotate": None}
+    again = partial(_read_replaced, site_file, bare) if asked["size"] else None
+    task = Check(site, profiles, run, outputs, again, asked)
+    sys.exit(carry_out(task, str(site_file or "--example")))
 
 
-def _read_site(
-    site_file: Path | None, instead: Mapping[str, str], **reading: Any
-) -> Site:
+def _refuse_contradictions(
+    site_file: Path | None, folder: Path | None, asked: Mapping[str, Any]
+) -> None:
+    """Refuse options that contradict each other, or have no effect.
+
+    Raises
+    ------
+    UsageRefusal
+        Of ``--size``, beside cells that are given, or where no study can be written.
+    """
+    if asked["example"] == (site_file is not None):
+        raise UsageRefusal(say("usage.site_or_example"))
+    refuse_delimiter(site_file, language=asked["language"])
+    refuse_jobs(asked["executor"], asked["language"])
+    if asked["size"] and asked["instead"]:
+        raise UsageRefusal(say("what_if.size_or_what_if"))
+    if asked["size"] and (asked["dry_run"] or folder is None):
+        raise UsageRefusal(say("what_if.size_needs_files"))
+
+
+def _read_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
     """Site from a file; the example goes through a real workbook too."""
     if site_file is None:
         with temporary_example() as path:
-            return _read_site(path, instead, **reading)
+            return _read_site(path, asked)
+    reading = {one: asked[one] for one in READING} | {"overwrite": asked["force"]}
+    instead = asked["instead"]
     site = open_site(site_file, instead=instead, **reading)
     bare = reading | {"annotate": None}
     require_effect(instead, lambda cells: open_site(site_file, instead=cells, **bare))
     return site
+
+
+def _read_replaced(
+    site_file: Path | None, asked: Mapping[str, Any], instead: Mapping[str, str]
+) -> Site:
+    """Site with other texts in some cells."""
+    return _read_site(site_file, {**asked, "instead": instead})
 
 
 def _choose_profiles(

@@ -2,20 +2,75 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import os
+from typing import ClassVar
 
 import click
+from click.shell_completion import (
+    CompletionItem,
+    ShellComplete,
+    add_completion_class,
+    get_completion_class,
+    shell_complete,
+)
 
+from netdesign.commands.config import COMPLETE_VARIABLE, find_language
 from netdesign.commands.help_texts import load_help
-from netdesign.commands.language import find_language
 from netdesign.commands.options import language_option
 from netdesign.commands.usage import UsageRefusal
 from netdesign.words.message import say
 
-if TYPE_CHECKING:
-    from click.shell_completion import CompletionItem, ShellComplete
+# The words up to the cursor, one a line: a path of Windows may hold any other sign.
+_SCRIPT = """\
+Register-ArgumentCompleter -Native -CommandName %(prog_name)s -ScriptBlock {
+    param($wordToComplete, $commandAst, $cursorPosition)
+    $words = $commandAst.CommandElements |
+        Where-Object { $_.Extent.StartOffset -lt $cursorPosition } |
+        ForEach-Object { $_.ToString() }
+    $env:%(complete_var)s = "powershell_complete"
+    $env:COMP_WORDS = $words -join "`n"
+    $env:COMP_CWORD = $wordToComplete
+    try {
+        %(prog_name)s | Where-Object { $_ } | ForEach-Object {
+            $value, $help = $_ -split "`t", 2
+            if (-not $help) { $help = $value }
+            [System.Management.Automation.CompletionResult]::new(
+                $value, $value, "ParameterValue", $help)
+        }
+    } finally {
+        Remove-Item Env:%(complete_var)s, Env:COMP_WORDS, Env:COMP_CWORD
+    }
+}
+"""
 
-COMPLETE_VARIABLE = "_NETDESIGN_COMPLETE"
+
+class PowerShellComplete(ShellComplete):
+    """Completions by ``Register-ArgumentCompleter``; files are PowerShell's own."""
+
+    name: ClassVar[str] = "powershell"
+    source_template: ClassVar[str] = _SCRIPT
+
+    def get_completion_args(self) -> tuple[list[str], str]:
+        """Words before the one that is completed, and that one."""
+        words = os.environ["COMP_WORDS"].split("\n")[1:]
+        incomplete = os.environ["COMP_CWORD"]
+        if incomplete and words and words[-1] == incomplete:
+            words.pop()
+        return [word.strip("'\"") for word in words], incomplete.strip("'\"")
+
+    def format_completion(self, item: CompletionItem) -> str:
+        """Value and help; nothing for a file, which PowerShell completes itself."""
+        if item.type != "plain":
+            return ""
+        help_line = " ".join((item.help or "").split())
+        return f"{item.value}\t{help_line}"
+
+    def complete(self) -> str:
+        """Lines of all completions, without the empty ones of files."""
+        lines = super().complete().splitlines()
+        return "\n".join(line for line in lines if line)
+
+
 _PROGRAM = "netdesign"
 
 
@@ -32,10 +87,6 @@ def completion(context: click.Context, shell: str) -> None:
     netdesign completion fish > ~/.config/fish/completions/netdesign.fish
     netdesign completion powershell >> $PROFILE             in PowerShell
     """
-    from click.shell_completion import get_completion_class
-
-    _add_powershell()
-
     kind = get_completion_class(shell)
     if kind is None:  # click knows the others
         raise UsageRefusal(say("usage.shell_unknown", shell=shell))
@@ -47,13 +98,6 @@ def completion(context: click.Context, shell: str) -> None:
 
 def answer_shell(command: click.Command, instruction: str) -> int:
     """Answer a shell that asks for completions; the exit code it expects."""
-    from click.shell_completion import (
-        add_completion_class,
-        get_completion_class,
-        shell_complete,
-    )
-
-    _add_powershell()
     shell = instruction.partition("_")[0]
     if kind := get_completion_class(shell):
         add_completion_class(_tell_in_language(kind), shell)
@@ -77,10 +121,4 @@ def _tell_in_language(kind: type[ShellComplete]) -> type[ShellComplete]:
     return Told
 
 
-def _add_powershell() -> None:
-    """Make PowerShell known to click."""
-    from click.shell_completion import add_completion_class
-
-    from netdesign.commands.powershell import PowerShellComplete
-
-    add_completion_class(PowerShellComplete, "powershell")
+add_completion_class(PowerShellComplete, "powershell")

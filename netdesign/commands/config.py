@@ -13,6 +13,9 @@ An environment variable is named after the command and the option as it is typed
 ``NETDESIGN_CHECK_STANDARD``. One that begins so and names no option is refused, as a
 key of the file is: a profile that was meant must not end as the default. The language
 alone has a variable for all commands, too: ``NETDESIGN_LANGUAGE``.
+
+A command speaks the language that is found by the same order, also where its line
+cannot be parsed. Of the variables, that of one command stands above that of all.
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ from __future__ import annotations
 import difflib
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -29,10 +33,12 @@ from netdesign.commands.usage import UsageRefusal, ValueRefusal, explain_usage
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import is_there, list_faults, read_toml
 from netdesign.errors import ContentError
+from netdesign.words.catalogue import LANGUAGES, Language
 from netdesign.words.message import Message, say
 
 CONFIG_NAME = "netdesign.toml"
 ENVIRONMENT_PREFIX = "NETDESIGN"
+COMPLETE_VARIABLE = "_NETDESIGN_COMPLETE"
 LANGUAGE_VARIABLE = "NETDESIGN_LANGUAGE"
 _START = f"{ENVIRONMENT_PREFIX}_"
 # Variables of no single command.
@@ -283,3 +289,45 @@ def _suggest(place: str, word: str, known: list[str]) -> Message:
     if not near:
         return say("config.unknown", place=place)
     return say("config.unknown_near", place=place, near=near[0])
+
+
+_OPTION = "--language"
+
+
+def find_language(group: click.Group, words: Sequence[str]) -> Language:
+    """Language of a command line; what is no language is refused elsewhere."""
+    path, command = find_command(group, words)
+    variables = (_name_language_variable(path), LANGUAGE_VARIABLE)
+    told = next(filter(None, map(os.environ.get, variables)), None)
+    found = _find_option(words) or told
+    if not found and command is not None:
+        found = read_default(group, command, list(words[len(path) :]), "language")
+    return next((one for one in LANGUAGES if one == found), LANGUAGES[0])
+
+
+def find_command(
+    group: click.Group, words: Sequence[str]
+) -> tuple[tuple[str, ...], click.Command | None]:
+    """Names of the command, as far as they are known, and the command."""
+    path: list[str] = []
+    command: click.Command = group
+    for word in words:
+        if not isinstance(command, click.Group) or word not in command.commands:
+            break
+        path.append(word)
+        command = command.commands[word]
+    return tuple(path), None if command is group else command
+
+
+def _find_option(words: Sequence[str]) -> str | None:
+    """Value of the last ``--language``, as click takes it."""
+    found = None
+    for word, following in zip_longest(words, words[1:]):
+        name, mark, value = word.partition("=")
+        if name == _OPTION:
+            found = value if mark else following
+    return found
+
+
+def _name_language_variable(path: Sequence[str]) -> str:
+    return "_".join((ENVIRONMENT_PREFIX, *path, "LANGUAGE")).upper().replace("-", "_")

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from netdesign.commands.faults import tell_faults
-from netdesign.commands.language import tell
+from netdesign.commands.running import tell_faults
+from netdesign.commands.usage import tell
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 

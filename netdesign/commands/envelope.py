@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import sys
 import time
 from pathlib import Path
@@ -12,20 +11,22 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.faults import tell_faults
-from netdesign.commands.idle import refuse_jobs
-from netdesign.commands.language import tell
 from netdesign.commands.options import (
+    RANGE,
+    GivenRange,
     accuracy_option,
+    choice,
     force_option,
+    join,
     json_option,
     language_option,
     out_option,
     quiet_option,
+    refuse_jobs,
+    solving_options,
 )
-from netdesign.commands.ranges import RANGE, GivenRange
-from netdesign.commands.solving import open_phases, solving_options
-from netdesign.commands.usage import UsageRefusal
+from netdesign.commands.running import open_phases, tell_faults
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
     from netdesign.solving.solve import Settings
     from netdesign.study.envelope_records import EnvelopeRecord
 
-_OPTIONS = (
+_RANGES = (
     ("--density", "density", "Snow density [kg/m3]."),
     ("--friction", "friction_angle", "Friction angle of snow on net [degrees]."),
     ("--inclination", "inclination", "Net inclination [degrees]."),
@@ -58,26 +59,18 @@ _USUAL_CASES = 18  # of a search, for each range
 DOCUMENT, FIGURES = "envelope.json", ("maps.svg", "lines.svg", "drivers.svg")
 
 
-def _range_options(command: Any) -> Any:
-    for flag, name, text in reversed(_OPTIONS):
-        command = click.option(flag, name, type=RANGE, help=text)(command)
-    return command
-
-
 @click.command()
 @click.argument("scene_file", type=click.Path(path_type=Path))
-@_range_options
+@join(*(click.option(name, key, type=RANGE, help=text) for name, key, text in _RANGES))
 @accuracy_option(
     "Relative error allowed in every force, and most that may hide above it.",
     default=0.005,
     least=1e-3,
 )
-@click.option(
+@choice(
     "--confirm",
-    type=click.Choice(["mesh", "transient", "none"]),
-    default="mesh",
-    show_default=True,
-    help="How the governing cases are solved again.",
+    ("mesh", "transient", "none"),
+    "How the governing cases are solved again.",
 )
 @solving_options
 @out_option("Folder.")
@@ -85,21 +78,7 @@ def _range_options(command: Any) -> Any:
 @language_option()
 @force_option
 @quiet_option
-def envelope(
-    scene_file: Path,
-    *,
-    accuracy: float,
-    confirm: Literal["mesh", "transient", "none"],
-    jobs: int | None,
-    executor: str,
-    cache: bool,
-    out: Path | None,
-    as_json: bool,
-    language: Language,
-    force: bool,
-    quiet: bool,
-    **ranges: GivenRange | None,
-) -> None:
+def envelope(scene_file: Path, **asked: Any) -> None:
     """Find the largest forces of a scene over ranges, with what may still hide.
 
     \b
@@ -111,28 +90,21 @@ def envelope(
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene_file
 
-    refuse_jobs(executor, language)
-    given = {name: one for name, one in ranges.items() if one is not None}
+    language, out, confirm = asked["language"], asked["out"], asked["confirm"]
+    refuse_jobs(asked["executor"], language)
+    given = {key: asked[key] for _, key, _ in _RANGES if asked[key] is not None}
     counted = _require_usable(given)
     read = read_scene_file(scene_file, "steady")
-    scene = read.scene
     spans = _build_ranges(given)
-    require_valid(scene, spans)
+    require_valid(read.scene, spans)
     paths = [out / name for name in (DOCUMENT, *FIGURES)] if out else []
-    require_free(paths, overwrite=force)
-    if read.support is not None and not quiet:
+    require_free(paths, overwrite=asked["force"])
+    if read.support is not None and not asked["quiet"]:
         tell(say("envelope.no_support"), language, err=True)
     start = time.perf_counter()
-    with open_phases(
-        _list_phases(given, confirm),
-        processes=jobs or os.cpu_count() or 1,
-        executor=executor,
-        cache=cache,
-        quiet=quiet,
-        language=language,
-    ) as (runner, progress):
+    with open_phases(_list_phases(given, confirm), asked) as (runner, progress):
         confirming = _read_confirming(scene_file, confirm)
-        task = _build_task(scene, confirming, spans, accuracy)
+        task = _build_task(read.scene, confirming, spans, asked["accuracy"])
         record: EnvelopeRecord | None = None
         if counted:
             counts = {name: one.count for name, one in given.items()}
@@ -141,8 +113,8 @@ def envelope(
             document, record = _search(task, runner, progress, start, language)
         progress.enter("outputs")
     failed = tell_faults(runner.faults, language)
-    text = _write(document, record, paths, overwrite=force, language=language)
-    if as_json:
+    text = _write(document, record, paths, overwrite=asked["force"], language=language)
+    if asked["as_json"]:
         click.echo(text)
     else:
         _show(document, language)
@@ -154,7 +126,7 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
     from netdesign.envelope.ranges import MOST_GRID_CASES
 
     if not given:
-        flags = tuple(flag for flag, _, _ in _OPTIONS)
+        flags = tuple(flag for flag, _, _ in _RANGES)
         raise UsageRefusal(say("usage.no_range", flags=flags))
     if len(given) > _MOST_RANGES:
         raise UsageRefusal(

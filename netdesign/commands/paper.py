@@ -7,7 +7,6 @@ from pathlib import Path
 
 import click
 
-from netdesign.commands.language import tell
 from netdesign.commands.options import (
     force_option,
     jobs_option,
@@ -15,6 +14,7 @@ from netdesign.commands.options import (
     out_option,
     quiet_option,
 )
+from netdesign.commands.usage import tell
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 

@@ -1,24 +1,86 @@
-"""Reports of a stored study, without solving."""
+"""``netdesign report``, ``netdesign diff``: stored studies, shown without solving."""
 
 from __future__ import annotations
 
+import json
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from netdesign.commands.language import tell
-from netdesign.commands.options import force_option, out_option
-from netdesign.commands.report_options import choose_style, list_wanted, report_options
-from netdesign.commands.running import find_exit_code
-from netdesign.commands.sizing import mark_names
-from netdesign.commands.sound_study import require_sound
-from netdesign.commands.stored_study import origin_options
+from netdesign.commands.options import (
+    force_option,
+    json_option,
+    language_option,
+    origin_options,
+    out_option,
+    report_options,
+)
+from netdesign.commands.running import find_exit_code, report_places
+from netdesign.commands.stored_study import require_sound
+from netdesign.commands.usage import tell
+from netdesign.edge.output import WHAT_IF_MARK
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
+if TYPE_CHECKING:
+    from netdesign.report.difference import Change
+    from netdesign.report.files import ReportStyle
+
 DEFAULT_FOLDER = "netdesign-out"
+_TURNED = 1
+
+
+def mark_names(names: Sequence[str], *, is_what_if: object) -> list[str]:
+    """Names of outputs; those of a what-if say so."""
+    return [f"{WHAT_IF_MARK}{name}" if is_what_if else name for name in names]
+
+
+def list_wanted(asked: Mapping[str, Any]) -> list[str]:
+    """Names of the reports that the options of a command ask for.
+
+    A template alone is a wish for a document, too.
+
+    Raises
+    ------
+    NetDesignError
+        If one of them cannot be written on this machine.
+    """
+    from netdesign.report.files import list_reports
+
+    wanted = {one: asked[one] for one in ("html", "excel", "csv", "pdf", "docx")}
+    wanted["docx"] = wanted["docx"] or asked["template"] is not None
+    if wanted["pdf"]:
+        from netdesign.report.page.pdf import require_pdf
+
+        require_pdf()
+    if wanted["docx"]:
+        from netdesign.report.document.template import require_docx
+
+        require_docx()
+    return list_reports(**wanted)
+
+
+def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
+    """Style of the reports; reads the template, before anything is solved.
+
+    Raises
+    ------
+    NetDesignError
+        If the template is no document.
+    """
+    from netdesign.report.files import ReportStyle
+
+    content: bytes | None = None
+    if asked["template"]:
+        from netdesign.report.document.template import read_template
+
+        content = read_template(asked["template"])
+    return ReportStyle(
+        language=asked["language"], detail=asked["detail"], template=content
+    )
 
 
 @click.command()
@@ -59,6 +121,50 @@ def report(
     require_sound(study, study_file, site_file, standard, language)
     files = render_files([study], names, style)
     write_files(files, overwrite=force)
-    for path in names[0]:
-        tell(say("cli.wrote", path=str(path)), language, err=True)
+    report_places(names, language, quiet=False)
     sys.exit(find_exit_code([study]))
+
+
+@click.command()
+@click.argument("old", type=click.Path(path_type=Path))
+@click.argument("new", type=click.Path(path_type=Path))
+@json_option("changes")
+@language_option()
+def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
+    """Show what changed from one study to another: verdicts, checks, inputs.
+
+    Verdicts that got worse come first. Exit code 1 if a verdict turned: of the study,
+    of a net row or of any check in it. A study that contradicts itself, its site file
+    or its limit profile is refused, as by `netdesign report`.
+
+    \b
+    netdesign diff rev-a/study.json rev-b/study.json
+    netdesign diff rev-a/study.json rev-b/study.json --json
+    """
+    from netdesign.report.difference import compare_studies, write_difference
+    from netdesign.study.document import load_study
+
+    before, after = load_study(old), load_study(new)
+    for study, path in ((before, old), (after, new)):
+        require_sound(study, path, None, None, language)
+    changes = compare_studies(before, after)
+    if as_json:
+        click.echo(
+            json.dumps(write_difference(changes, language), indent=1, allow_nan=False)
+        )
+    else:
+        _show(changes, language)
+    sys.exit(_TURNED if any(change.is_turned for change in changes) else 0)
+
+
+def _show(changes: Sequence[Change], language: Language) -> None:
+    from netdesign.report.difference import name_area
+
+    area = ""
+    for change in changes:
+        if change.area != area:
+            area = change.area
+            click.echo(name_area(area, language))
+        click.echo(f"  {change.tell(language)}")
+    if not changes:
+        tell(say("diff.same"), language)

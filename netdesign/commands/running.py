@@ -1,21 +1,32 @@
-"""Parts that all running commands share: command line, time, exit codes, places."""
+"""Run of a command: solves followed, faults, files and next steps told, exit codes."""
 
 from __future__ import annotations
 
 import os
+import shlex
 import sys
+from collections.abc import Collection, Iterator, Mapping, Sequence, Set
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from netdesign.commands.language import tell
-from netdesign.commands.usage import UsageRefusal
+import click
+
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.given_files import make_printable
+from netdesign.fault import EXIT_CODE, Fault
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.words.message import say
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from netdesign.edge.progress import Phase, RunProgress
+    from netdesign.site.model import Site
+    from netdesign.solving.runner import Runner
+    from netdesign.solving.workers import Job
+    from netdesign.study.check_run import CheckRun
     from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
 
@@ -58,3 +69,139 @@ def report_places(names: list[list[Path]], language: Language, *, quiet: bool) -
     """Tell where outputs were written."""
     for path in [] if quiet else [path for group in names for path in group]:
         tell(say("cli.wrote", path=str(path)), language, err=True)
+
+
+def open_run(
+    site: Site, run: CheckRun, asked: Mapping[str, Any], profiles: int = 1
+) -> AbstractContextManager[tuple[Runner, RunProgress]]:
+    """Workers, store and progress for the check of a site, open while it lasts."""
+    from netdesign.study.cases import list_phases
+
+    return open_phases(list_phases(site, run, profiles), asked)
+
+
+@contextmanager
+def open_phases(
+    phases: Sequence[Phase], asked: Mapping[str, Any]
+) -> Iterator[tuple[Runner, RunProgress]]:
+    """Workers, store and progress of some phases, open while they last.
+
+    ``asked`` are options of the command line: jobs, executor, cache, quiet, language.
+    """
+    from netdesign.edge.progress import show_phases
+    from netdesign.solving.session import open_runner
+    from netdesign.solving.store import find_store
+
+    language: Language = asked["language"]
+    with (
+        open_runner(
+            executor=asked["executor"],
+            processes=asked["jobs"] or os.cpu_count() or 1,
+            store=find_store() if asked["cache"] else None,
+            tell=lambda message: tell(message, language, err=True),
+            expected=sum(phase.cases for phase in phases),
+        ) as runner,
+        show_phases(phases, quiet=asked["quiet"], language=language) as progress,
+    ):
+        follow_runner(progress, runner)
+        yield runner, progress
+
+
+def follow_runner(progress: RunProgress, runner: Runner) -> None:
+    """Count every case of a runner; the first history begins their phase."""
+    from netdesign.solving.solve import method_of
+
+    def ask(jobs: Sequence[Job]) -> None:
+        if any(method_of(job.settings) != "steady" for job in jobs):
+            progress.enter("histories")
+        progress.ask(len(jobs))
+
+    runner.on_ask, runner.on_done = ask, progress.count_case
+
+
+_SHOWN = 20  # cases of one fault
+TRACEBACK = "NETDESIGN_TRACEBACK"  # a variable that asks for the whole way
+
+
+def tell_faults(
+    faults: Mapping[Fault, Collection[str]], language: Language = "en"
+) -> int:
+    """Tell each fault with its cases and their net rows, on stderr.
+
+    Parameters
+    ----------
+    faults : mapping of Fault to collection of str
+        What failed, and the ids of the net rows that it befell.
+    language : str
+        Of what is told; a fault's own words are the program's.
+
+    Returns
+    -------
+    int
+        Exit code; 0 without any fault.
+    """
+    alike: dict[str, dict[Fault, Collection[str]]] = {}
+    for fault, rows in faults.items():
+        alike.setdefault(str(fault), {})[fault] = rows
+    for cases in alike.values():
+        _tell_alike(cases, language)
+    if not faults:
+        return 0
+    if not os.environ.get(TRACEBACK):
+        tell(say("cli.fault_trace", variable=TRACEBACK), language, err=True)
+    return EXIT_CODE
+
+
+def _tell_alike(faults: Mapping[Fault, Collection[str]], language: Language) -> None:
+    """The same fault in some cases: its text once, and the way to the first."""
+    first = next(iter(faults))
+    lines: list[Message | str] = [say("cli.fault", fault=str(first))]
+    cases = [
+        _name_case(tuple(sorted(rows)), one.case)
+        for one, rows in faults.items()
+        if one.case
+    ]
+    lines += cases[:_SHOWN]
+    if cases[_SHOWN:]:
+        lines.append(say("cli.fault_cases", count=len(cases) - _SHOWN))
+    if os.environ.get(TRACEBACK):
+        lines.append(first.trace)
+    text = "\n".join(render(line, language) for line in lines)
+    click.echo(make_printable(text), err=True)
+
+
+def _name_case(rows: tuple[str, ...], case: str) -> Message:
+    if not rows:
+        return say("cli.fault_case", case=case)
+    key = "cli.fault_rows" if len(rows) > 1 else "cli.fault_row"
+    return say(key, rows=rows, case=case)
+
+
+TUTORIAL = Path(__file__).resolve().parent.parent / "TUTORIAL.md"
+
+
+def tell_next_steps(
+    verdicts: Set[Verdict], site: str, language: Language, *, is_sized: bool
+) -> None:
+    """Tell what to do about rows that do not pass; nothing where all do.
+
+    ``verdicts`` are those of all rows, ``site`` is what was checked, as on the command
+    line.
+    """
+    for message in list_next_steps(verdicts, site, is_sized=is_sized):
+        tell(message, language, err=True)
+
+
+def list_next_steps(
+    verdicts: Set[Verdict], site: str, *, is_sized: bool
+) -> list[Message]:
+    """Sentences for rows of these verdicts."""
+    fails, is_open = Verdict.FAIL in verdicts, Verdict.NOT_PROVEN in verdicts
+    if not (fails or is_open):
+        return []
+    size = shlex.join(["netdesign", "check", site, "--size"])
+    told = [say("next.heading"), say("next.inputs")]
+    told += [say("next.open")] if is_open else []
+    told += [say("next.size", command=size)] if fails and not is_sized else []
+    told.append(say("next.again"))
+    return [*told, say("next.more", file=str(TUTORIAL))]

@@ -1,4 +1,4 @@
-"""Reading of a site by commands: options, and the copy with the findings."""
+"""Site workbooks: how commands read one; ``netdesign init``, ``netdesign map``."""
 
 from __future__ import annotations
 
@@ -11,8 +11,15 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.language import tell
-from netdesign.commands.usage import UsageRefusal, ValueRefusal
+from netdesign.commands.options import (
+    DELIMITERS,
+    force_option,
+    language_option,
+    read_instead,
+    refuse_delimiter,
+    text_options,
+)
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.causes import explain_with_file
 from netdesign.errors import OutputError, SiteDataError
 from netdesign.words.catalogue import Language
@@ -21,49 +28,11 @@ from netdesign.words.message import say
 if TYPE_CHECKING:
     from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site
+    from netdesign.words.catalogue import Language
 
-_DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
+# Options of every site that is read; `open_site` takes them.
+READING = ("delimiter", "decimal_mark", "annotate", "language")
 _MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
-
-
-def site_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options that say how a site file is read."""
-    annotate = click.option(
-        "--annotate",
-        type=click.Path(path_type=Path, dir_okay=False),
-        metavar="OUT.xlsx",
-        help="Write the workbook again with every finding at its cell.",
-    )
-    return text_options(annotate(command))
-
-
-def text_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options that say how the text of a site file is written."""
-    for option in (
-        click.option(
-            "--decimal-mark",
-            type=click.Choice(["comma", "point"]),
-            help="Of numbers stored as text [judged cell by cell].",
-        ),
-        click.option(
-            "--delimiter",
-            metavar="SIGN",
-            callback=_check_delimiter,
-            help="Between the columns of a csv file, or tab [found out].",
-        ),
-    ):
-        command = option(command)
-    return command
-
-
-def _check_delimiter(
-    context: click.Context, option: click.Parameter, value: str | None
-) -> str:
-    sign = _DELIMITERS.get(value or "", value or "")
-    is_mark = sign == "\t" or (sign.isprintable() and not sign.isalnum())
-    if len(sign) > 1 or sign == '"' or not is_mark:
-        raise ValueRefusal(say("usage.delimiter", text=sign), context, option)
-    return sign
 
 
 def open_site(
@@ -153,8 +122,6 @@ def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> Non
 
 def reopen_site(path: Path, typed: Mapping[str, Any]) -> Site:
     """Read a site again, with the words of an earlier command that say how."""
-    from netdesign.commands.sizing import read_instead
-
     try:
         instead = read_instead(None, None, typed.get("instead") or ())
     except click.UsageError:  # of a command that was altered: its inputs contradict it
@@ -163,7 +130,7 @@ def reopen_site(path: Path, typed: Mapping[str, Any]) -> Site:
     mark = str(typed.get("decimal_mark") or "")
     return open_site(
         path,
-        delimiter=_DELIMITERS.get(delimiter, delimiter),
+        delimiter=DELIMITERS.get(delimiter, delimiter),
         decimal_mark=mark if mark in _MARKS else None,
         instead=instead,
     )
@@ -215,3 +182,63 @@ def _write_copy(
         return
     write_files({copy: content}, overwrite=overwrite)
     tell(say("cli.wrote", path=str(copy)), language, err=True)
+
+
+_SUFFIX = ".xlsx"
+
+
+@click.command()
+@click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--example", is_flag=True, help="Fill in the built-in example site.")
+@language_option("Of headings, words and notes; all three are read.")
+@click.option("--force", is_flag=True, help="Overwrite an existing file.")
+def init(site_file: Path, *, example: bool, language: Language, force: bool) -> None:
+    """Write an input workbook to fill in.
+
+    \b
+    netdesign init site.xlsx
+    netdesign init chantier.xlsx --language fr
+    netdesign init example.xlsx --example
+    """
+    from netdesign.edge.output import require_free
+    from netdesign.site.template.workbook import write_site_workbook
+
+    if site_file.suffix.lower() != _SUFFIX:
+        raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
+    require_free([site_file], overwrite=force)
+    write_site_workbook(site_file, example=example, overwrite=force, language=language)
+    tell(say("cli.wrote", path=str(site_file)), language, err=True)
+
+
+@click.command(name="map")
+@click.argument("site_file", type=click.Path(path_type=Path))
+@text_options
+@language_option("Of the comments in the file.")
+@force_option
+def map_headings(
+    site_file: Path, *, language: Language, force: bool, **reading: Any
+) -> None:
+    """Write SITE.map.toml: which headings mean what, to be answered.
+
+    \b
+    netdesign map site.xlsx
+    netdesign map chantier.xlsx --language fr
+    netdesign map site.xlsx --force      again, with the answers given so far
+
+    Every question mark in the file asks for an answer: a heading of the workbook with
+    its unit, or "ignore". Later runs read the file beside the workbook by themselves.
+    """
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.site.mapping import name_map
+    from netdesign.site.questions import write_questions
+
+    refuse_delimiter(site_file, language=language)
+    place = name_map(site_file)
+    require_free([place], overwrite=force)
+    text, missing = write_questions(site_file, build_text_format(**reading), language)
+    write_files({place: text.encode()}, overwrite=force)
+    tell(say("cli.wrote", path=str(place)), language, err=True)
+    if missing:
+        tell(say("map.missing", count=missing), language, err=True)
+    else:
+        tell(say("map.complete"), language, err=True)

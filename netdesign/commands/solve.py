@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.faults import tell_faults
-from netdesign.commands.language import tell
 from netdesign.commands.options import (
     force_option,
     json_option,
     language_option,
     out_option,
 )
-from netdesign.commands.running import EXIT_CODES, report_places
+from netdesign.commands.running import EXIT_CODES, report_places, tell_faults
+from netdesign.commands.usage import tell
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome, Verdict
 from netdesign.words.catalogue import render
@@ -71,8 +70,6 @@ def solve(
     given = read_scene_file(scene_file, method)
     scene, settings = given.scene, given.settings
     if out is not None:  # the page takes as long to import as all else
-        from netdesign.commands.solve_folder import require_free_folder
-
         require_free_folder(out, given, overwrite=force)
     start = time.perf_counter()
     solution, failed = _solve(scene, settings, language)
@@ -83,8 +80,6 @@ def solve(
         solution, settings, elapsed, bound, language, support
     )
     if out is not None:
-        from netdesign.commands.solve_folder import write_solution_folder
-
         written = write_solution_folder(
             out,
             solution,
@@ -97,10 +92,8 @@ def solve(
         report_places([written], language, quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
-    elif document["outcome"] == "converged":
-        _show_solution(document, language)
     else:
-        _show_refusal(solution, document, language)
+        _show(solution, document, language)
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
@@ -143,6 +136,13 @@ def _bound_refused(
     if isinstance(settings, SolverSettings) and isinstance(solution, FailedSolution):
         return bound_by_less_slack(scene, settings)
     return None
+
+
+def _show(solution: Solved, document: dict[str, Any], language: Language) -> None:
+    if document["outcome"] == "converged":
+        _show_solution(document, language)
+    else:
+        _show_refusal(solution, document, language)
 
 
 def _show_refusal(
@@ -252,3 +252,46 @@ def _describe_plateau(document: dict[str, Any]) -> Message:
         head=plateau["head_kN_per_m"],
         drift=plateau["drift_per_efold"],
     )
+
+
+def require_free_folder(folder: Path, given: GivenScene, *, overwrite: bool) -> None:
+    """Refuse before solving if any of the outputs exists.
+
+    Raises
+    ------
+    OutputError
+        Naming every path that is in the way.
+    """
+    from netdesign.edge.output import require_free
+    from netdesign.report.page.solution_page import list_solution_files
+    from netdesign.snow.wall import Wall
+    from netdesign.solving.solve import method_of
+
+    names = list_solution_files(
+        method_of(given.settings),
+        is_wall=isinstance(given.scene.net, Wall),
+        has_panel=given.support is not None and given.support.panel is not None,
+    )
+    require_free([folder / name for name in names], overwrite=overwrite)
+
+
+def write_solution_folder(
+    folder: Path,
+    solution: Solved,
+    document: dict[str, Any],
+    scene_file: str,
+    support: SolvedSupport | None = None,
+    *,
+    overwrite: bool,
+    language: Language = "en",
+) -> list[Path]:
+    """Write page, drawings, tables and document; their paths."""
+    from netdesign.edge.output import write_files
+    from netdesign.report.page.solution_page import render_solution
+    from netdesign.study.record_panel import record_solved_panel
+
+    panel = None if support is None else record_solved_panel(support.result)
+    contents = render_solution(solution, document, scene_file, language, panel)
+    files = {folder / name: content for name, content in contents.items()}
+    write_files(files, overwrite=overwrite)
+    return list(files)

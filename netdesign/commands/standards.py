@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from netdesign.commands.language import tell
 from netdesign.commands.options import language_option
-from netdesign.commands.usage import ToldGroup
+from netdesign.commands.usage import ToldGroup, tell
 from netdesign.errors import OutputError
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say

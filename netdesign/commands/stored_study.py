@@ -1,4 +1,4 @@
-"""Origin of a stored study: its command, its site file, its limit profile."""
+"""Stored study that somebody hands on: its origin; refused where it cannot be true."""
 
 from __future__ import annotations
 
@@ -10,33 +10,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.site_input import reopen_site, temporary_example
-from netdesign.errors import StudyError
+from netdesign.errors import NetDesignError, StudyError
+from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
+    from netdesign.checks import Standard
     from netdesign.site.model import Site
     from netdesign.study.records import Study
 
 NO_COMMAND = "netdesign check"  # of a study that no command line made
-
-
-def origin_options(command: Any) -> Any:
-    """Add ``--site`` and ``--standard``, which say where a study's files are."""
-    for option in (
-        click.option(
-            "--standard",
-            metavar="ID",
-            help="Its limit profile, or a folder with it [by its id].",
-        ),
-        click.option(
-            "--site",
-            "site_file",
-            type=click.Path(path_type=Path),
-            help="Its site file [by its name, beside the study or one folder up].",
-        ),
-    ):
-        command = option(command)
-    return command
 
 
 def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
@@ -123,3 +106,98 @@ def _may_be(standard: str, profile: str) -> bool:
     from netdesign.checks import list_standards
 
     return standard == profile or standard not in list_standards()
+
+
+_SHOWN = 10  # contradictions; more help nobody
+
+
+def require_sound(
+    study: Study,
+    study_file: Path,
+    site_file: Path | None,
+    standard: str | None,
+    language: Language,
+) -> None:
+    """Refuse a study that cannot be true; say what it was not compared with.
+
+    Parameters
+    ----------
+    study, study_file
+        As read, and from where.
+    site_file, standard
+        Its site file and its limit profile, where somebody gives them; else they are
+        looked for by their names.
+    language
+        Of what is said.
+
+    Raises
+    ------
+    StudyError
+        With the contradictions, or if a file that was given is not the study's.
+    """
+    from netdesign.study.document import compute_digest
+    from netdesign.study.rejudge import rejudge
+
+    site = _find_site(study, study_file, site_file, language)
+    profile = _find_profile(study, study_file, standard, language)
+    found = [say("stored.command", reason=one) for one in contradict_command(study)]
+    found += rejudge(study, profile, site)
+    if study.digest and study.digest != compute_digest(study):
+        found.insert(0, say("stored.altered"))
+    if found:
+        more = say("stored.more", count=len(found) - _SHOWN)
+        lines = (*found[:_SHOWN], *((more,) if found[_SHOWN:] else ()))
+        raise StudyError(say("stored.contradicts", study=str(study_file), lines=lines))
+
+
+def _find_site(
+    study: Study, study_file: Path, site_file: Path | None, language: Language
+) -> Site | None:
+    """Site of the study, where its file is at hand; one that is given has to be it."""
+    try:
+        site = read_own_site(study, study_file, site_file)
+    except NetDesignError as error:
+        if site_file is not None:
+            raise
+        first = render(error.message, language).partition("\n")[0]
+        _tell_uncompared(study_file, "stored.site_uncompared", first, language)
+        return None
+    if site.sha256 == study.provenance.site_sha256:
+        return site
+    if site_file is not None:
+        raise StudyError(say("stored.not_the_site", file=str(site_file)))
+    reason = say("stored.other_site")
+    _tell_uncompared(study_file, "stored.site_uncompared", reason, language)
+    return None
+
+
+def _find_profile(
+    study: Study, study_file: Path, standard: str | None, language: Language
+) -> Standard | None:
+    """Profile of the study, where it is at hand; one that is given has to be it."""
+    from netdesign.study.record_provenance import load_own_profile
+
+    try:
+        profile = load_own_profile(study.profile, standard)
+    except NetDesignError as error:
+        if standard is not None:
+            raise
+        reason = error.message
+        _tell_uncompared(study_file, "stored.profile_uncompared", reason, language)
+        return None
+    if profile.sha256 == study.profile.sha256:
+        return profile
+    if standard is not None:
+        raise StudyError(say("stored.not_the_profile", profile=standard))
+    reason = say("stored.other_profile")
+    _tell_uncompared(study_file, "stored.profile_uncompared", reason, language)
+    return None
+
+
+def _tell_uncompared(
+    study_file: Path, key: str, reason: Message | str, language: Language
+) -> None:
+    from netdesign.edge.given_files import make_printable
+
+    told = say("text.at_place", place=str(study_file), text=say(key, reason=reason))
+    click.echo(make_printable(render(told, language)), err=True)

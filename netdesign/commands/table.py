@@ -1,29 +1,85 @@
-"""Commands by name, each imported when it is first asked for: a run needs one."""
+"""Commands by name, imported when asked for; help in the language of the run."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, MutableMapping
+import sys
+from collections.abc import Iterable, Iterator, Mapping, MutableMapping
 from importlib import import_module
+from typing import Any
 
 import click
 
-from netdesign.commands.config import accept_variables
-from netdesign.commands.help import tell_help
+from netdesign.commands.config import accept_variables, find_language
+from netdesign.commands.help_texts import HelpTexts, load_help
+
+
+class ToldFormatter(click.HelpFormatter):
+    """Writes what click has to say in a language."""
+
+    def __init__(self, told: HelpTexts, **widths: Any) -> None:
+        super().__init__(**widths)
+        self.told = told
+
+    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
+        """Write the line on usage."""
+        start = f"{self.told.tell('Usage')}: " if prefix is None else prefix
+        super().write_usage(prog, self.told.tell_signs(args), start)
+
+    def write_heading(self, heading: str) -> None:
+        """Write a heading."""
+        super().write_heading(self.told.tell(heading))
+
+    def write_text(self, text: str) -> None:
+        """Write the paragraphs of a command's help."""
+        super().write_text(self.told.tell_paragraphs(text))
+
+    def write_dl(
+        self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
+    ) -> None:
+        """Write names with their descriptions."""
+        told = [
+            (self.told.tell_signs(name), self.told.tell_option(text))
+            for name, text in rows
+        ]
+        super().write_dl(told, col_max, col_spacing)
+
+
+class ToldContext(click.Context):
+    """Context of a command whose help is in the language of the run."""
+
+    def make_formatter(self) -> click.HelpFormatter:
+        """Formatter of the help; that of click for English."""
+        root = self.find_root().command
+        if not isinstance(root, click.Group):  # one command by itself, as tests run it
+            return super().make_formatter()
+        told = load_help(find_language(root, sys.argv[1:]))
+        if told is None:
+            return super().make_formatter()
+        return ToldFormatter(
+            told, width=self.terminal_width, max_width=self.max_content_width
+        )
+
+
+def tell_help(command: click.Command) -> None:
+    """Let the help of a command, and of all below it, be in the language of the run."""
+    command.context_class = ToldContext
+    for one in getattr(command, "commands", {}).values():
+        tell_help(one)
 
 
 class CommandTable(MutableMapping[str, click.Command]):
     """Commands of the program; their names are known before they are imported."""
 
-    def __init__(self, functions: Mapping[str, str]) -> None:
-        """Keep the names, and of each the function in the module of that name."""
-        self._functions = dict(functions)
+    def __init__(self, places: Mapping[str, str]) -> None:
+        """Keep the names, and of each its module and the function in it."""
+        self._places = dict(places)
         self._commands: dict[str, click.Command] = {}
 
     def __getitem__(self, name: str) -> click.Command:
         """Return a command, its options as variables, its help in every language."""
         if name not in self._commands:
-            function = self._functions[name]
-            found = getattr(import_module(f"netdesign.commands.{name}"), function)
+            module, function = self._places[name].split(".")
+            found = getattr(import_module(f"netdesign.commands.{module}"), function)
             accept_variables(name, found)
             tell_help(found)
             self._commands[name] = found
@@ -31,22 +87,22 @@ class CommandTable(MutableMapping[str, click.Command]):
 
     def __setitem__(self, name: str, command: click.Command) -> None:
         """Add a command."""
-        self._functions.setdefault(name, "")
+        self._places.setdefault(name, "")
         self._commands[name] = command
 
     def __delitem__(self, name: str) -> None:
         """Take a command away."""
-        del self._functions[name]
+        del self._places[name]
         self._commands.pop(name, None)
 
     def __contains__(self, name: object) -> bool:
         """Tell whether there is such a command, without its import."""
-        return name in self._functions
+        return name in self._places
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names."""
-        return iter(self._functions)
+        return iter(self._places)
 
     def __len__(self) -> int:
         """Count the commands."""
-        return len(self._functions)
+        return len(self._places)

@@ -15,6 +15,11 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 
+def tell(message: Message | str, language: Language, *, err: bool = False) -> None:
+    """Print a message."""
+    click.echo(render(message, language), err=err)
+
+
 class UsageRefusal(click.UsageError):
     """A command line that is refused, with a message."""
 

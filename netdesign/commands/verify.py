@@ -13,23 +13,21 @@ from typing import TYPE_CHECKING
 
 import click
 
-from netdesign.commands.faults import tell_faults
-from netdesign.commands.idle import refuse_without
-from netdesign.commands.language import tell
 from netdesign.commands.options import (
     force_option,
     jobs_option,
     json_option,
     language_option,
+    origin_options,
+    refuse_without,
 )
-from netdesign.commands.solving import open_run
+from netdesign.commands.running import open_run, tell_faults
 from netdesign.commands.stored_study import (
     NO_COMMAND,
     contradict_command,
-    origin_options,
     read_own_site,
 )
-from netdesign.commands.usage import UsageRefusal
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -156,9 +154,8 @@ def _verify_study(
         show.contradictions(say("verify.its_time"), _contradict_time(study)),
         show.contradictions(say("verify.its_arithmetic"), arithmetic),
     ]
-    with open_run(
-        site, run, executor="", cache=False, quiet=False, language=language
-    ) as (runner, watch):
+    asked = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
+    with open_run(site, run, asked | {"language": language}) as (runner, watch):
         (again,) = check_site(site, [profile], run, runner, watch)
     if failed := tell_faults(runner.faults, language):
         return failed

@@ -1,9 +1,9 @@
-"""``netdesign winter``: a station's snow heights on the rows of a site."""
+"""``netdesign winter``: heights of snow at a station, on the rows of a site."""
 
 from __future__ import annotations
 
-import os
 import sys
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,38 +11,38 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.config import ConfiguredCommand
-from netdesign.commands.faults import tell_faults
-from netdesign.commands.idle import (
-    refuse_delimiter,
-    refuse_jobs,
-    refuse_without,
-)
-from netdesign.commands.language import tell
 from netdesign.commands.options import (
+    FIT_PARAMETERS,
     accuracy_option,
+    example_option,
+    fit_options,
+    flag,
     force_option,
     json_option,
     language_option,
+    median_option,
+    model_option,
     out_option,
     quiet_option,
+    refuse_delimiter,
+    refuse_jobs,
+    refuse_without,
+    site_options,
+    solving_options,
 )
-from netdesign.commands.running import EXIT_CODES, report_places
+from netdesign.commands.running import (
+    EXIT_CODES,
+    open_phases,
+    report_places,
+    tell_faults,
+)
 from netdesign.commands.site_input import (
+    READING,
     build_text_format,
     open_site,
-    site_options,
     temporary_example,
 )
-from netdesign.commands.solving import open_phases, solving_options
-from netdesign.commands.usage import UsageRefusal
-from netdesign.commands.winter_fit import (
-    FIT_NAMES,
-    SOLVES,
-    fit_options,
-    fit_rows,
-    require_measured_forces,
-    tell_fit,
-)
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.streams import print_json
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
@@ -51,15 +51,12 @@ from netdesign.words.message import say
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from netdesign.commands.winter_fit import FitChoice
     from netdesign.files.winter import WinterRun
-    from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
     from netdesign.words.catalogue import Language
     from netdesign.words.message import Message
 
-MODELS = ("delta-snow-ageing", "hs2swe", "delta-snow")  # the first is the default
 _FOLDER = "winter"
 _PHASE = 150  # solves of a row and winter, about; a table has 63
 EXAMPLE_HEIGHTS = "winter_2000.csv"
@@ -67,7 +64,7 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
-@click.option("--example", is_flag=True, help="Built-in site, made-up winter.")
+@example_option("Built-in site, made-up winter.")
 @site_options
 @click.option(
     "--heights",
@@ -75,13 +72,7 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
     metavar="FILE.csv",
     help="Snow heights of a station, instead of sheet Winter.",
 )
-@click.option(
-    "--model",
-    type=click.Choice(MODELS),
-    default=MODELS[0],
-    show_default=True,
-    help="Settling model of the curves; the others give their annual maxima.",
-)
+@model_option("Settling model of the curves; the others give their annual maxima.")
 @click.option("--row", "row_ids", multiple=True, metavar="ID", help="Rows [all].")
 @click.option(
     "--every",
@@ -90,10 +81,8 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
     show_default=True,
     help="Days between those of a curve.",
 )
-@click.option("--median", is_flag=True, help="Heights as medians of three days.")
-@click.option(
-    "--accept-heights", is_flag=True, help="However little or much snow that is."
-)
+@median_option
+@flag("--accept-heights", help="However little or much snow that is.")
 @fit_options
 @accuracy_option("Relative error allowed in every end force.", default=0.01)
 @solving_options
@@ -102,28 +91,7 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
 @json_option("winters")
 @force_option
 @quiet_option
-def winter(
-    site_file: Path | None,
-    *,
-    example: bool,
-    heights: Path | None,
-    model: str,
-    row_ids: tuple[str, ...],
-    every: int,
-    median: bool,
-    accept_heights: bool,
-    fit: FitChoice | None,
-    accuracy: float,
-    jobs: int | None,
-    executor: str,
-    cache: bool,
-    out: Path | None,
-    language: Language,
-    as_json: bool,
-    force: bool,
-    quiet: bool,
-    **reading: Any,
-) -> None:
+def winter(site_file: Path | None, **asked: Any) -> None:
     """Follow a station's snow heights on the net rows of a site.
 
     \b
@@ -140,52 +108,38 @@ def winter(
     """
     from netdesign.files.winter import write_winter_document
 
-    if example == (site_file is not None):
-        raise UsageRefusal(say("usage.site_or_example"))
-    heights_read = [] if heights is None else [heights]
-    refuse_delimiter(*heights_read, site_file, language=language)
-    refuse_jobs(executor, language)
-    if fit is None:
-        refuse_without(FIT_NAMES, ("--fit",), language)
-    folder = out or (None if as_json else Path(_FOLDER))
-    names = _list_places(folder, overwrite=force)
-    site = _read_site(site_file, overwrite=force, language=language, **reading)
-    text_format = build_text_format(
-        delimiter=reading["delimiter"], decimal_mark=reading["decimal_mark"]
-    )
-    station = _find_heights(
-        site, heights, text_format, median, example=example, language=language
-    )
-    chosen = _choose_rows(site, row_ids)
-    if fit:
+    language: Language = asked["language"]
+    _refuse_idle(site_file, asked)
+    folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
+    names = _list_places(folder, overwrite=asked["force"])
+    site = _read_site(site_file, asked)
+    station = _find_heights(site, asked)
+    chosen = _choose_rows(site, asked["row_ids"])
+    if asked["fit"]:
         require_measured_forces(chosen)
-    with open_phases(
-        _list_phases(chosen, is_fitted=fit is not None),
-        processes=jobs or os.cpu_count() or 1,
-        executor=executor,
-        cache=cache,
-        quiet=quiet,
-        language=language,
-    ) as (runner, progress):
+    phases = _list_phases(chosen, is_fitted=asked["fit"])
+    with open_phases(phases, asked) as (runner, progress):
         progress.enter("winters")
-        run = _solve(
-            chosen,
-            station,
-            runner,
-            model=model,
-            accuracy=accuracy,
-            every=every,
-            is_smoothed=median,
-            is_checked=not accept_heights,
-        )
-        run = fit_rows(run, fit, runner)
+        run = fit_rows(_solve(chosen, station, runner, asked), asked, runner)
     failed = tell_faults(runner.faults, language)
     document = write_winter_document(run, language)
     if folder:
-        _write(folder, document, language, overwrite=force)
-    _show(document, language, as_json=as_json)
-    report_places([names], language, quiet=quiet or as_json)
+        _write(folder, document, language, overwrite=asked["force"])
+    _show(document, language, as_json=asked["as_json"])
+    report_places([names], language, quiet=asked["quiet"] or asked["as_json"])
     sys.exit(failed or (0 if _is_proven(document) else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _refuse_idle(site_file: Path | None, asked: Mapping[str, Any]) -> None:
+    """Refuse options that contradict each other, or have no effect."""
+    language, heights = asked["language"], asked["heights"]
+    if asked["example"] == (site_file is not None):
+        raise UsageRefusal(say("usage.site_or_example"))
+    given = [] if heights is None else [heights]
+    refuse_delimiter(*given, site_file, language=language)
+    refuse_jobs(asked["executor"], language)
+    if not asked["fit"]:
+        refuse_without(FIT_NAMES, ("--fit",), language)
 
 
 def _list_places(folder: Path | None, *, overwrite: bool) -> list[Path]:
@@ -219,43 +173,39 @@ def _is_proven(document: dict[str, Any]) -> bool:
     )
 
 
-def _read_site(site_file: Path | None, **reading: Any) -> Site:
+def _read_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
+    reading = {one: asked[one] for one in READING} | {"overwrite": asked["force"]}
     if site_file is not None:
         return open_site(site_file, **reading)
     with temporary_example() as path:
         return open_site(path, **reading)
 
 
-def _find_heights(
-    site: Site,
-    heights: Path | None,
-    text_format: TextFormat,
-    median: bool,
-    *,
-    example: bool,
-    language: Language,
-) -> StationWinter:
+def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     """Heights of the file, else those of the site, else those of the example."""
     from importlib.resources import as_file, files
 
     from netdesign.site.winter_sheet import complete_by_sheet, read_height_file
     from netdesign.snowpack.series import smooth
 
-    found = site.winter
-    if heights is not None:
+    found, language = site.winter, asked["language"]
+    if asked["heights"] is not None:
+        text_format = build_text_format(
+            delimiter=asked["delimiter"], decimal_mark=asked["decimal_mark"]
+        )
         ids = [row.id for row in site.rows]
-        found, remarks = read_height_file(heights, text_format, ids)
+        found, remarks = read_height_file(asked["heights"], text_format, ids)
         for remark in remarks:
             tell(remark.message, language, err=True)
         found, note = complete_by_sheet(found, site.winter)
         if note:
             tell(note, language, err=True)
-    elif found is None and example:
+    elif found is None and asked["example"]:
         with as_file(files("netdesign.examples") / EXAMPLE_HEIGHTS) as path:
             found, _ = read_height_file(path)
     if found is None:
         raise ModelError(say("winter.no_heights"))
-    return replace(found, series=smooth(found.series)) if median else found
+    return replace(found, series=smooth(found.series)) if asked["median"] else found
 
 
 def _choose_rows(site: Site, row_ids: Sequence[str]) -> Site:
@@ -278,15 +228,7 @@ def _list_phases(site: Site, *, is_fitted: bool) -> list[Any]:
 
 
 def _solve(
-    site: Site,
-    station: StationWinter,
-    runner: Runner,
-    *,
-    model: str,
-    accuracy: float,
-    every: int,
-    is_smoothed: bool,
-    is_checked: bool,
+    site: Site, station: StationWinter, runner: Runner, asked: Mapping[str, Any]
 ) -> WinterRun:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.files.winter import WinterRun
@@ -302,20 +244,17 @@ def _solve(
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
     pulls = [list_measured_pulls(site, row.id) for row in rows]
-    if is_checked:
+    if not asked["accept_heights"]:
         require_plausible_heights(rows, site.rows, station)
-    models = [KNOWN[model], *(one for name, one in KNOWN.items() if name != model)]
-    packs = follow_station(station.series, models)
-    settings = SolverSettings(accuracy=accuracy)
-    results = [
-        follow_winters(
-            packs,
-            DaySolver(row=row, settings=settings, runner=runner),
-            every,
-            name_measured_winters(measured),
-        )
-        for row, measured in zip(rows, pulls, strict=True)
-    ]
+    first = asked["model"]
+    others = [model for name, model in KNOWN.items() if name != first]
+    packs = follow_station(station.series, [KNOWN[first], *others])
+    settings = SolverSettings(accuracy=asked["accuracy"])
+    results = []
+    for row, measured in zip(rows, pulls, strict=True):
+        solver = DaySolver(row=row, settings=settings, runner=runner)
+        named = name_measured_winters(measured)
+        results.append(follow_winters(packs, solver, asked["every"], named))
     return WinterRun(
         site=site,
         winter=station,
@@ -326,9 +265,9 @@ def _solve(
             compare_row(measured, result, row, station.series)
             for measured, result, row in zip(pulls, results, rows, strict=True)
         ],
-        is_smoothed=is_smoothed,
-        accuracy=accuracy,
-        step=every,
+        is_smoothed=asked["median"],
+        accuracy=asked["accuracy"],
+        step=asked["every"],
     )
 
 
@@ -369,3 +308,81 @@ def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
         count=winter["days_without_force"],
         days=len(winter["curve"]),
     )
+
+
+SOLVES = 600  # of a fit, about
+FIT_NAMES = ("noise", "cell_error", "rope_kelvin", "known")  # of its parameters
+
+
+def require_measured_forces(site: Site) -> None:
+    """Refuse a fit of rows on which nothing was measured.
+
+    Raises
+    ------
+    ModelError
+        If no row has a force with a date.
+    """
+    from netdesign.study.measured_pulls import list_measured_pulls
+
+    if not any(list_measured_pulls(site, row.id) for row in site.rows):
+        raise ModelError(say("fit.no_measured_forces"))
+
+
+def fit_rows(run: WinterRun, asked: Mapping[str, Any], runner: Runner) -> WinterRun:
+    """Run with the fit of each row with measured forces; as it is without ``fit``."""
+    if not asked["fit"]:
+        return run
+    from netdesign.study.measured_pulls import list_measured_pulls
+    from netdesign.winter.day import DaySolver
+    from netdesign.winter.fit import FIT_SETTINGS, fit_season
+    from netdesign.winter.fit_readings import Noise
+    from netdesign.winter.fit_task import choose_fit
+
+    stated = Noise(
+        reading=asked["noise"], cell=asked["cell_error"], rope=asked["rope_kelvin"]
+    )
+    fits = {}
+    for row, result in zip(run.rows, run.results, strict=True):
+        measured = list_measured_pulls(run.site, row.id)
+        if not measured:
+            continue
+        task = choose_fit(
+            result,
+            run.packs,
+            measured,
+            DaySolver(row=row, settings=FIT_SETTINGS, runner=runner),
+            noise=stated,
+            known=[FIT_PARAMETERS[one] for one in asked["known"]],
+            design_density=run.site.ranges["density"].high,
+        )
+        fits[row.id] = fit_season(task)
+    return replace(run, fits=fits)
+
+
+def tell_fit(row: str, fit: Mapping[str, Any], language: Language) -> None:
+    """Print what a fit says, and the bands that follow from it."""
+    tell(
+        say(
+            "fit.line",
+            row=row,
+            winter=fit["winter"] or "-",
+            readings=fit["readings"],
+            days=fit["days"],
+            why=fit["why"],
+        ),
+        language,
+    )
+    for force in fit["forces"] if fit["outcome"] == "fitted" else ():
+        tell(
+            say(
+                "fit.force_line",
+                row=row,
+                case=say(f"fit_case.{force['case']}"),
+                member=say(f"member.{force['member']}"),
+                before_low=force["before_kN"]["low"],
+                before_high=force["before_kN"]["high"],
+                after_low=force["after_kN"]["low"],
+                after_high=force["after_kN"]["high"],
+            ),
+            language,
+        )

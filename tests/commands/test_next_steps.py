@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.commands.next_steps import TUTORIAL, list_next_steps, tell_next_steps
+from netdesign.commands.running import TUTORIAL, list_next_steps, tell_next_steps
 from netdesign.outcome import Verdict
 from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.report.build_study import build_study

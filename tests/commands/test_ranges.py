@@ -1,7 +1,7 @@
 import click
 import pytest
 
-from netdesign.commands.ranges import RANGE
+from netdesign.commands.options import RANGE
 
 
 @pytest.mark.parametrize(

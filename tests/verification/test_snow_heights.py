@@ -10,7 +10,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from netdesign.commands.winter import MODELS as COMMAND_MODELS
+from netdesign.commands.options import SETTLING_MODELS as COMMAND_MODELS
 from netdesign.evidence.verification.winters import (
     list_snow_heights,
     measure_imbalance,

@@ -10,7 +10,7 @@ import pytest
 
 from netdesign import cli
 from netdesign.checks import load_standard
-from netdesign.commands import sound_study
+from netdesign.commands import stored_study
 from netdesign.commands import verify as verify_command
 from netdesign.errors import StudyError
 from netdesign.site.reader import read_site
@@ -90,7 +90,7 @@ def try_both(monkeypatch, call, tmp_path, text, site):
 
     monkeypatch.setattr(verify_command, "open_run", solve)
     monkeypatch.setattr(use_case, "check_site", judge)
-    for module in (verify_command, sound_study):
+    for module in (verify_command, stored_study):
         monkeypatch.setattr(module, "read_own_site", lambda *_: site)
 
     def run(document, *, seal=True):

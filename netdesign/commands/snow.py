@@ -1,4 +1,4 @@
-"""``netdesign snowpack``: mass and density of a station's snow from its heights."""
+"""``netdesign snowpack``, ``netdesign glide``: snow without a net."""
 
 from __future__ import annotations
 
@@ -8,12 +8,19 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.config import ConfiguredCommand
-from netdesign.commands.idle import refuse_delimiter, refuse_without
-from netdesign.commands.language import tell
-from netdesign.commands.options import json_option, language_option
-from netdesign.commands.site_input import build_text_format, text_options
-from netdesign.commands.winter import MODELS
+from netdesign.commands.options import (
+    json_option,
+    language_option,
+    median_option,
+    model_option,
+    refuse_delimiter,
+    refuse_without,
+    text_options,
+)
+from netdesign.commands.site_input import build_text_format
+from netdesign.commands.usage import tell
 from netdesign.edge.streams import print_json
+from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -25,14 +32,8 @@ SCHEMA = "netdesign.snowpack/1"
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("height_file", type=click.Path(path_type=Path))
-@click.option(
-    "--model",
-    type=click.Choice(MODELS),
-    default=MODELS[0],
-    show_default=True,
-    help="Settling model.",
-)
-@click.option("--median", is_flag=True, help="Heights as medians of three days.")
+@model_option("Settling model.")
+@median_option
 @click.option("--layers", is_flag=True, help="Layers of each day, too; with --json.")
 @text_options
 @language_option("Of messages.")
@@ -112,3 +113,19 @@ def _write_day(day: str, pack: DayPack, *, with_layers: bool) -> dict[str, Any]:
             )
         ]
     return found
+
+
+@click.command()
+@language_option()
+def glide(*, language: Language) -> None:
+    """Measure the glide factors of slip lengths again, beside the stored table."""
+    from netdesign.coupling.steady.rigid import measure_glide_factor
+    from netdesign.snow.creep_law import CREEP_LAWS
+    from netdesign.snow.ground import load_glide_tables
+
+    tell(say("glide.heads"), language)
+    for name, table in load_glide_tables().items():
+        for ratio, stored in zip(table.slip_ratios, table.glide_factors, strict=True):
+            measured = measure_glide_factor(CREEP_LAWS[name], ratio)
+            numbers = {"ratio": ratio, "stored": stored, "measured": measured}
+            tell(say("glide.line", law=name, **numbers), language)

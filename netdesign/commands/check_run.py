@@ -1,0 +1,352 @@
+"""Steps of a check once its site is read: solved, sized, judged, written, printed."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from netdesign.commands.report import choose_style, list_wanted, mark_names
+from netdesign.commands.running import (
+    find_exit_code,
+    open_run,
+    report_places,
+    tell_faults,
+    tell_next_steps,
+)
+from netdesign.edge.output import PROFILES_FILE, STUDY_FILE, WHAT_IF_MARK, write_files
+from netdesign.edge.streams import print_json
+
+if TYPE_CHECKING:
+    from netdesign.checks import Standard
+    from netdesign.report.files import ReportStyle
+    from netdesign.report.view.whole import ReportView
+    from netdesign.site.model import Site
+    from netdesign.solving.runner import Runner
+    from netdesign.study.check_run import CheckRun
+    from netdesign.study.check_site import SolvedSite, Watch
+    from netdesign.study.records import Study
+    from netdesign.study.sizing import ReadInstead, SizedCell
+    from netdesign.words.catalogue import Language
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A check that is asked for.
+
+    Attributes
+    ----------
+    site : Site
+        As it was read, with every value.
+    profiles : sequence of Standard
+        Limit profiles, with the floor that was chosen.
+    run : CheckRun
+        Settings, command line and time.
+    outputs : Outputs
+        Places, language, detail and template of the reports.
+    read_instead : callable or None
+        Gives the site with some cells replaced; None without ``--size``.
+    asked : mapping
+        Options of the command line, by their names.
+    """
+
+    site: Site
+    profiles: Sequence[Standard]
+    run: CheckRun
+    outputs: Outputs
+    read_instead: ReadInstead | None
+    asked: Mapping[str, Any]
+
+
+def carry_out(task: Check, site_name: str) -> int:
+    """Exit code of a check; its files are written, its result is printed.
+
+    ``site_name`` is what the next commands are told to read.
+    """
+    asked, language = task.asked, task.outputs.style.language
+    as_json, quiet = asked["as_json"], asked["quiet"]
+    is_sized = task.read_instead is not None
+    solved = len(task.profiles) * (2 if is_sized else 1)
+    with open_run(task.site, task.run, asked, solved) as (runner, progress):
+        studies, sized = check_and_size(
+            *(task.site, task.profiles, task.run, task.read_instead),
+            *(runner, progress),
+        )
+        progress.enter("reports")
+        begun = begin_outputs(task.outputs, studies, runner)
+        views = [] if as_json else _view_studies(studies, language)
+        files = render_outputs(task.outputs, studies, sized, views, begun)
+    lines = tell_sized(sized, studies, language)
+    failed = tell_faults(runner.faults, language)
+    write_files(files, overwrite=asked["force"])
+    if as_json:
+        print_json(_write_documents(studies))
+        return failed or find_exit_code(studies)
+    _print_summaries(studies, views, language, lines, explain=asked["explain"])
+    report_places([list(files)], language, quiet=quiet)
+    if not quiet:
+        verdicts = frozenset(row.verdict for study in studies for row in study.rows)
+        tell_next_steps(verdicts, site_name, language, is_sized=is_sized)
+    return failed or find_exit_code(studies)
+
+
+def _view_studies(studies: Sequence[Study], language: Language) -> list[ReportView]:
+    """Views of the studies, once for reports and terminal."""
+    from netdesign.report.view.whole import build_view
+
+    return [build_view(study, language) for study in studies]
+
+
+def _write_documents(studies: Sequence[Study]) -> str:
+    from netdesign.study.document import write_document
+
+    if len(studies) == 1:
+        return write_document(studies[0])
+    documents = ",\n".join(write_document(study) for study in studies)
+    return f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}'
+
+
+def _print_summaries(
+    studies: Sequence[Study],
+    views: Sequence[ReportView],
+    language: Language,
+    sized: Sequence[str],
+    *,
+    explain: bool,
+) -> None:
+    """Print what each study says, and lines of what ``--size`` found."""
+    from netdesign.report.summary import build_summary
+    from netdesign.report.terminal import open_console, print_lines, print_summary
+
+    console = open_console()
+    for study, view in zip(studies, views, strict=True):
+        summary = build_summary(study, language, view, explain=explain)
+        print_summary(summary, console)
+    print_lines(tuple(sized), console)
+
+
+# Made by other processes, which first read the study: so this one makes the workbook,
+# which takes longest.
+_APART = (".html", ".docx")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outputs:
+    """Places of all files, and the style of the reports.
+
+    Attributes
+    ----------
+    folder : Path or None
+        Of all files; None where none are written.
+    of_studies : list of list of Path
+        Of each profile.
+    sized : list of list of Path
+        Of the what-if studies of ``--size``, as far as there will be any.
+    together : list of Path
+        Of the page that compares several profiles.
+    style : ReportStyle
+        Of the reports.
+    """
+
+    folder: Path | None
+    of_studies: list[list[Path]]
+    sized: list[list[Path]]
+    together: list[Path]
+    style: ReportStyle
+
+
+def plan_outputs(
+    folder: Path | None, profiles: Sequence[str], asked: Mapping[str, Any]
+) -> Outputs:
+    """Places of the outputs of each profile, by their ids.
+
+    ``asked`` are the options of the command line.
+
+    Raises
+    ------
+    OutputError
+        Where something is there.
+    """
+    from netdesign.edge.output import require_free
+    from netdesign.report.files import name_files
+
+    kinds, is_what_if = list_wanted(asked), asked["instead"]
+    names = name_files(
+        folder, profiles, mark_names([STUDY_FILE, *kinds], is_what_if=is_what_if)
+    )
+    is_compared = folder is not None and "report.html" in kinds and len(profiles) > 1
+    page = mark_names([PROFILES_FILE], is_what_if=is_what_if)
+    outputs = Outputs(
+        folder=folder,
+        of_studies=names,
+        sized=mark_paths(names) if asked["size"] else [],
+        together=[folder / name for name in page] if folder and is_compared else [],
+        style=choose_style(asked),
+    )
+    groups = (*outputs.of_studies, *outputs.sized, outputs.together)
+    require_free([path for group in groups for path in group], overwrite=asked["force"])
+    return outputs
+
+
+def begin_outputs(
+    outputs: Outputs, studies: Sequence[Study], runner: Runner
+) -> dict[Path, Callable[[], bytes]]:
+    """Reports that processes of the run make while this one makes the others.
+
+    What is returned for each waits for it.
+    """
+    from netdesign.report.files import render_kind
+
+    pool = runner.workers.pool
+    if pool is None:
+        return {}
+    return {
+        path: pool.begin(render_kind, path.suffix, study, outputs.style)
+        for study, paths in zip(studies, outputs.of_studies, strict=True)
+        for path in paths
+        if path.suffix in _list_apart(paths)
+    }
+
+
+def _list_apart(paths: Sequence[Path]) -> list[str]:
+    """Suffixes of a study's files that other processes make.
+
+    Not of its only file, nor of a page that is printed, too.
+    """
+    kinds = {path.suffix for path in paths}
+    apart = [one for one in _APART if not (one == ".html" and ".pdf" in kinds)]
+    return apart if len(paths) > 1 else []
+
+
+def render_outputs(
+    outputs: Outputs,
+    studies: Sequence[Study],
+    sized: Sequence[Sized],
+    views: Sequence[ReportView],
+    begun: Mapping[Path, Callable[[], bytes]],
+) -> dict[Path, bytes]:
+    """Contents of all files; ``begun`` are those of `begin_outputs`."""
+    from netdesign.report.files import render_files
+    from netdesign.report.page.comparison_page import render_comparison
+
+    style = outputs.style
+    files = render_files(studies, outputs.of_studies, style, views, begun)
+    files |= render_sized(sized, outputs.sized, style)
+    for place in outputs.together:
+        files[place] = render_comparison(studies, style.language)
+    return files
+
+
+_SIZE = "--size"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sized:
+    """Smallest types under one profile; no study where nothing is replaced."""
+
+    cells: Sequence[SizedCell]
+    study: Study | None
+
+
+def check_and_size(
+    site: Site,
+    profiles: Sequence[Standard],
+    run: CheckRun,
+    read: ReadInstead | None,
+    runner: Runner,
+    watch: Watch,
+) -> tuple[list[Study], list[Sized]]:
+    """Studies of a site by profiles, and its smallest types where ``read`` is given."""
+    from netdesign.study.check_site import check_site, judge_solved, solve_rows
+
+    if read is None:
+        return check_site(site, profiles, run, runner, watch), []
+    solved = solve_rows(site, run, runner, watch)
+    studies = judge_solved(solved, profiles, run, runner, watch)
+    return studies, _size(solved, studies, profiles, run, read, runner, watch)
+
+
+def _size(
+    solved: SolvedSite,
+    studies: Sequence[Study],
+    profiles: Sequence[Standard],
+    run: CheckRun,
+    read: ReadInstead,
+    runner: Runner,
+    watch: Watch,
+) -> list[Sized]:
+    """Smallest types for each profile, and the study of the site with all of them.
+
+    ``read`` gives the site with some cells replaced.
+    """
+    from netdesign.study.check_site import judge_solved, solve_rows
+    from netdesign.study.sizing import size_site
+
+    sized = []
+    for study, profile in zip(studies, profiles, strict=True):
+        cells = size_site(solved, study, profile, run, read)
+        instead = {one.cell: one.now for one in cells if one.now and not one.is_asked}
+        if not instead:
+            sized.append(Sized(cells=cells, study=None))
+            continue
+        site = read(instead)
+        own_run = replace(run, command=write_command(run.command, instead))
+        again = solve_rows(site, own_run, runner, watch, solved)
+        (what_if,) = judge_solved(again, [profile], own_run, runner, watch)
+        sized.append(Sized(cells=cells, study=what_if))
+    return sized
+
+
+def write_command(command: str, instead: Mapping[str, str]) -> str:
+    """Command that makes a what-if study again, from the one that sized it."""
+    from netdesign.site.replaced import write_replacement
+
+    words = [word for word in shlex.split(command) if word != _SIZE]
+    for cell, text in instead.items():
+        words += ["--what-if", write_replacement(cell, text)]
+    return shlex.join(words)
+
+
+def mark_paths(names: Sequence[Sequence[Path]]) -> list[list[Path]]:
+    """Places of what-if outputs beside those of each study."""
+    return [
+        [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in group]
+        for group in names
+    ]
+
+
+def render_sized(
+    sized: Sequence[Sized], names: Sequence[Sequence[Path]], style: ReportStyle
+) -> dict[Path, bytes]:
+    """Contents of the what-if outputs, of those profiles that have any."""
+    from netdesign.report.files import render_files
+
+    found = [
+        (one.study, group) for one, group in zip(sized, names, strict=True) if one.study
+    ]
+    return render_files(
+        [study for study, _ in found], [group for _, group in found], style
+    )
+
+
+def tell_sized(
+    sized: Sequence[Sized], studies: Sequence[Study], language: Language
+) -> list[str]:
+    """Lines of what was found for each profile, and what those what-if studies say."""
+    from netdesign.report.view.what_if import list_sized, tell_overall
+    from netdesign.report.words import Words
+
+    words = Words(language)
+    lines: list[str] = []
+    for one, built in zip(sized, studies, strict=False):  # none, if not asked for
+        lines.append(words("what_if.sized_for", profile=built.profile.id))
+        lines += list_sized(one.cells, words) or [words("what_if.nothing")]
+        if one.study is not None:
+            lines.append(tell_overall(one.study, words))
+        elif any(cell.is_asked for cell in one.cells):
+            lines.append(words("what_if.no_study_asked"))
+        elif one.cells:
+            lines.append(words("what_if.no_study"))
+    return lines
