@@ -170,6 +170,6 @@ def test_installed_program_has_its_templates(installed, tmp_path):
     assert "7 net rows" in counted
     report = (
         "from netdesign.edge.given_files import find_resource;"
-        "print((find_resource('templates') / 'report.html').is_file())"
+        "print((find_resource('templates') / 'page.html').is_file())"
     )
     assert call(installed / "python", "-c", report, cwd=tmp_path) == "True\n"
