@@ -8,7 +8,7 @@ from netdesign.errors import NetDesignError
     ("folder", "file"),
     [
         ("standards", "nf-p-95-304-style/document.toml"),
-        ("templates", "report.html"),
+        ("templates", "page.html"),
         ("templates", "example_site.toml"),
     ],
 )

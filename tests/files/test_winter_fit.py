@@ -9,7 +9,9 @@ import pytest
 
 from netdesign.checks.result import Band
 from netdesign.files.winter_fit import write_fit
-from netdesign.report.page.winter_fit import view_fit
+from netdesign.report.blocks.block import Figure, Heading, Part
+from netdesign.report.blocks.table import Table
+from netdesign.report.page.winter_fit import show_fit
 from netdesign.report.words import Words
 from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.fit import ForceBand, SeasonFit
@@ -74,12 +76,21 @@ def test_every_ending_is_written_and_shown(ending, language):
     assert not friction["is_constrained"]
     assert slip["is_constrained"] == (ending == "fitted")
     words = Words(language)
-    view = view_fit(document, 390.0, words)
-    assert view["is_fitted"] == (ending == "fitted")
-    assert words("fit_parameter.slack") in view["known"]
-    assert view["svg"].count("<circle") == 4  # three readings, and their name
-    worth = [row[-1].text for row in view["parameters"].rows]
+    blocks = list(show_fit(document, 390.0, words))
+    frame = next(one for one in blocks if isinstance(one, Part))
+    assert frame.look == ("notes" if ending == "fitted" else "notes open")
+    (told,) = frame.blocks
+    assert any(words("fit_parameter.slack") in one for one in told.items)
+    (figure,) = (one for one in blocks if isinstance(one, Figure))
+    assert figure.svg.count("<circle") == 4  # three readings, and their name
+    caption = words("fit_page.parameters_caption")
+    worth = [row[-1].text for row in list_tables(blocks)[caption].rows]
     assert (words("fit_page.unconstrained") in worth) == (ending == "fitted")
+
+
+def list_tables(blocks):
+    """Tables by their captions."""
+    return {one.caption: one for one in blocks if isinstance(one, Table)}
 
 
 def test_without_an_answer_no_number_is_shown():
@@ -88,19 +99,14 @@ def test_without_an_answer_no_number_is_shown():
     json.dumps(document, allow_nan=False)
     assert (document["residuals"], document["correlations"]) == ([], [])
     assert [one["posterior_deviation"] for one in document["parameters"]] == [None] * 2
-    view = view_fit(document, 390.0, Words("en"))
-    assert view["svg"] == ""
-    assert not view["residuals"].rows
+    blocks = list(show_fit(document, 390.0, Words("en")))
+    assert not any(isinstance(one, Figure) for one in blocks)
+    assert Words("en")("fit_page.residuals_caption") not in list_tables(blocks)
 
 
 def test_few_readings_have_a_sentence_alone():
     few = SeasonFit(winter="", ending="few", readings=READINGS[:1], noise=Noise())
     document = write_fit(few, SERIES, "en")
     assert "1 usable day with a reading" in document["why"]
-    view = view_fit(document, 390.0, Words("en"))
-    assert view["forces"].rows == view["parameters"].rows == ()
-    assert view["svg"] == ""
-
-
-def test_a_row_without_a_fit_has_no_section():
-    assert view_fit(None, 390.0, Words("en")) is None
+    blocks = list(show_fit(document, 390.0, Words("en")))
+    assert [type(one) for one in blocks] == [Heading, Part]  # which has the sentence
