@@ -269,14 +269,20 @@ def apply(operation: str, *operands: Operand) -> Quantity:
     return replace(made, low=low, value=value, high=high)
 
 
+def _name(quantity: Quantity) -> str:
+    """Symbol, or the operation with its quantities where none is given."""
+    parts = [_name(one) for one in quantity.of]
+    return quantity.symbol or f" {quantity.operation} ".join(parts)
+
+
 def _find_lack(operation: str, of: Sequence[Quantity]) -> Message | None:
     """Lack of a result where the ends of known operands would not give its ends."""
     known = OPERATIONS[operation]
     for one in of:
         if take_end(one, -1) < known.least or take_end(one, 1) > known.most:
-            return say("calculation.outside", operation=operation, symbol=one.symbol)
+            return say("calculation.outside", operation=operation, symbol=_name(one))
     if operation == "/" and take_end(of[1], -1) == 0.0:
-        return say("calculation.over_nothing", symbol=of[1].symbol)
+        return say("calculation.over_nothing", symbol=_name(of[1]))
     return None
 
 

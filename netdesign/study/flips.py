@@ -29,15 +29,8 @@ from netdesign.words.message import Message, say
 CLOSE = 0.9  # utilisation from which a passing check is told where it flips
 _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
-# Growth of a case's force beyond that of the governing one, logarithms, for each of the
-# moved quantity, and for none. At most 0.57 of thickness (1,023 rivals) and 0.09 of
-# density (358) were seen, taken higher; assumed.
-_DRIFTS, _STILL_DRIFT = {"thickness": 1.0, "density": 0.3}, 0.01
 _LEAST_FLOOR = 1e-3  # utilisation by a floor, that a secant is taken with
 _MOST_ROUNDS = 4
-# Utilisation up to which a rival does not fail between two others of less and of more
-# friction: in 520 of such rivals it lay 0.07 % above the larger one of theirs at most.
-_ALONE = 0.998
 
 
 def find_spacing_change(

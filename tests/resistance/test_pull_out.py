@@ -3,7 +3,7 @@
 import pytest
 
 from netdesign.calculation.quantity import given
-from netdesign.checks.forces import resist_by_tests
+from netdesign.checks.forces import resist_by_friction, resist_by_tests
 from netdesign.errors import ModelError
 from netdesign.resistance.catalogue import find_bond_stress
 from netdesign.resistance.pull_out import (
@@ -79,3 +79,21 @@ def test_catalogue_gives_the_least_of_a_range_with_its_source():
 def test_unknown_ground_or_grouting_names_what_is_known(ground, grouting, named):
     with pytest.raises(ModelError, match=named):
         find_bond_stress(ground, grouting)
+
+
+@pytest.mark.parametrize("factor", [0.0, -1.2, -1e-9])
+@pytest.mark.parametrize("place", ["on_mean", "on_least"])
+def test_a_factor_that_is_not_above_zero_gives_no_resistance(place, factor):
+    factors = {"on_mean": 1.3, "on_least": 1.2} | {place: factor}
+    assert correlate(mean=400.0, least=300.0, **factors) is None
+
+
+@pytest.mark.parametrize(("friction", "pressing"), [(0.4, -5.0), (-0.4, 100.0)])
+def test_a_base_that_nothing_presses_has_no_friction(friction, pressing):
+    found = resist_by_friction(
+        given("μ_b", friction, "-", "test"),
+        given("γ_E", 1.5, "-", "test"),
+        given("V_k", pressing, "kN", "test"),
+    )
+    assert found.value is None
+    assert found.lacks

@@ -155,6 +155,7 @@ def require_tables_agree(row):
             assert 0.0 < difference < ALLOWED
         else:
             assert bound["max_kN"] == pytest.approx(again["screened_kN"], rel=1e-9)
+    assert any(bound["confirmation"] for bound in row["envelope"]["bounds"])
 
 
 def test_tables_of_a_searched_row_agree(monkeypatch, capsys, example):
