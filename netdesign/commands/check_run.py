@@ -22,7 +22,6 @@ from netdesign.edge.streams import print_json
 if TYPE_CHECKING:
     from netdesign.checks import Standard
     from netdesign.report.files import ReportStyle
-    from netdesign.report.view.whole import ReportView
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.study.check_run import CheckRun
@@ -76,27 +75,19 @@ def carry_out(task: Check, site_name: str) -> int:
         )
         progress.enter("reports")
         begun = begin_outputs(task.outputs, studies, runner)
-        views = [] if as_json else _view_studies(studies, language)
-        files = render_outputs(task.outputs, studies, sized, views, begun)
+        files = render_outputs(task.outputs, studies, sized, begun)
     lines = tell_sized(sized, studies, language)
     failed = tell_faults(runner.faults, language)
     write_files(files, overwrite=asked["force"])
     if as_json:
         print_json(_write_documents(studies))
         return failed or find_exit_code(studies)
-    _print_summaries(studies, views, language, lines, explain=asked["explain"])
+    _print_summaries(studies, language, lines, explain=asked["explain"])
     report_places([list(files)], language, quiet=quiet)
     if not quiet:
         verdicts = frozenset(row.verdict for study in studies for row in study.rows)
         tell_next_steps(verdicts, site_name, language, is_sized=is_sized)
     return failed or find_exit_code(studies)
-
-
-def _view_studies(studies: Sequence[Study], language: Language) -> list[ReportView]:
-    """Views of the studies, once for reports and terminal."""
-    from netdesign.report.view.whole import build_view
-
-    return [build_view(study, language) for study in studies]
 
 
 def _write_documents(studies: Sequence[Study]) -> str:
@@ -110,7 +101,6 @@ def _write_documents(studies: Sequence[Study]) -> str:
 
 def _print_summaries(
     studies: Sequence[Study],
-    views: Sequence[ReportView],
     language: Language,
     sized: Sequence[str],
     *,
@@ -121,8 +111,8 @@ def _print_summaries(
     from netdesign.report.terminal import open_console, print_lines, print_summary
 
     console = open_console()
-    for study, view in zip(studies, views, strict=True):
-        summary = build_summary(study, language, view, explain=explain)
+    for study in studies:
+        summary = build_summary(study, language, explain=explain)
         print_summary(summary, console)
     print_lines(tuple(sized), console)
 
@@ -224,7 +214,6 @@ def render_outputs(
     outputs: Outputs,
     studies: Sequence[Study],
     sized: Sequence[Sized],
-    views: Sequence[ReportView],
     begun: Mapping[Path, Callable[[], bytes]],
 ) -> dict[Path, bytes]:
     """Contents of all files; ``begun`` are those of `begin_outputs`."""
@@ -232,7 +221,7 @@ def render_outputs(
     from netdesign.report.page.comparison_page import render_comparison
 
     style = outputs.style
-    files = render_files(studies, outputs.of_studies, style, views, begun)
+    files = render_files(studies, outputs.of_studies, style, begun)
     files |= render_sized(sized, outputs.sized, style)
     for place in outputs.together:
         files[place] = render_comparison(studies, style.language)
@@ -335,7 +324,7 @@ def tell_sized(
     sized: Sequence[Sized], studies: Sequence[Study], language: Language
 ) -> list[str]:
     """Lines of what was found for each profile, and what those what-if studies say."""
-    from netdesign.report.view.what_if import list_sized, tell_overall
+    from netdesign.report.what_if import list_sized, tell_overall
     from netdesign.report.words import Words
 
     words = Words(language)

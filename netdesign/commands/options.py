@@ -303,7 +303,7 @@ report_options = join(
     click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases."),
     choice(
         "--detail",
-        ["summary", "full", "figures"],
+        ["summary", "full"],
         "Of report.html, report.docx: summary leaves out what only a reviewer of a "
         "row needs; figures unfolds every figure of the checks, also on paper.",
         default="full",

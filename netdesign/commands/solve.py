@@ -204,7 +204,7 @@ def _describe_support(
     """Forces of both sets, ropes and row end, a line each."""
     if support is None:
         return
-    from netdesign.report.view.solved_support import find_force
+    from netdesign.report.page.solved_support import find_force
     from netdesign.structure.members import REPORTED_MEMBERS
 
     if "reason" in support:

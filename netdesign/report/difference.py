@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
-from netdesign.report.view.check_view import find_governing
+from netdesign.report.governing import find_governing
 from netdesign.report.words import Words, find_choice
 from netdesign.site.model import InputEcho
 from netdesign.study.records import CheckRecord, RowStudy, Study

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
-    from netdesign.report.view.whole import Detail, ReportView
+    from netdesign.report.sections.whole import Detail
     from netdesign.study.records import Study
 
 
@@ -58,30 +58,24 @@ def render_files(
     studies: Sequence[Study],
     paths: Sequence[Sequence[Path]],
     style: ReportStyle | None = None,
-    views: Sequence[ReportView] = (),
     begun: Mapping[Path, Callable[[], bytes]] = MappingProxyType({}),
 ) -> dict[Path, bytes]:
     """Contents of all files; the suffix says what each of them is.
 
-    ``views`` are those of the studies in the language of the style, if they are known;
     ``begun`` are files that other processes make, and what waits for them.
     """
     contents: dict[Path, bytes] = {}
-    known: Sequence[ReportView | None] = views or [None] * len(studies)
-    for study, of_study, view in zip(studies, paths, known, strict=True):
+    for study, of_study in zip(studies, paths, strict=True):
         wanted = {path.suffix for path in of_study if path not in begun}
-        rendered = _render(study, wanted, style or ReportStyle(), view)
+        rendered = _render(study, wanted, style or ReportStyle())
         contents |= {path: rendered.get(path.suffix, b"") for path in of_study}
     return contents | {path: finish() for path, finish in begun.items()}
 
 
-def render_kind(
-    kind: str, study: Study, style: ReportStyle, view: ReportView | None = None
-) -> bytes:
+def render_kind(kind: str, study: Study, style: ReportStyle) -> bytes:
     """Content of one file of a study, independent of the others.
 
-    Another process can make it, for function, arguments and result can be pickled. To
-    pickle and read a view takes as long as to build it: it is not sent along.
+    Another process can make it, for function, arguments and result can be pickled.
 
     Parameters
     ----------
@@ -91,36 +85,28 @@ def render_kind(
         What is shown.
     style : ReportStyle
         Language, detail and look.
-    view : ReportView, optional
-        Of this study in the language of the style, where it is there already.
     """
-    return _KINDS[kind](study, style, view)
+    return _KINDS[kind](study, style)
 
 
-def _render(
-    study: Study, wanted: Set[str], style: ReportStyle, view: ReportView | None
-) -> dict[str, bytes]:
+def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, bytes]:
     """Wanted formats of a study; what several of them need is made once."""
-    if view is None and wanted & _OF_A_VIEW:
-        from netdesign.report.view.whole import build_view
-
-        view = build_view(study, style.language)
     alone = sorted(wanted - {".pdf"})
-    rendered = {kind: render_kind(kind, study, style, view) for kind in alone}
+    rendered = {kind: render_kind(kind, study, style) for kind in alone}
     if ".pdf" in wanted:
-        page = rendered.get(".html") or _render_page(study, style, view)
+        page = rendered.get(".html") or _render_page(study, style)
         rendered[".pdf"] = _print_page(page)
     return rendered
 
 
-def _render_page(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
+def _render_page(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.page.html import render_html
 
-    return render_html(study, style.language, style.detail, view).encode()
+    return render_html(study, style.language, style.detail).encode()
 
 
-def _render_pdf(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
-    return _print_page(_render_page(study, style, view))
+def _render_pdf(study: Study, style: ReportStyle) -> bytes:
+    return _print_page(_render_page(study, style))
 
 
 def _print_page(page: bytes) -> bytes:
@@ -129,31 +115,31 @@ def _print_page(page: bytes) -> bytes:
     return render_pdf(page.decode())
 
 
-def _render_docx(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
+def _render_docx(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.document.word import render_document
 
-    return render_document(study, style.language, style.detail, view, style.template)
+    return render_document(study, style.language, style.detail, style.template)
 
 
-def _render_xlsx(study: Study, style: ReportStyle, view: ReportView | None) -> bytes:
+def _render_xlsx(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.workbook.excel import render_workbook
 
-    return render_workbook(study, style.language, view)
+    return render_workbook(study, style.language)
 
 
-def _render_csv(study: Study, style: ReportStyle, _: ReportView | None) -> bytes:
-    from netdesign.report.view.case_table import render_cases
+def _render_csv(study: Study, style: ReportStyle) -> bytes:
+    from netdesign.report.case_table import render_cases
 
     return render_cases(study, style.language)
 
 
-def _render_json(study: Study, _: ReportStyle, __: ReportView | None) -> bytes:
+def _render_json(study: Study, _: ReportStyle) -> bytes:
     from netdesign.study.document import write_document
 
     return write_document(study).encode()
 
 
-_KINDS: dict[str, Callable[[Study, ReportStyle, ReportView | None], bytes]] = {
+_KINDS: dict[str, Callable[[Study, ReportStyle], bytes]] = {
     ".html": _render_page,
     ".pdf": _render_pdf,
     ".docx": _render_docx,
@@ -161,4 +147,3 @@ _KINDS: dict[str, Callable[[Study, ReportStyle, ReportView | None], bytes]] = {
     ".csv": _render_csv,
     ".json": _render_json,
 }
-_OF_A_VIEW = {".html", ".pdf", ".docx", ".xlsx"}

@@ -1,22 +1,35 @@
-"""Study and its view -> the summary that a terminal shows."""
+"""Study -> the summary that a terminal shows."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+from netdesign.outcome import Verdict
+from netdesign.report.gate import require_consistent
+from netdesign.report.governing import SEVERITY, find_governing, rank_check
+from netdesign.report.sections.basis import list_notes, name_cases, tell_floor
+from netdesign.report.sections.changes import list_changes
+from netdesign.report.sections.checks import name_case, tell_briefly, tell_loads
+from netdesign.report.sections.decision import list_open_points
+from netdesign.report.sections.verify import tell_cases
 from netdesign.report.terminal import Headings, RowLine, Summary
-from netdesign.report.view.check_view import rank_check
-from netdesign.report.view.row_tables import describe_flip, is_far_from_limit
-from netdesign.report.view.whole import ReportView, RowView, build_view
-from netdesign.report.words import MISSING, Words, show_check, show_text
-from netdesign.study.records import ChangeRecord, Study
+from netdesign.report.what_if import mark_verdict
+from netdesign.report.words import (
+    MISSING,
+    Words,
+    show_check,
+    show_text,
+    show_verdict,
+)
+from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
+
+_MOST_POINTS = 3  # open points of a summary; --explain has them all
 
 
 def build_summary(
-    study: Study,
-    language: Language = "en",
-    view: ReportView | None = None,
-    *,
-    explain: bool = False,
+    study: Study, language: Language = "en", *, explain: bool = False
 ) -> Summary:
     """Summary of a study in a language.
 
@@ -25,125 +38,104 @@ def build_summary(
     study : Study
         What was found.
     language : str
-        Of the summary, and of ``view``.
-    view : ReportView, optional
-        That of the study, if it is known.
+        Of the summary.
     explain : bool
-        Whether to say what would flip each failing, unproven or close check.
+        Whether to say all that is open, the loads, and what would turn each check.
 
     Raises
     ------
     NetDesignError
         If the study contradicts its own numbers.
     """
-    words, view = Words(language), view or build_view(study, language)
-    none = words("heading.no_check")
+    require_consistent(study)
+    words = Words(language)
+    verdict = mark_verdict(study, words)
+    further = tuple(_explain(study, words)) if explain else ()
     return Summary(
-        headings=_name_columns(words),
-        rows=tuple(_show_row(row, none) for row in view.rows),
-        mark=view.mark,
-        legend=view.legend,
-        lines=tuple(_list_lines(view, words)),
+        headings=Headings(
+            row=words("heading.net_row"),
+            verdict=words("heading.verdict"),
+            check=words("heading.governing_check"),
+            utilisation=words("heading.utilisation"),
+            reason=words("heading.reason"),
+        ),
+        rows=tuple(_show_row(row, words) for row in study.rows),
+        mark=words("what_if.mark") if study.what_if else "",
+        lines=tuple(_list_lines(study, words, is_short=not explain)),
         overall=words("show.overall", verdict=""),
-        verdict=view.verdict.word,
-        style=view.verdict.style,
-        meaning=view.verdict.meaning,
-        changes=tuple(list_changes(study, words)) if explain else (),
+        verdict=verdict.word,
+        style=verdict.style,
+        meaning=verdict.meaning,
+        changes=further,
     )
 
 
-def _name_columns(words: Words) -> Headings:
-    return Headings(
-        row=words("heading.net_row"),
-        verdict=words("heading.verdict"),
-        check=words("heading.governing_check"),
-        utilisation=words("heading.utilisation"),
-        utilisation_band=words("show.utilisation_band"),
-        demand=words("heading.demand"),
-        resistance=words("heading.resistance"),
-        case=words("heading.case"),
-    )
-
-
-def _show_row(row: RowView, none: str) -> RowLine:
-    check, verdict = row.governing, row.verdict
-    known = {"id": row.id, "verdict": verdict.word, "style": verdict.style}
-    if check is None:
-        return RowLine(
-            **known,
-            check=none,
-            check_and_case=none,
-            utilisation=MISSING,
-            band="",
-            demand=MISSING,
-            resistance=MISSING,
-            case=MISSING,
-        )
+def _show_row(row: RowStudy, words: Words) -> RowLine:
+    check, verdict = find_governing(row.checks), show_verdict(row.verdict, words)
     return RowLine(
-        **known,
-        check=check.title,
-        check_and_case=f"{check.title}\n{check.case_short}",
-        utilisation=check.utilisation,
-        band="" if check.band == MISSING else check.band,
-        demand=check.demand,
-        resistance=check.resistance,
-        case=check.case_short,
+        id=show_text(row.id),
+        verdict=verdict.word,
+        style=verdict.style,
+        check=show_check(words, check) if check else words("heading.no_check"),
+        utilisation=words.show_number("utilisation", check.used) if check else MISSING,
+        reason=tell_briefly(row, words),
     )
 
 
-def _list_lines(view: ReportView, words: Words) -> list[str]:
-    def name(label: str, text: str) -> str:
-        return words("show.label", label=label, text=text)
+def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
+    """Counts, and what is open."""
+    rows = count_verdicts((row.verdict for row in study.rows), words)
+    checks = count_verdicts(
+        (c.verdict for row in study.rows for c in row.checks), words
+    )
+    told = {"rows": rows, "checks": checks, "cases": tell_cases(study, words)}
+    yield words("show.counts", **told)
+    points = list(list_open_points(study, words))
+    most = _MOST_POINTS if is_short and len(points) > _MOST_POINTS + 1 else len(points)
+    yield from (
+        words("show.open_point", number=number, point=point)
+        for number, point in enumerate(points[:most], 1)
+    )
+    if points[most:]:
+        yield words("show.more_points", count=len(points) - most)
 
-    lines = [name(row.id, reason) for row in view.rows for reason in row.reasons]
-    lines = lines or [words("show.reasons_none")]
-    lines += [
-        name(words("show.label", label=row.id, text=row.governing.title), load)
-        for row in view.rows
-        if row.governing and (load := row.governing.load)
-    ]
-    lines += [name(label, text) for label, text in view.counts]
-    lines += [name(words("heading.declared_elsewhere"), one) for one in view.declared]
-    assumed = view.assumed_line or words("show.none")
-    notes = [words("show.note", note=note) for note in view.notes]
-    return [*lines, words("show.assumed_line", values=assumed), *notes]
 
-
-def list_changes(study: Study, words: Words) -> list[str]:
-    """Lines of what flips each failing, unproven or close check; else why nothing.
-
-    Of each row the governing check comes first.
-    """
-    checks = [
-        (row, check)
-        for row in study.rows
-        for check in sorted(row.checks, key=rank_check)
-    ]
-    found = []
-    for row, check in checks:
-        place = words(
-            "show.row_and_check",
-            row=row.id,
-            check=show_check(words, check),
-            verdict=words(f"verdict.{check.verdict}"),
+def count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
+    """Numbers of verdicts, the worst first: ``1 FAIL, 4 PASS``."""
+    counts = Counter(verdicts)
+    shown = [
+        words(
+            "show.count_verdict",
+            count=counts[verdict],
+            verdict=words(f"verdict.{verdict}"),
         )
-        for change in check.changes:
-            told = _describe_change(change, words)
-            found.append(show_text(words("show.label", label=place, text=told)))
-    if found:
-        return found
-    is_far = all(is_far_from_limit(check) for _, check in checks)
-    return [words("show.no_change" if is_far else "show.no_change_alone")]
+        for verdict in SEVERITY
+        if counts[verdict]
+    ]
+    return ", ".join(shown) or words("show.none")
 
 
-def _describe_change(change: ChangeRecord, words: Words) -> str:
-    text = describe_flip(change, words)
-    if change.bound is not None:
-        text = words("show.passes_with", change=text)
-    if change.solves == 1:
-        text = words("show.after_one_solve", change=text)
-    elif change.solves:
-        text = words("show.after_solves", change=text, count=change.solves)
-    if change.note is None:
-        return text
-    return words("show.with_note", text=text, note=words.show(change.note))
+def _explain(study: Study, words: Words) -> Iterator[str]:
+    """Loads of the governing checks, reasons, notes, and what turns each check."""
+    yield name_cases(study, words)
+    for row in study.rows:
+        check = find_governing(row.checks)
+        if check and (loads := tell_loads(check, words)):
+            place = f"{show_text(row.id)}, {show_check(words, check)}"
+            told = words.join([name_case(check, words), loads])
+            yield words("show.label", label=place, text=told)
+        for reason in row.reasons:
+            text = words.show(reason)
+            yield words("show.label", label=show_text(row.id), text=text)
+    floor = tell_floor(study, words)
+    yield words("show.label", label=words("heading.floor"), text=floor)
+    for note in list_notes(study, words):
+        yield words("show.note", note=note)
+    yield from list_changes(
+        [
+            (row.id, check)
+            for row in study.rows
+            for check in sorted(row.checks, key=rank_check)
+        ],
+        words,
+    )

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-_NARROW = 100  # consoles of fewer columns: no bands, cases below their checks
 _PIPE = 160  # columns of an output that is no terminal, where no line is folded
 _STYLES = {
     "pass": "green",
@@ -29,36 +28,23 @@ class Headings:
     verdict: str
     check: str
     utilisation: str
-    utilisation_band: str
-    demand: str
-    resistance: str
-    case: str
+    reason: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowLine:
     """One net row with its governing check, in words.
 
-    Attributes
-    ----------
-    style : str
-        Of the verdict: "pass", "fail", "not-proven" or "declared".
-    check_and_case : str
-        Governing check with its case below, for narrow consoles.
-    band : str
-        Of the utilisation; "" where there is none.
+    ``style`` of the verdict is "pass", "fail", "not-proven" or "declared"; ``reason``
+    is "" of a pass.
     """
 
     id: str
     verdict: str
     style: str
     check: str
-    check_and_case: str
     utilisation: str
-    band: str
-    demand: str
-    resistance: str
-    case: str
+    reason: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,19 +56,18 @@ class Summary:
     mark : str
         Mark of a what-if; "" of the site as built.
     lines : tuple of str
-        Reasons, loads, counts, assumed values and notes, below the table.
+        Counts, and what is open, below the table.
     overall, meaning : str
         What stands before and behind the verdict of the whole.
     style : str
         Of that verdict, as in `RowLine`.
     changes : tuple of str
-        What would flip each check, where that was asked for.
+        What ``--explain`` adds.
     """
 
     headings: Headings
     rows: tuple[RowLine, ...]
     mark: str
-    legend: str
     lines: tuple[str, ...]
     overall: str
     verdict: str
@@ -102,7 +87,7 @@ def open_console() -> Console:
 
 
 def print_summary(summary: Summary, console: Console) -> None:
-    """Print one line per net row, then reasons and assumed values, then changes.
+    """Print one line per net row, the verdict, what is open, and explanations.
 
     Colour, width and destination are those of ``console``; texts of the site
     are never read as markup.
@@ -112,11 +97,10 @@ def print_summary(summary: Summary, console: Console) -> None:
     if summary.mark:
         console.print(Text(summary.mark, style="bold"), soft_wrap=True)
     if summary.rows:
-        console.print(_build_table(summary, is_narrow=console.width < _NARROW))
-        console.print(Text(summary.legend), style="dim", soft_wrap=True)
-    print_lines(summary.lines, console)
+        console.print(_build_table(summary))
     overall = Text(summary.overall).append_text(_word(summary))
     console.print(overall.append(f" - {summary.meaning}"), soft_wrap=True)
+    print_lines(summary.lines, console)
     print_lines(summary.changes, console)
 
 
@@ -128,7 +112,7 @@ def print_lines(lines: tuple[str, ...], console: Console) -> None:
         console.print(Text(line), soft_wrap=True)
 
 
-def _build_table(summary: Summary, *, is_narrow: bool) -> Table:
+def _build_table(summary: Summary) -> Table:
     from rich.table import Table
 
     headings = summary.headings
@@ -136,25 +120,17 @@ def _build_table(summary: Summary, *, is_narrow: bool) -> Table:
     table.add_column(headings.row, overflow="fold", min_width=4)
     table.add_column(headings.verdict, no_wrap=True)
     table.add_column(headings.check, overflow="fold", min_width=13)
-    ratio = headings.utilisation if is_narrow else headings.utilisation_band
-    table.add_column(ratio, no_wrap=True)
-    for heading in (headings.demand, headings.resistance):
-        table.add_column(heading, justify="right", no_wrap=True)
-    if not is_narrow:
-        table.add_column(headings.case, no_wrap=True)
+    table.add_column(headings.utilisation, justify="right", no_wrap=True)
+    table.add_column(headings.reason, overflow="fold")
     for row in summary.rows:
-        table.add_row(*_list_cells(row, is_narrow=is_narrow))
+        table.add_row(*_list_cells(row))
     return table
 
 
-def _list_cells(row: RowLine, *, is_narrow: bool) -> list[Text]:
+def _list_cells(row: RowLine) -> list[Text]:
     from rich.text import Text
 
-    if is_narrow:
-        texts = [row.check_and_case, row.utilisation, row.demand, row.resistance]
-    else:
-        ratio = f"{row.utilisation} ({row.band})" if row.band else row.utilisation
-        texts = [row.check, ratio, row.demand, row.resistance, row.case]
+    texts = [row.check, row.utilisation, row.reason]
     return [Text(row.id), _word(row), *map(Text, texts)]
 
 

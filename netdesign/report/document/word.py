@@ -9,8 +9,7 @@ from netdesign.report.document.markup import POINT, list_runs, parse, write_runs
 from netdesign.report.document.package import pack, set_properties
 from netdesign.report.document.template import open_document
 from netdesign.report.document.writer import Writer, write_field
-from netdesign.report.sections.whole import build_report
-from netdesign.report.view.whole import Detail, ReportView, build_view
+from netdesign.report.sections.whole import Detail, build_report, title_pages
 from netdesign.report.words import Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
@@ -20,7 +19,6 @@ def render_document(
     study: Study,
     language: Language = "en",
     detail: Detail = "full",
-    view: ReportView | None = None,
     template: bytes | None = None,
 ) -> bytes:
     """Document of a study; the same study and template give the same bytes.
@@ -32,9 +30,7 @@ def render_document(
     language : str
         ``en``, ``fr`` or ``de``.
     detail : str
-        As of the page on paper: ``figures`` has every figure of the checks.
-    view : ReportView, optional
-        Of this study in this language, where it is there already.
+        ``summary`` leaves out the annexes.
     template : bytes, optional
         Docx whose styles, page, header and footer are kept.
 
@@ -44,23 +40,23 @@ def render_document(
         If the study contradicts its own numbers.
     """
     words = Words(language)
-    view = view or build_view(study, language)
+    running = title_pages(study, words)
     document = open_document(template)
     styles.set_language(document, language)
     to = Writer(document=document, words=words)
-    _write_footer(to, view)
-    to.write(build_report(study, view, words, detail))
+    _write_footer(to, running)
+    to.write(build_report(study, words, detail))
     set_properties(
         document,
         title=words("heading.anchor_check"),
-        subject=view.running_title,
-        author=view.prepared,
+        subject=running,
+        author=study.project.author,
         started=study.provenance.started,
     )
     return pack(document)
 
 
-def _write_footer(to: Writer, view: ReportView) -> None:
+def _write_footer(to: Writer, running: str) -> None:
     """Running title, section and page; a template's own footer stays."""
     document = to.document
     section: Any = document.sections[-1]
@@ -72,7 +68,7 @@ def _write_footer(to: Writer, view: ReportView) -> None:
     right = round(POINT * to.width_pt)
     tab = "<w:r><w:tab/></w:r>"
     runs = (
-        write_runs(list_runs(view.running_title))
+        write_runs(list_runs(running))
         + tab
         + write_field("STYLEREF 1")
         + tab

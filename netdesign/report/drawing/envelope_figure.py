@@ -9,7 +9,7 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame, list_ticks
 from netdesign.report.drawing.sketch import Point, Sketch
-from netdesign.report.view.tables import list_loaded
+from netdesign.report.governing import list_loaded
 from netdesign.report.words import (
     ENGLISH,
     Words,

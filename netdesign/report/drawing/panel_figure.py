@@ -20,9 +20,8 @@ from netdesign.report.drawing.label_board import (
 from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
-from netdesign.report.view.panel_tables import name_rope
 from netdesign.report.words import ENGLISH, Words
-from netdesign.study.support_records import PanelDrawing, PanelRecord
+from netdesign.study.support_records import PanelDrawing, PanelRecord, RopeRecord
 
 SPAN, LEFT = 84.0, 46.0  # of a panel on paper, room at its left [pt]
 LONGEST = 34.0  # arrow [pt]
@@ -30,6 +29,7 @@ _PLACE = 172.0  # from one picture to the next
 _TOP = 3 * LINE_PT  # below titles of two lines
 _AROUND = LONGEST + 4.0  # room for arrows above and below a view
 _CHART = 84.0
+_ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
 _TITLES = ("panel_view.elevation", "panel_view.plan", "panel_view.tensions")
 
 
@@ -227,3 +227,9 @@ def _draw_tensions(
                 sketch.line(key, stroke=INK, width=1.1, dash=dash)
                 text = f"{name_rope(rope, words)} {rope.type}".strip()
                 sketch.words((left, base), text)
+
+
+def name_rope(rope: RopeRecord, words: Words) -> str:
+    """Name of a rope; what it is called in the record where that is no rope of ours."""
+    key = _ROPE_NAMES.get(rope.rope)
+    return words(key) if key else rope.rope

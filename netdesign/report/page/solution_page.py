@@ -50,7 +50,7 @@ from netdesign.report.drawing.net_figures import (
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import render_page
-from netdesign.report.view.solved_support import view_support
+from netdesign.report.page.solved_support import view_support
 from netdesign.report.words import (
     Words,
     show_text,

@@ -2,47 +2,116 @@
 
 from __future__ import annotations
 
-from netdesign.report.blocks.block import Block
-from netdesign.report.drawing.row_drawings import draw_row
-from netdesign.report.sections import site
+from collections.abc import Iterator
+from typing import Literal
+
+from netdesign.report.blocks.block import Block, Contents
+from netdesign.report.blocks.text import Content, Piece, link
+from netdesign.report.gate import require_consistent
+from netdesign.report.sections import (
+    basis,
+    decision,
+    inputs,
+    model,
+    profile,
+    quality,
+    schedule,
+    verify,
+    worked,
+)
 from netdesign.report.sections.row import RowSections
-from netdesign.report.view.whole import Detail, ReportView
-from netdesign.report.words import Words
+from netdesign.report.what_if import mark_title
+from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 
+Detail = Literal["summary", "full"]  # without the annexes, and with them
+_ROW = ("drawing", "checks", "worked", "envelope", "changes")
+_PARTS = ("basis", "schedule")
+_ANNEXES = (
+    *("annex-checks", "annex-model", "annex-profile", "annex-quality"),
+    "annex-verify",
+)
 
-def build_report(
-    study: Study, view: ReportView, words: Words, detail: Detail
-) -> tuple[Block, ...]:
-    """Blocks of a report, from its title to its provenance.
+
+def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...]:
+    """Blocks of a report, from its title to its annexes.
 
     Parameters
     ----------
     study : Study
         What is shown.
-    view : ReportView
-        The same in words.
     words : Words
         Of the language.
     detail : str
-        ``summary`` leaves out what only a reviewer of a net row needs; ``figures``
-        unfolds all figures of the checks, so that paper has them too.
+        ``summary`` leaves out the annexes.
+
+    Raises
+    ------
+    NetDesignError
+        If the study contradicts its own numbers.
     """
-    is_full, is_open = detail != "summary", detail == "figures"
+    require_consistent(study)
+    told = frozenset(basis.share_notes(study, words))
     rows = (
-        RowSections(
-            shown, draw_row(row, shown.anchor, words, is_full=is_full), detail, words
-        ).build()
-        for row, shown in zip(study.rows, view.rows, strict=True)
+        RowSections(row, f"row-{number}", words, told).build()
+        for number, row in enumerate(study.rows, 1)
     )
     return (
-        site.show_title(view, words),
-        site.show_verdict(view, words, is_full=is_full),
-        site.list_contents(view, words, is_full=is_full),
-        site.show_identification(view, words),
-        site.show_summary(view, words),
-        site.show_basis(view, words, is_full=is_full),
+        decision.show_title(study, words),
+        decision.show_decision(study, words),
+        _list_contents(study, words, detail),
+        basis.show_basis(study, words),
+        schedule.show_schedule(study, words),
         *rows,
-        *(site.show_annexes(view, words, is_open=is_open) if is_full else ()),
-        *site.show_end(view, words),
+        inputs.show_inputs(study, words),
+        *(_list_annexes(study, words) if detail == "full" else ()),
     )
+
+
+def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
+    yield worked.show_all(study, words)
+    yield model.show_model(study, words)
+    yield profile.show_profile(study, words)
+    yield quality.show_quality(study, words)
+    yield verify.show_verification(study, words)
+
+
+def _list_contents(study: Study, words: Words, detail: Detail) -> Contents:
+    """Links to all parts, and to the rows."""
+    annexes = _ANNEXES if detail == "full" else ()
+    named = {name: words(f"heading.{name}") for name in _PARTS}
+    named["inputs"] = words("heading.inputs_of_rows")
+    named |= {name: words(f"heading.{name.replace('-', '_')}") for name in annexes}
+    lines = [_list_links(named)]
+    if study.rows:
+        label = words("show.label", label=words("heading.net_rows"), text="")
+        rows = {f"row-{k}": show_text(row.id) for k, row in enumerate(study.rows, 1)}
+        lines.append((Piece(label), *_list_links(rows)))
+    return Contents(heading=words("heading.contents"), lines=tuple(lines))
+
+
+def _list_links(links: dict[str, str]) -> Content:
+    return tuple(
+        piece
+        for anchor, text in links.items()
+        for piece in (*link(anchor, text), Piece(" "))
+    )
+
+
+def list_sections(study: Study, detail: Detail) -> list[str]:
+    """Ids of all sections that a report must have."""
+    of_rows = [
+        f"row-{number}-{name}"
+        for number in range(1, len(study.rows) + 1)
+        for name in _ROW
+    ]
+    of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs", *of_rows]
+    return of_page if detail == "summary" else [*of_page, *_ANNEXES]
+
+
+def title_pages(study: Study, words: Words) -> str:
+    """Line that runs along with the pages of a print."""
+    project = study.project
+    texts = (project.number, project.name, project.revision)
+    title = " · ".join(show_text(text) for text in texts if text)
+    return mark_title(study, title, words)

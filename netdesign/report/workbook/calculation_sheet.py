@@ -15,14 +15,13 @@ from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
 from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate
 from netdesign.report.blocks.table import Column
-from netdesign.report.view.check_formulas import (
+from netdesign.report.words import MISSING, Words, show_check, show_text, show_unit
+from netdesign.report.workbook.formulas import (
     is_given,
     write_guarded,
     write_link,
     write_same,
 )
-from netdesign.report.view.whole import ReportView
-from netdesign.report.words import MISSING, Words, show_text, show_unit
 from netdesign.report.workbook.given_cells import IN_FORCES, GivenCells
 from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.widths import count_lines
@@ -122,7 +121,7 @@ class Calculations:
         if line is None:
             return ""
         cell = line.at(end)
-        return self._book.refer("calculations", f"${cell[0]}${cell[1:]}")
+        return self._book.refer("steps", f"${cell[0]}${cell[1:]}")
 
     def list_followed(self, place: tuple[int, int]) -> Iterator[str]:
         """Conditions: what stands here and the solved forces rest on is the study's."""
@@ -164,20 +163,18 @@ def _write_step(block: Sequence[Line], line: Line, end: int) -> str:
     return write_guarded(formula, list(conditions))
 
 
-def add_calculation_sheet(
-    book: Book, view: ReportView, calculations: Calculations
-) -> None:
-    """Sheet "Calculations": a block of lines for each check of a force."""
+def add_calculation_sheet(book: Book, study: Study, calculations: Calculations) -> None:
+    """Sheet "Steps": a block of lines for each check of a force."""
     words = book.words
-    sheet = book.add_sheet("calculations", words("heading.calculations"))
+    sheet = book.add_sheet("steps", words("heading.steps_of_checks"))
     book.link_back(sheet)
     book.write_wide(sheet, (2, 0), words("caption.calculations"), _WIDTHS, italic=True)
     book.write_head(sheet, _HEAD_ROW, _list_columns(words), _WIDTHS)
     for index, width in enumerate(_WIDTHS):
         sheet.set_column(index, index, width)
     for (row, check), block in calculations.list_blocks():
-        shown = view.rows[row]
-        title = f"{show_text(shown.id)}: {shown.checks[check].title}"
+        shown = study.rows[row]
+        title = f"{show_text(shown.id)}: {show_check(words, shown.checks[check])}"
         top = calculations.titles[row, check] - 1
         book.write_wide(sheet, (top, 0), title, _WIDTHS, bold=True)
         for line in block:

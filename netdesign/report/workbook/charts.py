@@ -34,7 +34,7 @@ def add_utilisation_chart(
     """
     first, last = rows
     ratio, bound = columns
-    name = book.name("summary")
+    name = book.name("decision")
     chart = book.workbook.add_chart({"type": "column"})
     chart.add_series(
         {
@@ -70,39 +70,12 @@ def _label_rows(
     first, last = rows
     letter = chr(ord("A") + column)
     custom = [
-        {"value": f"={book.refer('summary', f'${letter}${row + 1}')}"}
+        {"value": f"={book.refer('decision', f'${letter}${row + 1}')}"}
         if row in labelled
         else {"delete": True}
         for row in range(first, last + 1)
     ]
     return {"value": True, "custom": custom}
-
-
-def add_force_chart(
-    book: Book, sheet: Any, rows: tuple[int, int], columns: tuple[int, int, int]
-) -> None:
-    """Largest force of each member of each net row, below its table.
-
-    ``columns`` are those of net row, member and force.
-    """
-    first, last = rows
-    name = book.name("envelope")
-    row, member, force = columns
-    chart = book.workbook.add_chart({"type": "column"})
-    chart.add_series(
-        {
-            "name": book.words("heading.maximum"),
-            "categories": [name, first, row, last, member],
-            "values": [name, first, force, last, force],
-            "fill": {"color": _BARS},
-            "gap": 40,
-        }
-    )
-    _finish(chart, (book.words("heading.largest_per_support"), "", "kN"))
-    chart.set_legend({"none": True})
-    size = {"width": 980, "height": 320}
-    chart.set_size(size)
-    _insert_below(book, sheet, last, chart, size["height"])
 
 
 def add_case_chart(

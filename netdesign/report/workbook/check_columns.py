@@ -7,9 +7,10 @@ from functools import cached_property
 
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks.table import Column
-from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.words import Words, add_unit, name_heading
 
+# Quantities of every case, in columns of their own.
+CASE_QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
 _ENDS = {-1: "heading.low", 1: "heading.high"}
 
 

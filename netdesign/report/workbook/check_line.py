@@ -10,24 +10,14 @@ from typing import Any
 
 from netdesign.outcome import Verdict
 from netdesign.report.blocks.table import Cell
-from netdesign.report.view.check_formulas import (
-    ROUNDING,
-    ChangedReasons,
-    compute_rank,
-    write_given_verdict,
-    write_held,
-    write_link,
-    write_rank,
-    write_reason,
-    write_unchanged,
-    write_verdict,
-)
-from netdesign.report.view.check_view import CheckView, find_case
+from netdesign.report.governing import find_case
+from netdesign.report.sections.checks import name_case, tell_loads, tell_resistance
 from netdesign.report.words import (
     MISSING,
     UNBOUNDED,
     Words,
     number_format,
+    show_check,
     show_text,
 )
 from netdesign.report.workbook.calculation_sheet import Calculations
@@ -50,6 +40,18 @@ from netdesign.report.workbook.check_columns import (
     VERDICT,
     Field,
 )
+from netdesign.report.workbook.formulas import (
+    ROUNDING,
+    ChangedReasons,
+    compute_rank,
+    write_given_verdict,
+    write_held,
+    write_link,
+    write_rank,
+    write_reason,
+    write_unchanged,
+    write_verdict,
+)
 from netdesign.report.workbook.given_cells import UNCHANGED as GIVEN_UNCHANGED
 from netdesign.report.workbook.widths import count_lines
 from netdesign.report.workbook.writer import Book
@@ -69,8 +71,8 @@ class CheckLine:
     ----------
     book, sheet, line
         Where it is written; ``line`` counts from zero.
-    check, view : CheckRecord, CheckView
-        The check, and the same in words.
+    check : CheckRecord
+        What it shows.
     place : (int, int)
         Numbers of its net row and of itself there, from zero.
     calculations : Calculations
@@ -83,7 +85,6 @@ class CheckLine:
     sheet: Any
     line: int
     check: CheckRecord
-    view: CheckView
     place: tuple[int, int]
     calculations: Calculations
     followed: Sequence[str]
@@ -92,6 +93,12 @@ class CheckLine:
     def verdicts(self) -> dict[Verdict, str]:
         """Words of the verdicts."""
         return {verdict: self.book.word(verdict) for verdict in Verdict}
+
+    @cached_property
+    def sentences(self) -> tuple[str, str]:
+        """Where the resistance comes from, and the reason of the verdict."""
+        words = self.book.words
+        return tell_resistance(self.check, words), words.show(self.check.reason)
 
     @cached_property
     def conditions(self) -> list[tuple[str, str]]:
@@ -124,13 +131,17 @@ class CheckLine:
             self._put_number(field, getattr(case, field.quantity) if case else None)
         self._put(FURTHER, Cell(text=self.book.words.name_further(case)))
         self._write_loads()
-        texts = (show_text(row), self.view.title, self.view.clause)
+        texts = (
+            show_text(row),
+            show_check(self.book.words, self.check),
+            show_text(self.check.clause),
+        )
         for field, text in zip(LEAD[1:], texts, strict=True):
             self._put(field, Cell(text=text))
         self._write_study()
         self._write_sentences()
         fields = (*LEAD[1:], *TAIL)
-        shown = (*texts, self.view.resistance_from, self.view.reason)
+        shown = (*texts, *self.sentences)
         lines = count_lines(shown, [field.width for field in fields])
         self.book.set_height(self.sheet, self.line, lines)
 
@@ -174,7 +185,7 @@ class CheckLine:
             value = check.known[symbol].ends[field.end + 1]
             link = write_link(source, ">=0")
             self._write_formula(field, link, show_cached(value))
-        self._put(governing, Cell(text=show_load(check, self.view, self.book.words)))
+        self._put(governing, Cell(text=show_load(check, self.book.words)))
 
     def _write_verdict(self, number: int) -> None:
         check, given = self.check, self._at(SET)
@@ -208,7 +219,7 @@ class CheckLine:
         at, check = self._at, self.check
         for field, text in zip(
             (*STUDY_TEXTS, STUDY_VERDICT),
-            (self.view.resistance_from, self.view.reason, self.verdicts[check.verdict]),
+            (*self.sentences, self.verdicts[check.verdict]),
             strict=True,
         ):
             self._put(field, Cell(text=text))
@@ -239,7 +250,7 @@ class CheckLine:
                 _list_reasons(words),
             ),
         )
-        texts = (self.view.resistance_from, self.view.reason)
+        texts = self.sentences
         for field, stored, live, text in zip(
             TAIL, STUDY_TEXTS, now, texts, strict=True
         ):
@@ -282,12 +293,12 @@ def _list_reasons(words: Words) -> ChangedReasons:
     )
 
 
-def show_load(check: CheckRecord, view: CheckView, words: Words) -> str:
+def show_load(check: CheckRecord, words: Words) -> str:
     """Load that governs; that of the guideline with its case."""
-    if not (check.is_of_force and view.load):
+    if not tell_loads(check, words):
         return MISSING
     named = words(f"load_name.{check.governs}")
-    return f"{named}, {view.case}" if find_case(check) is None else named
+    return named if find_case(check) else f"{named}, {name_case(check, words)}"
 
 
 def decide_by_ratio(low: float | None, high: float | None) -> Verdict:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from netdesign.report.view.whole import ReportView
 from netdesign.report.workbook.calculation_sheet import Calculations
 from netdesign.report.workbook.check_columns import (
     CASES,
@@ -45,7 +44,6 @@ def has_further(study: Study) -> bool:
 def add_check_sheet(
     book: Book,
     study: Study,
-    view: ReportView,
     cells: GivenCells,
     calculations: Calculations,
 ) -> None:
@@ -53,9 +51,8 @@ def add_check_sheet(
     sheet = book.add_sheet("checks", book.words("heading.checks"))
     _write_head(book, sheet, study)
     line = HEAD_ROW + 1
-    for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True)):
-        pairs = zip(row.checks, shown.checks, strict=True)
-        for place, (check, words) in enumerate(pairs):
+    for number, row in enumerate(study.rows):
+        for place, check in enumerate(row.checks):
             followed = [
                 *cells.list_followed(number, check),
                 *calculations.list_followed((number, place)),
@@ -65,7 +62,6 @@ def add_check_sheet(
                 sheet=sheet,
                 line=line,
                 check=check,
-                view=words,
                 place=(number, place),
                 calculations=calculations,
                 followed=followed,
@@ -87,7 +83,7 @@ def _write_head(book: Book, sheet: Any, study: Study) -> None:
     book.link_back(sheet, (0, 3))
     first_page = SHOWN[: VERDICT.index + 1]  # what stands beside it is another one
     widths = [field.width for field in first_page]
-    live = book.words("caption.live_values", sheet=book.name("calculations"))
+    live = book.words("caption.live_values", sheet=book.name("steps"))
     formulas = " ".join((book.words("caption.check_formulas"), live))
     for line, text in enumerate((formulas, book.words("caption.check_verdicts")), 1):
         book.write_wide(sheet, (line, 0), text, widths, italic=True)

@@ -3,20 +3,36 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 
 from netdesign.errors import NetDesignError
-from netdesign.report.blocks.table import Cell, Column, Table
-from netdesign.report.view import tables
-from netdesign.report.view.hold_tables import build_hold_numbers
-from netdesign.report.view.whole import ReportView, build_view
-from netdesign.report.words import Words
+from netdesign.report.blocks.table import Table, text_cell, text_column
+from netdesign.report.gate import require_consistent
+from netdesign.report.sections.basis import (
+    list_defaults,
+    list_notes,
+    list_reading,
+    show_ranges,
+)
+from netdesign.report.sections.changes import list_changes
+from netdesign.report.sections.inputs import build_inputs
+from netdesign.report.sections.profile import build_profile
+from netdesign.report.sections.quality import (
+    build_cases,
+    build_extremes,
+    stack_tables,
+)
+from netdesign.report.sections.schedule import build_schedule
+from netdesign.report.sections.verify import build_provenance
+from netdesign.report.sections.whole import title_pages
+from netdesign.report.what_if import build_what_if
+from netdesign.report.words import Words, show_text
 from netdesign.report.workbook.calculation_sheet import (
     Calculations,
     add_calculation_sheet,
 )
-from netdesign.report.workbook.charts import add_case_chart, add_force_chart
+from netdesign.report.workbook.charts import add_case_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
 from netdesign.report.workbook.given_cells import GivenCells
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
@@ -25,35 +41,22 @@ from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 _FIRST_LINE = 4  # of a table below its caption and headings, zero-based
+_BETWEEN = 3  # lines from one table of a sheet to the next
 _NO_TIME = datetime(1980, 1, 1)
 SHEETS = (
-    "summary",
+    "decision",
+    "schedule",
     "inputs",
     "checks",
-    "calculations",
-    "actions",
-    "statics",
-    "floor_statics",
-    "resistances",
-    "envelope",
-    "cases",
-    "changes",
-    "holds",
-    "support",
-    "directions",
-    "guideline",
-    "notes",
-    "formulas",
-    "quality",
-    "assumptions",
+    "steps",
     "profile",
+    "cases",
+    "notes",
     "provenance",
 )
 
 
-def render_workbook(
-    study: Study, language: Language = "en", view: ReportView | None = None
-) -> bytes:
+def render_workbook(study: Study, language: Language = "en") -> bytes:
     """Workbook of a study; the same study gives the same bytes.
 
     Parameters
@@ -62,8 +65,6 @@ def render_workbook(
         What is shown.
     language : str
         ``en``, ``fr`` or ``de``.
-    view : ReportView, optional
-        Of this study in this language, where it is there already.
 
     Raises
     ------
@@ -72,8 +73,9 @@ def render_workbook(
     """
     import xlsxwriter
 
+    require_consistent(study)
     words = Words(language)
-    view = view or build_view(study, language)
+    running = title_pages(study, words)
     buffer = io.BytesIO()
     options = {
         "in_memory": True,
@@ -86,142 +88,75 @@ def render_workbook(
         workbook.set_properties(
             {
                 "title": words("heading.anchor_check"),
-                "subject": view.running_title,
-                "author": view.prepared,
+                "subject": running,
+                "author": study.project.author,
                 "created": _read_time(study.provenance.started),
             }
         )
         workbook.set_size(2400, 1400)
         workbook.set_calc_mode("auto")
-        book = Book(workbook, view.running_title, words)
-        _add_sheets(book, study, view)
+        book = Book(workbook, running, words)
+        _add_sheets(book, study)
         names = tuple(sheet.get_name() for sheet in workbook.worksheets())
         if names != tuple(book.name(sheet) for sheet in SHEETS):
             raise NetDesignError(f"the workbook is incomplete: it has only {names}")
     return buffer.getvalue()
 
 
-def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
-    add_summary_sheet(book, study, view)
-    _add_inputs(book, view)
-    cells = GivenCells(book, study, view)
+def _add_sheets(book: Book, study: Study) -> None:
+    words = book.words
+    above = build_what_if(study, words) if study.what_if else None
+    parts = list_inputs(study, words)
+    profile = build_profile(study, words)
+    add_summary_sheet(book, study)
+    title = words("heading.schedule")
+    book.add_table_sheet("schedule", title, [build_schedule(study, words)])
+    stacked = stack_tables(words("heading.typed_and_understood"), parts, words)
+    book.add_table_sheet(
+        "inputs", words("heading.inputs"), [*([above] if above else []), stacked]
+    )
+    cells = GivenCells(book, study, above, parts, profile)
     calculations = Calculations(book, study, cells)
-    add_check_sheet(book, study, view, cells, calculations)
-    add_calculation_sheet(book, view, calculations)
-    _add_figures(book, view)
-    _add_row_tables(book, study, view)
-    title = book.words("heading.reading")
-    book.add_table_sheet("notes", title, [_list_sentences(book, title, view.reading)])
-    formulas = book.words("heading.formulas")
-    book.add_table_sheet("formulas", formulas, [view.formulas, view.figure_tables])
-    notes = book.words("heading.notes")
-    for name, title, parts in (
-        ("quality", "heading.solver_quality", [view.quality, view.outcomes]),
-        ("assumptions", "heading.assumptions", [view.assumptions]),
-        ("profile", "heading.limit_profile", [view.profile]),
-        (
-            "provenance",
-            "heading.provenance",
-            [view.provenance, _list_sentences(book, notes, view.notes)],
-        ),
-    ):
-        book.add_table_sheet(name, book.words(title), parts)
+    add_check_sheet(book, study, cells, calculations)
+    add_calculation_sheet(book, study, calculations)
+    book.add_table_sheet("profile", words("heading.limit_profile"), [profile])
+    _add_cases(book, study)
+    book.add_table_sheet(
+        "notes", words("heading.notes"), list(_list_notes(book, study))
+    )
+    made = [build_provenance(study, words)]
+    book.add_table_sheet("provenance", words("heading.provenance"), made)
     cells.watch()
     link_sheets(book, SHEETS[1:])
     book.end_pages()
 
 
-def _add_inputs(book: Book, view: ReportView) -> None:
-    inputs = [(book.words("heading.ranges"), view.ranges)]
-    inputs += [(row.id, row.inputs) for row in view.rows]
-    caption = book.words("heading.typed_and_understood")
-    title = book.words("heading.inputs")
-    replaced = [view.what_if] if view.mark else []
-    shown = [*replaced, _stack(book, caption, inputs)]
-    book.add_table_sheet("inputs", title, shown)
+def list_inputs(study: Study, words: Words) -> list[tuple[str, Table]]:
+    """Inputs cell by cell: of the ranges, then of each net row."""
+    caption = words("heading.inputs_with_cells")
+    rows = [(row.id, build_inputs(row.inputs, caption, words)) for row in study.rows]
+    return [(words("heading.ranges"), show_ranges(study, words)), *rows]
 
 
-def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
-    """Sheets on which the same table of every net row stands."""
-    cases = [
-        (shown.id, tables.build_cases(row, book.words))
-        for row, shown in zip(study.rows, view.rows, strict=True)
+def _add_cases(book: Book, study: Study) -> None:
+    """Sheet of all cases, and of the largest force of each member."""
+    words = book.words
+    cases = [(row.id, build_cases(row, words)) for row in study.rows]
+    extremes = [(row.id, build_extremes(row, words)) for row in study.rows]
+    shown = [
+        stack_tables(words("caption.extremes"), extremes, words),
+        stack_tables(words("caption.cases"), cases, words),
     ]
-    for name, title, parts in (
-        ("envelope", "heading.largest_of_members", _list_parts(view, "extremes")),
-        ("cases", "heading.all_cases", cases),
-        ("changes", "heading.what_would_flip", _list_parts(view, "changes")),
-        ("holds", "heading.single_values", _list_holds(book, study, view)),
-        ("support", "heading.forces_on_ground", _list_parts(view, "anchors")),
-        ("directions", "heading.directions_of_pulls", _list_parts(view, "pulls")),
-        ("guideline", "heading.check_by_guideline", _list_parts(view, "guideline")),
-    ):
-        caption = parts[0][1].caption if parts else book.words(title)
-        stacked = _stack(book, caption, parts)
-        shown = [stacked]
-        if name == "guideline":
-            floors = _list_parts(view, "floor")
-            shown.append(_stack(book, book.words("caption.floor"), floors))
-            for other in ("slab", "model_form"):
-                parts_of_other = _list_parts(view, other)
-                words = book.words(f"opinion.{other}")
-                shown.append(_stack(book, words, parts_of_other))
-        if name == "directions":
-            turns = [(row.id, row.figures.turns) for row in view.rows]
-            shown.append(_stack(book, book.words("caption.turns"), turns))
-        if name == "support":
-            shown += _list_panels(book, view)
-            ends = [(row.id, row.end_effects) for row in view.rows]
-            shown.append(_stack(book, book.words("end_view.caption"), ends))
-        sheet = book.add_table_sheet(name, book.words(title), shown)
-        bottom = _FIRST_LINE + len(stacked.rows) - 1
-        if name == "envelope" and stacked.rows:
-            add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))
-        if name == "cases" and stacked.rows:
-            add_case_chart(book, sheet, _span(parts), bottom)
+    sheet = book.add_table_sheet("cases", words("heading.all_cases"), shown)
+    first = _FIRST_LINE + max(len(shown[0].rows), 1) + _BETWEEN
+    if shown[1].rows:
+        bottom = first + len(shown[1].rows) - 1
+        add_case_chart(book, sheet, _span(cases, first), bottom)
 
 
-def _add_figures(book: Book, view: ReportView) -> None:
-    """Sheets of what the figures of the checks follow from, all rows together."""
-    for name, tables_of_sheet in (
-        ("actions", ("actions", "panel_actions", "widths")),
-        ("statics", ("statics", "sideways")),
-        ("floor_statics", ("floor_statics",)),
-        ("resistances", ("resistances", "tests")),
-    ):
-        shown = []
-        for table in tables_of_sheet:
-            parts = [(row.id, getattr(row.figures, table)) for row in view.rows]
-            caption = parts[0][1].caption if parts else ""
-            shown.append(_stack(book, caption, parts))
-        book.add_table_sheet(name, book.words(f"heading.{name}"), shown)
-
-
-def _list_panels(book: Book, view: ReportView) -> list[Table]:
-    """Forces and ropes of the rows that have a panel between their posts."""
-    panels = [(row.id, row.panel) for row in view.rows if row.panel]
-    if not panels:
-        return []
-    forces = [(name, panel.forces) for name, panel in panels]
-    ropes = [(name, panel.ropes) for name, panel in panels]
-    return [_stack(book, parts[0][1].caption, parts) for parts in (forces, ropes)]
-
-
-def _list_holds(book: Book, study: Study, view: ReportView) -> list[tuple[str, Table]]:
-    """Limits of single values of each net row, their ends as numbers."""
-    return [
-        (shown.id, build_hold_numbers(row, book.words))
-        for row, shown in zip(study.rows, view.rows, strict=True)
-    ]
-
-
-def _list_parts(view: ReportView, table: str) -> list[tuple[str, Table]]:
-    return [(row.id, getattr(row, table)) for row in view.rows]
-
-
-def _span(parts: Sequence[tuple[str, Table]]) -> list[tuple[int, int]]:
+def _span(parts: Sequence[tuple[str, Table]], first: int) -> list[tuple[int, int]]:
     """First and last line of each net row in a stacked table."""
-    spans, first = [], _FIRST_LINE
+    spans = []
     for _, table in parts:
         if table.rows:
             spans.append((first, first + len(table.rows) - 1))
@@ -229,21 +164,28 @@ def _span(parts: Sequence[tuple[str, Table]]) -> list[tuple[int, int]]:
     return spans
 
 
-def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Table:
-    if parts:
-        return tables.stack_tables(caption, parts, book.words)
-    heading, empty = book.words("heading.net_row"), book.words("show.none")
-    columns = (Column(heading=heading),)
-    return Table(caption=caption, columns=columns, rows=(), empty=empty)
-
-
-def _list_sentences(book: Book, caption: str, sentences: Sequence[str]) -> Table:
-    return Table(
-        caption=caption,
-        columns=(Column(heading=book.words("heading.note")),),
-        rows=tuple((Cell(text=sentence),) for sentence in sentences),
-        empty=book.words("show.none"),
-    )
+def _list_notes(book: Book, study: Study) -> Iterator[Table]:
+    """Notes, default values, what would turn each check, and how to read a row."""
+    words = book.words
+    notes = list_notes(study, words)
+    notes += [
+        words("show.label", label=show_text(row.id), text=words.show(note))
+        for row in study.rows
+        for note in row.notes
+    ]
+    checks = [(row.id, check) for row in study.rows for check in row.checks]
+    for heading, sentences in (
+        ("notes", list(dict.fromkeys(notes))),
+        ("not_typed", list_defaults(study, words)),
+        ("would_pass_with", list_changes(checks, words)),
+        ("reading", list_reading(study, words)),
+    ):
+        yield Table(
+            caption=words(f"heading.{heading}"),
+            columns=(text_column(words("heading.note")),),
+            rows=tuple((text_cell(sentence),) for sentence in sentences),
+            empty=words("show.none"),
+        )
 
 
 def _read_time(started: str) -> datetime:

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from netdesign.calculation.quantity import Kind
 from netdesign.calculation.steps import SAME, Step
 from netdesign.checks.schema import LATERAL_SHARE
-from netdesign.report.blocks.table import Cell
-from netdesign.report.view.check_formulas import write_same
-from netdesign.report.view.whole import ReportView
+from netdesign.report.blocks.table import Cell, Table
+from netdesign.report.workbook.formulas import write_same
 from netdesign.report.workbook.writer import Book
 from netdesign.study.records import CheckRecord, ProfileValue, RowStudy, Study
 
@@ -30,6 +29,9 @@ _BY_RULE = ("f_R", "Δl")  # worked out by a rule of the profile, no value of it
 # Values that a resistance or a check without a force follows, by the derivation.
 _FOLLOWED = {"bending.": ("k", "β"), "post_bending.": ("γ_E", "γ_R"), "": ()}
 _WITHOUT_FORCE = ("k", "β")
+
+
+Parts = Sequence[tuple[str, Table]]  # tables by the place that they are of
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,19 +51,32 @@ class GivenCell:
 class GivenCells:
     """Cells of a study's given values, and which of them its checks read."""
 
-    def __init__(self, book: Book, study: Study, view: ReportView) -> None:
+    def __init__(
+        self,
+        book: Book,
+        study: Study,
+        above: Table | None,
+        parts: Parts,
+        profile: Table,
+    ) -> None:
+        """Cells of the tables on the sheets of inputs and of the profile.
+
+        ``above`` stands before the inputs; ``parts`` are those of the ranges, then
+        those of each net row.
+        """
         self._book = book
         self._rows = study.rows
-        profile = [
+        of_profile = [
             GivenCell("profile", line, cells[2])
-            for line, cells in enumerate(view.profile.rows, _FIRST_LINE)
+            for line, cells in enumerate(profile.rows, _FIRST_LINE)
         ]
-        self._profile = list(zip(study.profile.values, profile, strict=True))
-        inputs = _list_inputs(view)
-        self._cells = [*profile, *inputs]
-        ends = [len(view.ranges.rows)]
-        for row in view.rows:
-            ends.append(ends[-1] + len(row.inputs.rows))
+        self._profile = list(zip(study.profile.values, of_profile, strict=True))
+        tables = [table for _, table in parts]
+        inputs = _list_inputs(above, tables)
+        self._cells = [*of_profile, *inputs]
+        ends = [len(tables[0].rows)]
+        for table in tables[1:]:
+            ends.append(ends[-1] + len(table.rows))
         self._inputs = [
             list(zip(row.inputs, inputs[first:last], strict=True))
             for row, first, last in zip(study.rows, ends, ends[1:], strict=False)
@@ -143,13 +158,11 @@ class GivenCells:
         book.workbook.define_name(UNCHANGED[sheet], f"={place}")
 
 
-def _list_inputs(view: ReportView) -> list[GivenCell]:
+def _list_inputs(above: Table | None, tables: Sequence[Table]) -> list[GivenCell]:
     """Cells of the sheet of inputs: of the ranges, then of each net row."""
-    above = [view.what_if] if view.mark else []
-    first = _FIRST_LINE + sum(
-        _BETWEEN_TABLES + len(table.rows) for table in above if table.rows
-    )
-    tables = [view.ranges, *(row.inputs for row in view.rows)]
+    first = _FIRST_LINE
+    if above and above.rows:
+        first += _BETWEEN_TABLES + len(above.rows)
     shown = [cells[2] for table in tables for cells in table.rows]
     return [GivenCell("inputs", line, cell) for line, cell in enumerate(shown, first)]
 

@@ -7,18 +7,31 @@ from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.blocks.table import Cell, Column
-from netdesign.report.view.check_formulas import write_merged
-from netdesign.report.view.check_view import find_case, find_governing, find_highest
-from netdesign.report.view.what_if import mark_title
-from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import MISSING, UNBOUNDED, Words, number_format
+from netdesign.report.governing import find_case, find_governing, find_highest
+from netdesign.report.sections.decision import (
+    identify,
+    list_open_points,
+    name_verification,
+)
+from netdesign.report.sections.whole import title_pages
+from netdesign.report.what_if import mark_title
+from netdesign.report.words import (
+    MISSING,
+    UNBOUNDED,
+    Words,
+    number_format,
+    show_check,
+    show_text,
+)
 from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_line import CHANGED, show_cached, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
+from netdesign.report.workbook.formulas import write_merged
 from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.widths import count_lines, fit_headings
 from netdesign.report.workbook.writer import Book
 from netdesign.study.case_records import CasePoint
+from netdesign.study.document import compute_digest
 from netdesign.study.records import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
@@ -42,11 +55,13 @@ _LINKS = (
 )
 
 
-def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
-    """Sheet "Summary": overall verdict, net rows, assumed values, signatures."""
-    titles = (view.mark, book.words("heading.anchor_check"))
-    sheet = book.add_sheet("summary", " · ".join(one for one in titles if one))
-    sheet.write_string(1, 0, view.running_title or MISSING, book.text())
+def add_summary_sheet(book: Book, study: Study) -> None:
+    """Sheet "Decision": overall verdict, net rows, open points, signatures."""
+    mark = book.words("what_if.mark") if study.what_if else ""
+    titles = (mark, book.words("heading.anchor_check"))
+    sheet = book.add_sheet("decision", " · ".join(one for one in titles if one))
+    running = title_pages(study, book.words)
+    sheet.write_string(1, 0, running or MISSING, book.text())
     last = _HEAD_ROW + max(len(study.rows), 1)
     _write_overall(book, sheet, study, last)
     widths = _find_widths(book)
@@ -58,10 +73,10 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
         text = book.words("heading.no_rows")
         sheet.write_string(last, 1, text, book.text())
     first_check = FIRST_CHECK + 2  # line in the sheet of checks, counted from one
-    for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
-        _write_row(book, sheet, number, row, shown)
+    for number, row in enumerate(study.rows, 1):
+        _write_row(book, sheet, number, row)
         target = book.refer("checks", f"A{first_check}")
-        book.link(sheet, (_HEAD_ROW + number, 1), target, shown.id)
+        book.link(sheet, (_HEAD_ROW + number, 1), target, show_text(row.id))
         first_check += len(row.checks)
     book.colour_verdicts(sheet, (2, 2, last, 2))
     book.add_ratio_bars(sheet, (_HEAD_ROW + 1, _RATIO, last, _RATIO))
@@ -77,7 +92,7 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     ]
     place = (last + 2, _LIMIT + 1)
     add_utilisation_chart(book, sheet, rows, columns, place, unbounded)
-    _write_below(book, sheet, view, last + 2)
+    _write_below(book, sheet, study, last + 2)
 
 
 def _find_widths(book: Book) -> list[float]:
@@ -92,8 +107,8 @@ def link_sheets(book: Book, names: Sequence[str]) -> None:
 
     None stands beside the table: that would make all of it small in print.
     """
-    sheet = book.workbook.get_worksheet_by_name(book.name("summary"))
-    for (row, first, last), name in zip(_LINKS, names, strict=True):
+    sheet = book.workbook.get_worksheet_by_name(book.name("decision"))
+    for (row, first, last), name in zip(_LINKS, names, strict=False):
         if last > first:
             sheet.merge_range(row, first, row, last, "")
         book.link(sheet, (row, first), book.refer(name, "A1"), book.name(name))
@@ -143,16 +158,14 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
         "row_verdicts": f"$C${_HEAD_ROW + 2}:$C${last + 1}",
     }
     for name, area in names.items():
-        book.workbook.define_name(name, f"={book.refer('summary', area)}")
+        book.workbook.define_name(name, f"={book.refer('decision', area)}")
 
 
 def _list_words(book: Book) -> dict[Verdict, str]:
     return {verdict: book.word(verdict) for verdict in Verdict}
 
 
-def _write_row(
-    book: Book, sheet: Any, number: int, row: RowStudy, shown: RowView
-) -> None:
+def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
     index = _HEAD_ROW + number
     line = index + 1
     verdicts = [check.verdict for check in row.checks]
@@ -165,7 +178,7 @@ def _write_row(
         words=_list_words(book),
     )
     bold = book.text(bold=True, text_wrap=True)
-    sheet.write_formula(index, 2, formula, bold, shown.verdict.word)
+    sheet.write_formula(index, 2, formula, bold, book.word(row.verdict))
     for column, verdict in enumerate(_COUNTED, 3):
         count = (
             f"=COUNTIFS(check_net_row_number,A{line},"
@@ -175,8 +188,8 @@ def _write_row(
         sheet.write_formula(index, column, count, form, verdicts.count(verdict))
     _write_largest(book, sheet, index, row)
     sheet.write_number(index, _LIMIT, 1, book.format(align="right"))
-    _write_governing(book, sheet, index, row, shown)
-    _write_reasons(book, sheet, index, shown, is_held=held)
+    _write_governing(book, sheet, index, row)
+    _write_reasons(book, sheet, index, row, is_held=held)
 
 
 def _write_own(index: int) -> str:
@@ -189,9 +202,7 @@ def _write_governing_line(index: int) -> str:
     return f"MATCH(_xlfn.MAXIFS(check_rank,{_write_own(index)}),check_rank,0)"
 
 
-def _write_governing(
-    book: Book, sheet: Any, index: int, row: RowStudy, shown: RowView
-) -> None:
+def _write_governing(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     """Name and case of the check that decides now."""
     mine, line = _write_own(index), _write_governing_line(index)
     none = book.words("heading.no_check")
@@ -204,7 +215,8 @@ def _write_governing(
     case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"{further}'
     load = f'IFERROR(INDEX(check_load,{line}),"{MISSING}")'
     form = book.text(text_wrap=True)
-    title = shown.governing.title if shown.governing else none
+    governing = find_governing(row.checks)
+    title = show_check(book.words, governing) if governing else none
     is_there = f"COUNTIFS({mine})>0"
     sheet.write_formula(
         index,
@@ -218,20 +230,18 @@ def _write_governing(
         _CASE,
         f'=IFERROR(IF({is_there},{case},"{MISSING}"),{load})',
         form,
-        _tell_case(book, row, shown),
+        _tell_case(book, row),
     )
 
 
-def _tell_case(book: Book, row: RowStudy, shown: RowView) -> str:
+def _tell_case(book: Book, row: RowStudy) -> str:
     """Case that brings the governing demand, or the guideline's load case."""
-    check, view = find_governing(row.checks), shown.governing
-    if check is None or view is None:
+    check = find_governing(row.checks)
+    if check is None:
         return MISSING
     case = find_case(check)
     return (
-        show_load(check, view, book.words)
-        if case is None
-        else _show_case(case, book.words)
+        show_load(check, book.words) if case is None else _show_case(case, book.words)
     )
 
 
@@ -251,17 +261,18 @@ def _show_case(case: CasePoint, words: Words) -> str:
 
 
 def _write_reasons(
-    book: Book, sheet: Any, index: int, shown: RowView, *, is_held: bool
+    book: Book, sheet: Any, index: int, row: RowStudy, *, is_held: bool
 ) -> None:
     """Reasons of the study, as long as every check of the row is as it was.
 
     Afterwards the reason of the check that governs now, which follows its verdict.
     """
-    line, reasons = index + 1, _explain(shown)
+    line, reasons = index + 1, _explain(row, book.words)
+    verdict = book.word(row.verdict)
     texts = {
-        _HELD: shown.verdict.word if is_held else MISSING,
+        _HELD: verdict if is_held else MISSING,
         _STUDY_REASONS: reasons,
-        _STUDY_VERDICT: shown.verdict.word,
+        _STUDY_VERDICT: verdict,
     }
     for column, text in texts.items():
         cell = Cell(text=text)
@@ -281,9 +292,10 @@ def _write_reasons(
     )
     form = book.text(text_wrap=True)
     sheet.write_formula(index, _REASONS, formula, form, reasons)
-    governing = shown.governing.title if shown.governing else ""
+    check_now = find_governing(row.checks)
+    governing = show_check(book.words, check_now) if check_now else ""
     fields = (
-        *((1, shown.id), (2, shown.verdict.word)),
+        *((1, show_text(row.id)), (2, verdict)),
         *((_GOVERNING, governing), (_REASONS, reasons)),
     )
     widths = _find_widths(book)
@@ -310,31 +322,34 @@ def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
         sheet.write_formula(index, column, formula, form, show_cached(value))
 
 
-def _explain(shown: RowView) -> str:
-    reasons = list(shown.reasons)
-    if shown.governing and not reasons:
-        reasons.append(shown.governing.reason)
+def _explain(row: RowStudy, words: Words) -> str:
+    reasons = [words.show(one) for one in row.reasons]
+    check = find_governing(row.checks)
+    if check and not reasons:
+        reasons.append(words.show(check.reason))
     return " ".join(reasons) or MISSING
 
 
-def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
-    """Identification, room for signatures, assumed values, under the rows."""
+def _write_below(book: Book, sheet: Any, study: Study, top: int) -> None:
+    """What is open, identification, room for signatures, under the rows."""
     head = book.text(bold=True, bottom=1)
     wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[_LABELLED:_LIMIT])
+    words, project = book.words, study.project
     signed = (
-        ("heading.prepared", view.prepared),
-        ("heading.checked", view.checked),
+        ("heading.prepared", project.author),
+        ("heading.checked", project.checker),
         ("heading.approved", ""),
     )
+    points = list(list_open_points(study, words)) or [words("todo.none")]
+    verify = (words("heading.verify_report"), name_verification(study))
+    digest = (words("heading.study_hash"), compute_digest(study))
     blocks: list[tuple[str, Sequence[tuple[str, str]]]] = [
-        ("heading.verify_report", view.verification),
-        ("heading.identification", view.identification),
-        ("heading.signatures", [(book.words(label), name) for label, name in signed]),
+        ("heading.todo", [(str(k), one) for k, one in enumerate(points, 1)]),
+        ("heading.identification", [*identify(study, words), verify, digest]),
         (
-            "heading.declared_elsewhere",
-            [("", one) for one in view.declared] or [(book.words("show.none"), "")],
+            "heading.signatures",
+            [(words(label), show_text(x) if x.strip() else "") for label, x in signed],
         ),
-        ("heading.assumed", _list_assumed(book, view)),
     ]
     for title, pairs in blocks:
         book.paper(sheet).keep(top, top + min(len(pairs), _LABELLED))
@@ -350,13 +365,3 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
             lines = count_lines([label, value], [sum(_WIDTHS[:_LABELLED]), room])
             book.set_height(sheet, top, lines)
         top += 2
-
-
-def _list_assumed(book: Book, view: ReportView) -> Sequence[tuple[str, str]]:
-    return [
-        (
-            f"{book.words('heading.clause')} {clause.text}",
-            f"{what.text.rstrip('.')}: {value.text} {unit.text}".rstrip(" -"),
-        )
-        for clause, what, value, unit, *_ in view.assumed.rows
-    ] or [(book.words("show.none"), "")]

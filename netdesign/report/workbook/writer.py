@@ -124,8 +124,8 @@ class Book:
 
     def link_back(self, sheet: Any, place: tuple[int, int] = (1, 0)) -> None:
         """Lead back to the first sheet."""
-        text = f"← {self.name('summary')}"
-        self.link(sheet, place, self.refer("summary", "A1"), text)
+        text = f"← {self.name('decision')}"
+        self.link(sheet, place, self.refer("decision", "A1"), text)
 
     def word(self, verdict: Verdict) -> str:
         """Word of a verdict in the language of the workbook."""

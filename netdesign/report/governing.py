@@ -1,0 +1,82 @@
+"""Which check of several decides, and what of a row the outputs show first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from netdesign.outcome import Outcome, Verdict
+from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
+from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.flips import CLOSE
+from netdesign.study.records import CheckRecord, RowStudy
+
+# Worst first.
+SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+
+
+def find_governing(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check that decides the verdict: the worst verdict, then the largest ratio."""
+    return min(checks, key=rank_check, default=None)
+
+
+def rank_check(check: CheckRecord) -> tuple[int, float]:
+    """Sort key: worst verdict first, then the largest utilisation."""
+    return SEVERITY.index(check.verdict), -_ratio(check)
+
+
+def rank_row(row: RowStudy) -> tuple[int, tuple[int, float]]:
+    """Sort key of net rows: worst verdict first, then the governing check's."""
+    governing = find_governing(row.checks)
+    rank = rank_check(governing) if governing else (len(SEVERITY), 0.0)
+    return SEVERITY.index(row.verdict), rank
+
+
+def _ratio(check: CheckRecord) -> float:
+    return -1.0 if check.used is None else check.used
+
+
+def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check with the largest utilisation, of those that have one."""
+    known = [check for check in checks if check.used is not None]
+    return max(known, key=_ratio, default=None)
+
+
+def find_shown(row: RowStudy) -> CheckRecord | None:
+    """Check of which the report shows most: the governing one, or the most used one."""
+    governing = find_governing(row.checks)
+    if governing and governing.used is not None:
+        return governing
+    return find_highest(row.checks)
+
+
+def find_shown_member(row: RowStudy) -> str:
+    """Member whose envelope the report shows; "" without any."""
+    shown = find_shown(row)
+    if shown is None or shown.member in REPORTED_MEMBERS:
+        return shown.member if shown else ""
+    return BROUGHT_BY.get(shown.member, "")
+
+
+def find_case(check: CheckRecord) -> CasePoint | None:
+    """Case of the ranges that brings the demand; None where the guideline does."""
+    return None if check.governs == "guideline" else check.case
+
+
+def is_far_from_limit(check: CheckRecord) -> bool:
+    """True of a check that passes, and is told no change that would turn it."""
+    _, used = check.utilisation_band
+    return check.verdict is Verdict.PASS and (used is None or used < CLOSE)
+
+
+def list_failed(row: RowStudy) -> list[CaseRecord]:
+    """Cases that gave no numbers."""
+    return [case for case in row.cases if case.outcome is not Outcome.CONVERGED]
+
+
+def list_loaded(row: RowStudy) -> list[str]:
+    """Members that carry a force in at least one case."""
+    return [
+        member
+        for member in REPORTED_MEMBERS
+        if any(getattr(case, f"{member}_kN") for case in row.cases)
+    ]

@@ -1,0 +1,235 @@
+"""Basis of a report: scope, limit profile, ranges, default values, notes, reading."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from netdesign.report.blocks.block import (
+    Block,
+    Heading,
+    Items,
+    Pair,
+    Pairs,
+    Paragraph,
+    Part,
+    section,
+)
+from netdesign.report.blocks.table import Table, name_columns, text_cell
+from netdesign.report.blocks.text import symbols
+from netdesign.report.sections.inputs import DEFAULT, build_inputs
+from netdesign.report.sections.profile import (
+    count_assumed,
+    list_below_one,
+    name_profile,
+)
+from netdesign.report.words import Words, name_heading, show_text, understand
+from netdesign.study.records import Study
+from netdesign.words.message import say
+
+_SCOPE = ("avalanche", "structure", "ground", "product")
+_READING = (
+    *("reading.checks", "caption.arrows", "reading.pressure", "reading.search"),
+    *("reading.holds", "reading.directions"),
+)
+# Left empty, its factor is taken by the guideline's load.
+_ALTITUDE = say("column.Nets.altitude")
+# Net rows of which each is named; of more, those that are left out may be fewer.
+_FEW_ROWS = 8
+
+
+def show_basis(study: Study, words: Words) -> Part:
+    """Statements that hold for all rows."""
+    reading = tuple(symbols(one) for one in list_reading(study, words))
+    defaults = list_defaults(study, words)
+    notes = list_notes(study, words)
+    listed: dict[str, tuple[Block, ...]] = {
+        "scope": (
+            Paragraph(text=words("scope.treated")),
+            _tabulate_scope(words),
+        ),
+        "limit_profile": tuple(_show_profile(study, words)),
+        "ranges": (show_ranges(study, words).shown("inputs"),),
+        "not_typed": (_list(defaults, words),),
+        "notes": (_list(notes, words),),
+        "reading": (Items(items=reading, look="small"),),
+    }
+    sections = (
+        section(name, words(f"heading.{name}"), *blocks, level=3)
+        for name, blocks in listed.items()
+    )
+    heading = Heading(text=words("heading.basis"), level=2)
+    return Part(kind="article", id="basis", blocks=(heading, *sections))
+
+
+def _list(sentences: Sequence[str], words: Words) -> Block:
+    if not sentences:
+        return Paragraph(text=words("show.none"), look="none")
+    return Items(items=tuple(sentences))
+
+
+def _tabulate_scope(words: Words) -> Table:
+    headings = [words(f"heading.{key}") for key in ("not_treated", "who_checks")]
+    return Table(
+        caption=words("scope.decision"),
+        columns=name_columns(headings, numbers=()),
+        rows=tuple(
+            (text_cell(words(f"scope.{key}")), text_cell(words(f"scope.{key}_by")))
+            for key in _SCOPE
+        ),
+        look="scope",
+    )
+
+
+def _show_profile(study: Study, words: Words) -> Iterator[Block]:
+    """The limit profile in some lines, and the least load."""
+    profile = study.profile
+    assumed, count = count_assumed(study)
+    told = {
+        "limit_profile": name_profile(study, words),
+        "profile_version": profile.version,
+        "profile_choice": profile.choice,
+        "unconfirmed": words("show.assumed_counted", assumed=assumed, count=count),
+        "floor": tell_floor(study, words),
+    }
+    law = tell_accepted_law(study, words)
+    if law:
+        told["accepted_law"] = law
+    pairs = tuple(
+        Pair(name=words(f"heading.{key}"), text=show_text(text))
+        for key, text in told.items()
+        if text
+    )
+    yield Pairs(pairs=pairs, look="keys")
+    below = list_below_one(profile, words)
+    if below:
+        yield Items(items=below)
+
+
+def tell_floor(study: Study, words: Words) -> str:
+    """Least load of the design forces, and how often it governs."""
+    told = _count_by_floor(study, words)
+    if not study.profile.is_floor_overruled:
+        return told
+    return words.join([words("floor.overruled", profile=study.profile.id), told])
+
+
+def _count_by_floor(study: Study, words: Words) -> str:
+    if study.profile.floor == "none":
+        is_own = not study.profile.is_floor_overruled
+        return words("floor.none" if is_own else "floor.none_chosen")
+    checks = [one for row in study.rows for one in row.checks if one.is_of_force]
+    governed = sum(one.governs == "guideline" for one in checks)
+    profiles = {row.floor.profile for row in study.rows if row.floor}
+    named = show_text(", ".join(sorted(profiles)))
+    return words("floor.told", profile=named, count=governed, all=len(checks))
+
+
+def name_law(study: Study) -> str:
+    """Creep law of a study; "" of one that does not say."""
+    return study.provenance.settings.get("creep_law", "").partition(" ")[0]
+
+
+def tell_accepted_law(study: Study, words: Words) -> str:
+    """Creep law whose extrapolation is accepted, and whether it is the study's."""
+    given, own = study.project.accepted_law, name_law(study)
+    if given in ("", own):
+        return show_text(given) if given else ""
+    return words("show.accepted_of_another", given=show_text(given), own=show_text(own))
+
+
+def show_ranges(study: Study, words: Words) -> Table:
+    """Ranges of the envelope as typed and as understood."""
+    return build_inputs(study.range_inputs, words("heading.ranges_of_envelope"), words)
+
+
+def list_notes(study: Study, words: Words) -> list[str]:
+    """Notes on the whole study, and those that several rows share."""
+    shared = share_notes(study, words)
+    return [
+        *(words.show(note) for note in study.notes),
+        *(
+            words("show.label", label=name_rows(ids, study, words), text=note)
+            for note, ids in shared.items()
+        ),
+    ]
+
+
+def share_notes(study: Study, words: Words) -> dict[str, list[str]]:
+    """Notes that several rows have, word by word, with the rows: told once."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        for note in dict.fromkeys(words.show(note) for note in row.notes):
+            rows.setdefault(note, []).append(show_text(row.id))
+    return {note: ids for note, ids in rows.items() if len(ids) > 1}
+
+
+def list_reading(study: Study, words: Words) -> tuple[str, ...]:
+    """Sentences that hold of the drawings and tables of every row."""
+    return name_cases(study, words), *(words(key) for key in _READING)
+
+
+def name_cases(study: Study, words: Words) -> str:
+    """Legend of the numbers of a case, in their order."""
+    points = [case.case for row in study.rows for case in row.cases[:1]]
+    names = (
+        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
+    )
+    legend = words("show.legend")
+    if not names:
+        return legend
+    return words("show.legend_further", legend=legend, names=" / ".join(names))
+
+
+def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], list[str]]:
+    """Net rows, or the ranges, by the value that they left empty.
+
+    A range without a number of samples is searched: that is no value.
+    """
+    found: dict[tuple[str, str], list[str]] = {}
+    numbers = [one for one in study.range_inputs if isinstance(one.value, float)]
+    places = [(words("heading.ranges"), numbers)]
+    places += [(row.id, row.inputs) for row in study.rows]
+    for place, inputs in places:
+        for echo in inputs:
+            label = words.show(echo.label)
+            if echo.cell == DEFAULT and echo.value != "":
+                shown = words.show_quantity(understand(echo, words), echo.unit)
+                found.setdefault((label, shown), []).append(place)
+            elif echo.label == _ALTITUDE and echo.value == "":
+                shown = words("show.largest_altitude_factor")
+                found.setdefault((label, shown), []).append(place)
+    return found
+
+
+def count_defaults(study: Study, words: Words) -> int:
+    """Values that nobody typed."""
+    return len(_group_defaults(study, words))
+
+
+def list_defaults(study: Study, words: Words) -> list[str]:
+    """Values that nobody typed, what they were taken as, and where."""
+    found = _group_defaults(study, words)
+    return [
+        words(
+            "show.default_taken",
+            what=what,
+            value=value,
+            who=show_text(name_rows(who, study, words)),
+        )
+        for (what, value), who in found.items()
+    ]
+
+
+def name_rows(names: Sequence[str], study: Study, words: Words) -> str:
+    """Names of net rows; of a large site all of them, or all but a few, in a phrase.
+
+    What is named beside them, such as the ranges, stands before.
+    """
+    ids = [row.id for row in study.rows]
+    beside = [name for name in names if name not in ids]
+    others = [name for name in ids if name not in names]
+    if len(ids) <= _FEW_ROWS or len(others) > _FEW_ROWS:
+        return ", ".join(names)
+    key = "show.all_rows_but" if others else "show.all_rows"
+    told = words(key, count=len(ids), others=", ".join(others))
+    return ", ".join([*beside, told])

@@ -1,0 +1,238 @@
+"""Checks in words and cells: name, case, loads, resistance, utilisation, reason."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from netdesign.outcome import Verdict
+from netdesign.report.blocks.table import Cell, rich_cell
+from netdesign.report.blocks.text import Badge, Content, Piece, Sketch
+from netdesign.report.governing import SEVERITY, find_governing
+from netdesign.report.words import (
+    MISSING,
+    Words,
+    show_check,
+    show_text,
+    show_verdict,
+)
+from netdesign.study.records import CheckRecord, RowStudy
+from netdesign.words.message import Message, say
+from netdesign.words.names import name, name_check
+
+_OVER, _BELOW = "#b23a1e", "#7d838b"  # of a bar: beyond utilisation 1, and below
+_BAR_UNIT = 100.0  # length of a bar at utilisation 1
+_BAR_BEYOND = 50.0  # length that is left for all above 1
+_PLAIN = "check.passes"  # what the numbers say already
+
+
+def badge_cell(verdict: Verdict, words: Words) -> Cell:
+    """Symbol and word of a verdict."""
+    return rich_cell((Badge(show_verdict(verdict, words)),))
+
+
+def tell_resistance(check: CheckRecord, words: Words) -> str:
+    """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
+    basis = check.resistance_basis
+    parts = (
+        check.resistance_type,
+        words.show(name("basis", basis)) if basis else "",
+        check.resistance_cell,
+    )
+    return show_text(", ".join(part for part in parts if part))
+
+
+def name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> str:
+    """Case that brings the demand: of the ranges, or the guideline's load case."""
+    if check.governs != "guideline":
+        show = words.name_case_short if is_short else words.name_case
+        return show(check.case)
+    named = show_text(words.show(name("load_case", check.load_case)))
+    inclination = words.show_with_unit("inclination_deg", check.load_inclination_deg)
+    return f"{named}, θ {inclination}"
+
+
+def show_used(
+    check: CheckRecord, words: Words, *, with_interval: bool = True
+) -> Content:
+    """Utilisation with its interval where both ends differ in print, and its bar."""
+    low, high = check.used_band
+    used = Piece(words.show_number("utilisation", check.used), "ratio")
+    if low is None or high is None or check.used is None:
+        return (used,)
+    ends = [words.show_number("utilisation", one) for one in (low, high)]
+    band = f" ({words.show_band('utilisation', low, high)})"
+    bar = _draw_bar(low, check.used, high)
+    is_shown = with_interval and ends[0] != ends[1]
+    return (used, Piece(band, "band"), bar) if is_shown else (used, bar)
+
+
+def _draw_bar(low: float, value: float, high: float) -> Sketch:
+    """Ratio bar: the utilisation, its interval in white, and a mark at 1."""
+    start, end, last = (f"{_measure_bar(one):.1f}" for one in (low, value, high))
+    return Sketch(
+        '<svg class="bar" viewBox="0 0 150 12" preserveAspectRatio="xMinYMid" '
+        'aria-hidden="true"><path stroke="#e9ecef" stroke-width="6" d="M0 6h150"/>'
+        f'<path stroke="{_OVER if value > 1 else _BELOW}" stroke-width="6" '
+        f'd="M0 6h{end}"/>'
+        f'<path stroke="#fff" stroke-width="2" d="M{start} 6H{last}"/>'
+        '<path stroke="#1b1e22" stroke-width="1.5" d="M100 0v12"/></svg>'
+    )
+
+
+def _measure_bar(ratio: float) -> float:
+    """Length of a bar: in proportion up to 1, then ever slower, so that 9 is no 1.5."""
+    if ratio <= 1.0:
+        return _BAR_UNIT * ratio
+    return _BAR_UNIT + _BAR_BEYOND * (1.0 - 1.0 / ratio)
+
+
+def tell_loads(check: CheckRecord, words: Words) -> str:
+    """Characteristic force by each load, the one that governs first; "" of one alone.
+
+    Solved ones at most: with their error and what may hide between cases.
+    """
+    found = {}
+    for load, letter in {"coupled": "c", "panel": "p", "guideline": "g"}.items():
+        symbol = check.name_force(letter)
+        _, force = check.read_band(symbol)
+        if force is not None:
+            shown = words.show_symbol(symbol, "kN", force)
+            found[load] = words(f"load_force.{load}", force=shown)
+    if len(found) < 2:
+        return ""
+    order = sorted(found, key=lambda load: load != check.governs)
+    return words.join(found[load] for load in order)
+
+
+def tell_briefly(row: RowStudy, words: Words) -> str:
+    """Why a row has its verdict, in some ten words; "" of a pass."""
+    check = find_governing(row.checks)
+    if row.verdict is Verdict.PASS:
+        return ""
+    if check is None or check.verdict is not row.verdict:
+        return words.show(row.reasons[0]) if row.reasons else ""
+    if check.verdict is Verdict.DECLARED and check.declared:
+        return show_text(check.declared.document)
+    gaps = [_leave_out_cell(one) for one in find_gaps(check.reason)]
+    if gaps:
+        return words.join(words.show(one) for one in gaps)
+    return tell_cause(check, words)
+
+
+def _leave_out_cell(told: Message) -> Message:
+    """The same without the cells that it names."""
+    if told.key == "check.of_cell" and isinstance(told.arguments["what"], Message):
+        return _leave_out_cell(told.arguments["what"])
+    inner = {
+        name: _leave_out_cell(one) if isinstance(one, Message) else one
+        for name, one in told.arguments.items()
+    }
+    return say(told.key, **inner)
+
+
+def tell_cause(check: CheckRecord, words: Words) -> str:
+    """What keeps a check from passing, without what its numbers say already."""
+    gaps = find_gaps(check.reason)
+    if gaps:
+        return words.join(words.show(one) for one in gaps)
+    if check.is_of_force and not check.is_unbounded:
+        demand = words.show_with_unit("demand_kN", check.demand_kN)
+        resistance = words.show_with_unit("resistance_kN", check.resistance_kN)
+        return words("show.exceeds", demand=demand, resistance=resistance)
+    return words.show(_strip_load(check.reason))
+
+
+def find_gaps(reason: object) -> tuple[Message, ...]:
+    """What a check lacks, wherever in its reason that stands."""
+    if not isinstance(reason, Message):
+        return ()
+    if reason.key in ("check.not_proven", "check.fails_besides"):
+        told = reason.arguments["gaps"]
+        return tuple(x for x in told if isinstance(x, Message))  # type: ignore[union-attr]
+    return find_gaps(reason.arguments.get("reason"))
+
+
+def _strip_load(reason: object) -> Message | None:
+    if isinstance(reason, Message) and reason.key == "load.reason":
+        reason = reason.arguments["reason"]
+    return reason if isinstance(reason, Message) else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckLine:
+    """One resistance with its check inside the row and at its end; one may lack."""
+
+    inside: CheckRecord | None
+    end: CheckRecord | None
+
+    @property
+    def checks(self) -> list[CheckRecord]:
+        """Checks of the line, inside first."""
+        return [one for one in (self.inside, self.end) if one is not None]
+
+    @property
+    def verdict(self) -> Verdict:
+        """The worse verdict of both."""
+        return min((one.verdict for one in self.checks), key=SEVERITY.index)
+
+    def name(self, words: Words) -> str:
+        """Member and mode, without the place."""
+        first = self.checks[0]
+        return words.show(name_check(first.member, first.mode))
+
+    def list_remarks(self, words: Words) -> list[str]:
+        """Reasons that say more than the numbers; once where both places share it."""
+        told = {
+            one.position == "edge": words.show(_strip_load(one.reason))
+            for one in self.checks
+            if not _is_plain(one.reason)
+        }
+        shown = list(dict.fromkeys(told.values()))
+        if len(shown) > 1 or len(told) < len(self.checks):
+            places = {False: words("heading.inside"), True: words("heading.at_end")}
+            if len(self.checks) > 1:
+                return [
+                    words("show.label", label=places[is_end], text=text)
+                    for is_end, text in told.items()
+                ]
+        return shown
+
+
+def list_lines(checks: Sequence[CheckRecord]) -> Iterator[CheckLine]:
+    """Checks of forces, in their order; those of one resistance share a line."""
+    places: dict[tuple[object, ...], list[CheckRecord]] = {}
+    for check in checks:
+        if check.is_of_force:
+            places.setdefault(_name_resistance(check), []).append(check)
+    for together in places.values():
+        # one inside and one at the end belong together; more never share a line
+        is_pair = [one.position == "edge" for one in together] == [False, True]
+        for group in [together] if is_pair else [[one] for one in together]:
+            shown = {one.position == "edge": one for one in group}
+            yield CheckLine(inside=shown.get(False), end=shown.get(True))
+
+
+def _name_resistance(check: CheckRecord) -> tuple[object, ...]:
+    return (
+        check.member,
+        check.mode,
+        check.clause,
+        check.resistance_type,
+        check.resistance_basis,
+        check.resistance_cell,
+        check.resistance_kN,
+    )
+
+
+def _is_plain(reason: object) -> bool:
+    """True of a pass about which its numbers say everything."""
+    told = _strip_load(reason)
+    return told is not None and told.key in (_PLAIN, "check.slack")
+
+
+def name_checks(checks: Sequence[CheckRecord], words: Words) -> str:
+    """Names of checks, one after the other."""
+    return (
+        words.join(dict.fromkeys(show_check(words, one) for one in checks)) or MISSING
+    )

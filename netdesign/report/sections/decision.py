@@ -1,0 +1,280 @@
+"""First page: the verdict of each row, what is open, room to sign."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from dataclasses import asdict
+
+from netdesign.checks.result import tell_proof
+from netdesign.outcome import Verdict
+from netdesign.report.blocks.block import (
+    Block,
+    Heading,
+    Items,
+    Pair,
+    Pairs,
+    Paragraph,
+    Part,
+    masthead,
+    section,
+)
+from netdesign.report.blocks.table import (
+    Cell,
+    Table,
+    name_columns,
+    rich_cell,
+    text_cell,
+)
+from netdesign.report.blocks.text import HIDDEN, Badge, Content, Piece, strong
+from netdesign.report.governing import SEVERITY, find_governing
+from netdesign.report.sections.basis import count_defaults, name_rows
+from netdesign.report.sections.changes import list_flips
+from netdesign.report.sections.checks import (
+    badge_cell,
+    find_gaps,
+    name_checks,
+    show_used,
+    tell_briefly,
+    tell_cause,
+)
+from netdesign.report.sections.profile import count_assumed, name_profile
+from netdesign.report.what_if import build_what_if, mark_verdict, name_study
+from netdesign.report.words import (
+    MISSING,
+    VERDICTS,
+    Words,
+    show_check,
+    show_member,
+    show_text,
+)
+from netdesign.structure.members import CARRYING_MEMBERS, EndMember
+from netdesign.study.document import compute_digest
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.words.message import Message
+
+_FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
+_OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
+
+
+def show_title(study: Study, words: Words) -> Part:
+    """Name of the project; of a what-if, what was replaced."""
+    more: list[Block] = []
+    if study.what_if:
+        more.append(Paragraph(text=strong(words("what_if.mark")), look="word"))
+        more.append(build_what_if(study, words))
+    title = show_text(study.project.name)
+    return masthead(words("heading.anchor_check"), title, *more)
+
+
+def show_decision(study: Study, words: Words) -> Part:
+    """Verdict, rows, open points, signatures."""
+    verdict = mark_verdict(study, words)
+    card = Part(
+        kind="div",
+        look=f"card {verdict.style}",
+        blocks=(
+            Paragraph(text=(Badge(verdict, "word"),), look="word"),
+            Paragraph(text=verdict.meaning, look="meaning"),
+        ),
+    )
+    heading = Heading(text=words("heading.verdict"), level=2, look=HIDDEN, on="page")
+    matrix: tuple[Block, ...] = ()
+    if len(study.rows) > _FEW_ROWS:
+        matrix = (build_matrix(study, words).shown("matrix"),)
+    todo = tuple(list_open_points(study, words)) or (words("todo.none"),)
+    pairs = tuple(Pair(name=a, text=b) for a, b in identify(study, words))
+    return Part(
+        id="decision",
+        blocks=(
+            heading,
+            card,
+            Pairs(pairs=pairs, look="pairs"),
+            _tabulate_rows(study, words),
+            *matrix,
+            section("todo", words("heading.todo"), Items(items=todo), level=3),
+            _sign(study, words),
+        ),
+    )
+
+
+def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
+    """Subject of the report: names with what stands beside them."""
+    project = study.project
+    pairs = (
+        ("number", project.number),
+        ("revision", project.revision),
+        ("site_file", study.provenance.site_file),
+        ("date", study.provenance.started[:10]),
+        ("limit_profile", name_profile(study, words)),
+    )
+    return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
+
+
+def _tabulate_rows(study: Study, words: Words) -> Block:
+    t = words
+    if not study.rows:
+        return Paragraph(text=t("heading.no_rows"), look="none")
+    keys = ("net_row", "verdict", "governing_check", "utilisation", "reason")
+    return Table(
+        caption=t("caption.decision"),
+        columns=name_columns([t(f"heading.{key}") for key in keys], numbers=()),
+        rows=tuple(
+            _list_row(row, number, words) for number, row in enumerate(study.rows, 1)
+        ),
+        look="summary",
+    )
+
+
+def _list_row(row: RowStudy, number: int, words: Words) -> tuple[Cell, ...]:
+    check = find_governing(row.checks)
+    named = show_check(words, check) if check else words("heading.no_check")
+    used = rich_cell(show_used(check, words)) if check else text_cell(MISSING)
+    return (
+        rich_cell((Piece(show_text(row.id), "name", link=f"row-{number}"),)),
+        badge_cell(row.verdict, words),
+        text_cell(named),
+        used,
+        text_cell(tell_briefly(row, words)),
+    )
+
+
+def build_matrix(study: Study, words: Words) -> Table:
+    """Worst verdict and largest utilisation of each row by members, and the rest."""
+    known = {one.member for row in study.rows for one in row.checks if one.is_of_force}
+    members = [one for one in (*CARRYING_MEMBERS, *EndMember) if one in known]
+    columns = [show_member(words, one) for one in members]
+    headings = [words("heading.net_row"), *columns, words("heading.rest")]
+    return Table(
+        caption=words("caption.matrix"),
+        columns=name_columns(headings, numbers=()),
+        rows=tuple(
+            (
+                text_cell(row.id),
+                *(_sum_up(_list_of(row, one), words) for one in members),
+                _sum_up([one for one in row.checks if not one.is_of_force], words),
+            )
+            for row in study.rows
+        ),
+        empty=words("heading.no_rows"),
+    )
+
+
+def _list_of(row: RowStudy, member: str) -> list[CheckRecord]:
+    return [one for one in row.checks if one.member == member and one.is_of_force]
+
+
+def _sum_up(checks: list[CheckRecord], words: Words) -> Cell:
+    """Symbol of the worst verdict, and the largest utilisation that is known."""
+    if not checks:
+        return text_cell(MISSING)
+    worst = min((one.verdict for one in checks), key=SEVERITY.index)
+    known = [one.used for one in checks if one.used is not None]
+    symbol = VERDICTS[worst].symbol
+    if not known:
+        return text_cell(symbol)
+    most = words.show_number("utilisation", max(known))
+    return text_cell(f"{symbol} {most}")
+
+
+def list_open_points(study: Study, words: Words) -> Iterator[str]:
+    """What must be done before the report can be signed, the worst first."""
+    for verdict in (Verdict.FAIL, Verdict.NOT_PROVEN):
+        yield from _list_open_checks(study, verdict, words)
+    yield from _list_open_rows(study, words)
+    yield from _list_declared(study, words)
+    assumed, count = count_assumed(study)
+    if assumed:
+        yield words("todo.unconfirmed", assumed=assumed, count=count)
+    panels = [row.id for row in study.rows if row.panel and row.panel.assumed]
+    if panels:
+        yield words("todo.panels", rows=name_rows(panels, study, words))
+    defaults = count_defaults(study, words)
+    if defaults:
+        yield words("todo.defaults", count=defaults)
+
+
+def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[str]:
+    """Checks of one verdict by row; those with the same cause share a point."""
+    for row in study.rows:
+        causes: dict[str, list[CheckRecord]] = {}
+        for check in row.checks:
+            if check.verdict is verdict:
+                gaps = find_gaps(check.reason)
+                told = tell_cause(check, words) if gaps else words(f"todo.{verdict}")
+                causes.setdefault(told, []).append(check)
+        for cause, checks in causes.items():
+            yield _tell_point(row, checks, cause, words)
+
+
+def _tell_point(
+    row: RowStudy, checks: list[CheckRecord], cause: str, words: Words
+) -> str:
+    place = f"{show_text(row.id)}, {name_checks(checks, words)}"
+    told = words("show.label", label=place, text=cause)
+    flips = list_flips(checks[0], words) if len(checks) == 1 else ()
+    return words("todo.with_change", what=told, change=flips[0]) if flips else told
+
+
+def _list_open_rows(study: Study, words: Words) -> Iterator[str]:
+    """Reasons of rows that are no check's; those that rows share are told once."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        for reason in row.reasons:
+            if not (isinstance(reason, Message) and reason.key == _OF_CHECK):
+                rows.setdefault(words.show(reason), []).append(row.id)
+    for text, ids in rows.items():
+        named = show_text(name_rows(ids, study, words))
+        yield words("show.label", label=named, text=text)
+
+
+def _list_declared(study: Study, words: Words) -> Iterator[str]:
+    """Documents that are said to prove checks, each with the checks."""
+    found: dict[tuple[str, str], list[CheckRecord]] = {}
+    for row in study.rows:
+        for check in row.checks:
+            if check.declared and check.verdict is Verdict.DECLARED:
+                proof = words.show(tell_proof(**asdict(check.declared)))
+                found.setdefault((show_text(row.id), proof), []).append(check)
+    for (row_id, proof), checks in found.items():
+        place = f"{row_id}, {name_checks(checks, words)}"
+        yield words("todo.declared", checks=place, proof=proof)
+
+
+def _sign(study: Study, words: Words) -> Part:
+    """Room for signatures, and what ties them to the study."""
+    project = study.project
+    people = {
+        "prepared": project.author,
+        "checked": project.checker,
+        "approved": "",
+    }
+    headings = [words(f"heading.{x}") for x in ("role", "name", "date", "signature")]
+    table = Table(
+        caption=words("heading.signatures"),
+        columns=name_columns(headings, numbers=()),
+        rows=tuple(
+            (
+                Cell(text=words(f"heading.{role}")),
+                Cell(text=show_text(name) if name.strip() else ""),
+                *(Cell(), Cell()),
+            )
+            for role, name in people.items()
+        ),
+        look="sign",
+    )
+    tied = words("show.signed_study", digest=compute_digest(study))
+    command: Content = (Piece(f"{tied} "), Piece(name_verification(study), "code"))
+    return Part(
+        kind="div",
+        look="sign-off",
+        blocks=(table, Paragraph(text=command, look="small")),
+    )
+
+
+def name_verification(study: Study) -> str:
+    """Command that solves every case of a report again and compares it."""
+    site = study.provenance.site_file
+    is_built_in = " --example" in study.provenance.command  # verify has it too
+    named = f" --site {shlex.quote(site)}" if site and not is_built_in else ""
+    return show_text(f"netdesign verify --study {name_study(study)}{named}")

@@ -1,0 +1,484 @@
+"""Annex of numerical quality: solutions, bounds, uncertainty, second opinions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+
+from netdesign.outcome import Outcome
+from netdesign.report.blocks.block import Block, Items, Paragraph, Part, section
+from netdesign.report.blocks.table import (
+    Cell,
+    Column,
+    Table,
+    band_cell,
+    fixed_cell,
+    given_cell,
+    name_columns,
+    number_cell,
+    number_column,
+    quantity_column,
+    text_cell,
+    text_column,
+)
+from netdesign.report.governing import find_shown, find_shown_member, list_failed
+from netdesign.report.words import (
+    MISSING,
+    Words,
+    add_unit,
+    name_heading,
+    show_check,
+    show_member,
+)
+from netdesign.structure.members import REPORTED_MEMBERS
+from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.envelope_records import BoundRecord
+from netdesign.study.opinion_records import ModelFormRecord
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.words.names import name
+
+_QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
+
+
+def show_quality(study: Study, words: Words) -> Part:
+    """Annex with the quality of the solutions, and what else was calculated."""
+    failed = _build_failed(study, words)
+    searched = tuple(
+        Paragraph(text=text, look="small")
+        for text in dict.fromkeys(_describe_search(one, words) for one in study.rows)
+        if text
+    )
+    rows: tuple[Table, ...] = (
+        _stack(words("caption.bounds"), study, build_bounds, words),
+        _stack(words("caption.driver_table"), study, _build_drivers, words),
+        _build_spreads(study, words),
+    )
+    return section(
+        "annex-quality",
+        words("heading.annex_quality"),
+        _build_quality(study, words).shown("quality"),
+        *([_build_outcomes(study, words)] if failed.rows else []),
+        failed,
+        *searched,
+        *(one.shown("extremes") for one in rows),
+        build_opinions(study, words).shown("extremes"),
+        *_list_differences(study, words),
+    )
+
+
+def _build_quality(study: Study, words: Words) -> Table:
+    """Worst numerical quality of each row."""
+    counts = (words("heading.cases"), words("heading.without_result"))
+    error = add_unit(words("heading.largest_error"), "%")
+    return Table(
+        caption=words("caption.quality"),
+        columns=(
+            text_column(words("heading.net_row")),
+            *name_columns(counts, numbers=counts),
+            number_column("balance_residual", words("heading.largest_residual")),
+            number_column("error_percent", error),
+            text_column(words("heading.independent_checks")),
+        ),
+        rows=tuple(_quality_row(row, words) for row in study.rows),
+        empty=words("show.none"),
+    )
+
+
+def _quality_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
+    residual = _find_worst(row, lambda case: case.balance_residual)
+    error = _find_worst(row, lambda case: case.error_percent)
+    return (
+        text_cell(row.id),
+        given_cell(words, len(row.cases)),
+        given_cell(words, len(list_failed(row))),
+        number_cell(words, "balance_residual", residual),
+        number_cell(words, "error_percent", error),
+        text_cell(_count_laws(row, words)),
+    )
+
+
+def _count_laws(row: RowStudy, words: Words) -> str:
+    """Independent laws that the drawn case obeys; those that it does not, by name."""
+    unmet = [words.show(name("law", x.name)) for x in row.independent if not x.is_met]
+    if unmet:
+        return words("show.laws_unmet", laws=tuple(unmet))
+    count = len(row.independent)
+    return words("show.laws_counted", met=count, count=count) if count else MISSING
+
+
+def _find_worst(
+    row: RowStudy, read: Callable[[CaseRecord], float | None]
+) -> float | None:
+    solved = (one for one in row.cases if one.outcome is Outcome.CONVERGED)
+    known = (read(case) for case in solved)
+    return max((one for one in known if one is not None), default=None)
+
+
+def _build_outcomes(study: Study, words: Words) -> Table:
+    """Count cases by outcome; outcomes that did not occur are left out."""
+    headings = [words(f"heading.{key}") for key in ("outcome", "cases", "meaning")]
+    counts = Counter(case.outcome for row in study.rows for case in row.cases)
+    return Table(
+        caption=words("caption.outcomes"),
+        columns=name_columns(headings, numbers=headings[1:2]),
+        rows=tuple(
+            (
+                text_cell(words(f"ended.{outcome}")),
+                given_cell(words, counts[outcome]),
+                text_cell(words.show(outcome.message)),
+            )
+            for outcome in Outcome
+            if counts[outcome]
+        ),
+        empty=words("heading.no_case_run"),
+    )
+
+
+def _build_failed(study: Study, words: Words) -> Table:
+    """Cases without a result, by name."""
+    headings = [
+        words(f"heading.{one}") for one in ("net_row", "case", "outcome", "reason")
+    ]
+    has_cases = any(row.cases for row in study.rows)
+    return Table(
+        caption=words("caption.failed"),
+        columns=name_columns(headings, numbers=()),
+        rows=tuple(
+            (
+                text_cell(row.id),
+                Cell(text=words.name_case(case.case)),
+                text_cell(words(f"ended.{case.outcome}")),
+                explain_case(case, words),
+            )
+            for row in study.rows
+            for case in list_failed(row)
+        ),
+        empty=words(
+            "heading.every_case_converged" if has_cases else "heading.no_case_run"
+        ),
+    )
+
+
+def explain_case(case: CaseRecord, words: Words) -> Cell:
+    """How a case ended, and why."""
+    if case.outcome is Outcome.CONVERGED:
+        return text_cell(words.show(case.reason))
+    sentence = words.show(case.outcome.message)
+    if case.reason is None:
+        return text_cell(sentence)
+    reason = words.show(case.reason)
+    return text_cell(
+        words("show.sentence_and_reason", sentence=sentence, reason=reason)
+    )
+
+
+def build_cases(row: RowStudy, words: Words) -> Table:
+    """Every case of a row with its forces or the reason why there are none."""
+    keys = [f"{member}_kN" for member in REPORTED_MEMBERS]
+    keys += ["error_percent", "balance_residual"]
+    return Table(
+        caption=words("caption.cases"),
+        columns=(
+            *list_case_columns(words, row),
+            *(quantity_column(words, key) for key in keys),
+            text_column(words("heading.outcome")),
+            text_column(words("heading.reason")),
+        ),
+        rows=tuple(
+            (
+                *_show_case(case.case, words),
+                *(number_cell(words, key, getattr(case, key)) for key in keys),
+                text_cell(words(f"ended.{case.outcome}")),
+                explain_case(case, words),
+            )
+            for case in row.cases
+        ),
+        empty=words("show.none"),
+    )
+
+
+def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
+    """Columns of the quantities of a row's cases."""
+    keys = row.cases[0].case.values if row.cases else _QUANTITIES
+    return tuple(quantity_column(words, key) for key in keys)
+
+
+def _show_case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
+    return tuple(number_cell(words, *one) for one in case.values.items())
+
+
+def build_extremes(row: RowStudy, words: Words) -> Table:
+    """Largest force of each member, with what the others carry in that case."""
+    return Table(
+        caption=words("caption.extremes"),
+        columns=(
+            text_column(words("heading.member")),
+            quantity_column(words, "max_kN"),
+            text_column(add_unit(words("heading.band"), "kN")),
+            *list_case_columns(words, row),
+            *(quantity_column(words, f"{member}_kN") for member in REPORTED_MEMBERS),
+        ),
+        rows=tuple(
+            (
+                text_cell(show_member(words, extreme.quantity)),
+                number_cell(words, "max_kN", extreme.max_kN),
+                band_cell(words, "max_kN", extreme.low_kN, extreme.high_kN),
+                *_show_case(extreme.case, words),
+                *(
+                    number_cell(
+                        words, f"{member}_kN", extreme.coincident_kN.get(member)
+                    )
+                    if member != extreme.quantity
+                    else number_cell(words, "max_kN", extreme.max_kN)
+                    for member in REPORTED_MEMBERS
+                ),
+            )
+            for extreme in row.extremes
+        ),
+        empty=words("heading.no_case_converged"),
+    )
+
+
+def _describe_search(row: RowStudy, words: Words) -> str:
+    """Way to the largest forces, and basis of their bound; "" of a grid."""
+    record = row.envelope
+    if record is None:
+        return ""
+    closed = words("show.closed") if record.is_closed else words("show.not_closed")
+    return words(
+        "show.searched",
+        closed=closed,
+        gap=record.gap_asked_percent,
+        certainty=record.certainty,
+        share=record.resolved_share,
+    )
+
+
+def build_bounds(row: RowStudy, words: Words) -> Table:
+    """Largest force, what may hide above it, and its confirmation."""
+    gap = add_unit(words("heading.gap"), "%")
+    difference = add_unit(words("heading.difference"), "%")
+    above = add_unit(words("heading.nowhere_above"), "kN")
+    again = add_unit(words("heading.solved_again"), "kN")
+    return Table(
+        caption=words("caption.bounds"),
+        columns=(
+            text_column(words("heading.member")),
+            quantity_column(words, "max_kN"),
+            number_column("max_kN", above),
+            *name_columns((gap,), numbers=(gap,)),
+            number_column("max_kN", again),
+            *name_columns((difference,), numbers=(difference,)),
+            text_column(words("heading.solved_again_by")),
+            text_column(words("heading.case")),
+        ),
+        rows=tuple(_bound_row(bound, words) for bound in _list_bounds(row)),
+        empty=words("heading.grid_without_bound"),
+    )
+
+
+def _list_bounds(row: RowStudy) -> list[BoundRecord]:
+    return [] if row.envelope is None else row.envelope.bounds
+
+
+def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
+    again = bound.confirmation
+    gap = bound.upper_bound_kN / bound.max_kN - 1.0 if bound.max_kN > 0.0 else 0.0
+    by = MISSING
+    if again is not None:
+        by = words.show(again.reason)
+        if again.reason is None:
+            method = words.show(name("method", again.method))
+            count = again.elements or 0
+            by = words("show.solved_again_by", method=method, count=count)
+    difference = again.difference_percent if again else None
+    case = words.join(words.show_number(*one) for one in bound.case.items())
+    return (
+        text_cell(show_member(words, bound.quantity)),
+        number_cell(words, "max_kN", bound.max_kN),
+        number_cell(words, "max_kN", bound.upper_bound_kN),
+        fixed_cell(words, 100.0 * gap, 2),
+        number_cell(words, "max_kN", again.confirmed_kN if again else None),
+        Cell(
+            text=MISSING if difference is None else words.write(f"{difference:+.2f}"),
+            number=difference,
+        ),
+        text_cell(by),
+        text_cell(case),
+    )
+
+
+def _build_drivers(row: RowStudy, words: Words) -> Table:
+    """How the force of the member that is shown follows each quantity."""
+    numbers = [words(f"heading.{key}") for key in ("first_order", "total")]
+    low, high = words("heading.at_low_end"), words("heading.at_high_end")
+    member = find_shown_member(row)
+    return Table(
+        caption=words("caption.driver_table"),
+        columns=(
+            text_column(words("heading.member")),
+            text_column(words("heading.quantity")),
+            number_column("max_kN", add_unit(low, "kN")),
+            number_column("max_kN", add_unit(high, "kN")),
+            *name_columns(numbers, numbers=numbers),
+        ),
+        rows=tuple(
+            (
+                text_cell(show_member(words, bound.quantity)),
+                text_cell(name_heading(words, one.key)),
+                number_cell(words, "max_kN", one.at_low_kN),
+                number_cell(words, "max_kN", one.at_high_kN),
+                fixed_cell(words, one.first_order, 3),
+                fixed_cell(words, one.total, 3),
+            )
+            for bound in _list_bounds(row)
+            if bound.quantity == member
+            for one in bound.drivers
+        ),
+        empty=words("heading.grid_without_bound"),
+    )
+
+
+def _build_spreads(study: Study, words: Words) -> Table:
+    """Uncertainty of the check that is shown of each row, part by part."""
+    keys = ("net_row", "check", "in_the_verdict", "for_comparison")
+    headings = [words(f"heading.{key}") for key in keys]
+    shown = [(row, check) for row in study.rows if (check := find_shown(row))]
+    return Table(
+        caption=words("caption.spreads"),
+        columns=name_columns(headings, numbers=()),
+        rows=tuple(
+            (
+                text_cell(row.id),
+                text_cell(show_check(words, check)),
+                *(_list_spreads(check, words, in_verdict=x) for x in (True, False)),
+            )
+            for row, check in shown
+        ),
+        empty=words("heading.no_utilisation"),
+    )
+
+
+def _list_spreads(check: CheckRecord, words: Words, *, in_verdict: bool) -> Cell:
+    told = []
+    for one in check.spreads:
+        if one.in_verdict is in_verdict:
+            band = words.show_band("utilisation", one.low, one.high)
+            text = band if band != MISSING else words.show(one.note)
+            label = words.show(one.source)
+            told.append(words("show.label", label=label, text=text))
+    return text_cell(words.join(told))
+
+
+def build_opinions(study: Study, words: Words) -> Table:
+    """Forces by other models beside the coupled one, a line a row."""
+    force = add_unit(show_member(words, "foot_anchor"), "kN")
+    headings = [
+        words("show.label", label=force, text=words(f"opinion.{key}"))
+        for key in ("coupled", "load_case_1", "load_case_2", "closed_form")
+    ]
+    others = words("opinion.other_snow")
+    return Table(
+        caption=words("opinion.caption"),
+        columns=(
+            text_column(words("heading.net_row")),
+            *name_columns(headings, numbers=headings),
+            text_column(others),
+        ),
+        rows=tuple(_opinion_row(row, words) for row in study.rows),
+        empty=words("show.none"),
+    )
+
+
+def _opinion_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
+    guideline, slab = row.guideline, row.slab
+    coupled = guideline.solved_foot_anchor_kN if guideline else None
+    by_case = (
+        {one.name: one.foot_anchor_kN for one in guideline.cases if guideline}
+        if guideline
+        else {}
+    )
+    forces = [one.foot_anchor_kN for one in slab.cases] if slab else []
+    known = [one for one in forces if one is not None]
+    return (
+        text_cell(row.id),
+        number_cell(words, "foot_anchor_kN", coupled),
+        number_cell(words, "foot_anchor_kN", by_case.get("load_case_1")),
+        number_cell(words, "foot_anchor_kN", by_case.get("load_case_2")),
+        number_cell(words, "foot_anchor_kN", max(known, default=None)),
+        text_cell(_tell_model_form(row.model_form, words)),
+    )
+
+
+def _tell_model_form(record: ModelFormRecord | None, words: Words) -> str:
+    """Spread of the governing force over other models of the snow; "-" without."""
+    if record is None:
+        return MISSING
+    ends = (record.force_kN * record.low_ratio, record.force_kN * record.high_ratio)
+    return words(
+        "opinion.spread",
+        member=show_member(words, record.member),
+        band=words.show_band("solved_kN", *ends),
+        count=sum(one.ratio is not None for one in record.variants),
+    )
+
+
+def _list_differences(study: Study, words: Words) -> Iterator[Block]:
+    """Why guideline and coupled calculation differ, row by row."""
+    told = tuple(
+        words("show.label", label=row.id, text=words.show(row.guideline.sentence))
+        for row in study.rows
+        if row.guideline
+    )
+    if told:
+        yield Items(items=told, look="small")
+
+
+def _stack(
+    caption: str,
+    study: Study,
+    build: Callable[[RowStudy, Words], Table],
+    words: Words,
+) -> Table:
+    return stack_tables(caption, [(x.id, build(x, words)) for x in study.rows], words)
+
+
+def stack_tables(
+    caption: str, parts: Sequence[tuple[str, Table]], words: Words
+) -> Table:
+    """One table out of several, told apart by their net row.
+
+    A column that only some of them have is empty for the others.
+    """
+    columns = _join_columns([table for _, table in parts])
+    return Table(
+        caption=caption,
+        columns=(text_column(words("heading.net_row")), *columns),
+        rows=tuple(
+            (text_cell(name), *_place_cells(part, row, columns))
+            for name, part in parts
+            for row in part.rows
+        ),
+        empty=parts[0][1].empty if parts else words("show.none"),
+    )
+
+
+def _join_columns(tables: Sequence[Table]) -> list[Column]:
+    """Columns of all tables, each once, every one behind those that stand before it."""
+    joined: list[Column] = []
+    for table in tables:
+        place = 0
+        for column in table.columns:
+            if column in joined:
+                place = joined.index(column) + 1
+            else:
+                joined.insert(place, column)
+                place += 1
+    return joined
+
+
+def _place_cells(
+    table: Table, row: Sequence[Cell], columns: Sequence[Column]
+) -> list[Cell]:
+    found = dict(zip(table.columns, row, strict=True))
+    return [found.get(column, text_cell("")) for column in columns]

@@ -1,0 +1,134 @@
+"""Anchor schedule: the force that each part of each row is built for, one line each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from netdesign.report.blocks.block import Part, section
+from netdesign.report.blocks.table import (
+    Cell,
+    Column,
+    Table,
+    name_columns,
+    number_cell,
+    text_cell,
+    text_column,
+)
+from netdesign.report.words import (
+    MISSING,
+    Words,
+    add_unit,
+    append_unit,
+    show_member,
+)
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.words.names import name_mode
+
+_PUSHED = ("post", "post_base")
+_END = "edge"
+
+
+def show_schedule(study: Study, words: Words) -> Part:
+    """Section with the schedule of all rows."""
+    table = build_schedule(study, words)
+    return section("schedule", words("heading.schedule"), table.shown("schedule"))
+
+
+def build_schedule(study: Study, words: Words) -> Table:
+    """Parts of each row with the forces that they are built for.
+
+    Every force is the upper end of its interval, per anchor, as its check takes it.
+    """
+    numbers = [
+        f"{words(f'heading.{place}')}\n{symbol} [kN]"
+        for place in ("inside", "at_end")
+        for symbol in ("E_k", "E_d")
+    ]
+    headings = ("member", "type", "schedule_force", "directions")
+    return Table(
+        caption=words("caption.schedule"),
+        columns=(
+            text_column(words("heading.net_row")),
+            *name_columns([words(f"heading.{one}") for one in headings], numbers=()),
+            *name_columns(numbers, numbers=numbers),
+            Column(heading=add_unit(words("heading.schedule_needed"), "kN")),
+        ),
+        rows=tuple(line for row in study.rows for line in _list_lines(row, words)),
+        empty=words("heading.no_check"),
+        symbols="headings",
+    )
+
+
+def _list_lines(row: RowStudy, words: Words) -> Iterator[tuple[Cell, ...]]:
+    """Line of each part of a row that a force loads."""
+    lines: dict[tuple[str, str, str], list[CheckRecord]] = {}
+    for check in row.checks:
+        if check.is_of_force:
+            place = (check.member, check.resistance_type, _name_force(check))
+            lines.setdefault(place, []).append(check)
+    for (member, kind, force), checks in lines.items():
+        yield (
+            text_cell(row.id),
+            text_cell(show_member(words, member)),
+            text_cell(kind),
+            text_cell(words(f"schedule.{force}")),
+            text_cell(_show_pulls(row, member, words)),
+            *_show_forces([one for one in checks if one.position != _END], words),
+            *_show_forces([one for one in checks if one.position == _END], words),
+            text_cell(_tell_needed(checks, words)),
+        )
+
+
+def _name_force(check: CheckRecord) -> str:
+    if check.mode == "sliding":
+        return "across"
+    return "push" if check.member in _PUSHED else "pull"
+
+
+def _show_pulls(row: RowStudy, member: str, words: Words) -> str:
+    """Directions of the pulls on an anchor, from the slope surface."""
+    ends = [(x.least_deg, x.largest_deg) for x in row.pulls if x.anchor == member]
+    if not ends:
+        return MISSING
+    low, high = min(x for x, _ in ends), max(x for _, x in ends)
+    shown = [words.show_number("least_deg", end) for end in (low, high)]
+    is_one = shown[0] == shown[1]
+    return append_unit(
+        shown[0] if is_one else words.show_band("least_deg", low, high), "°"
+    )
+
+
+def _show_forces(checks: Sequence[CheckRecord], words: Words) -> Iterator[Cell]:
+    """Largest characteristic and design force of checks at one place [kN]."""
+    for symbol in ("E_k", "E_d"):
+        found = [one.read_band(symbol)[1] for one in checks]
+        known = [one for one in found if one is not None]
+        largest = max(known) if known and len(known) == len(found) else None
+        yield number_cell(words, "demand_kN", largest)
+
+
+def _tell_needed(checks: Sequence[CheckRecord], words: Words) -> str:
+    """Least characteristic resistance that carries the design forces, by modes [kN].
+
+    One number where all modes need the same.
+    """
+    needed: dict[str, float] = {}
+    for mode in dict.fromkeys(check.mode for check in checks):
+        found = [_find_needed(check) for check in checks if check.mode == mode]
+        known = [one for one in found if one is not None]
+        if known and len(known) == len(found):
+            needed[mode] = max(known)
+    shown = {
+        words.show(name_mode(mode)): words.show_number("resistance_kN", value)
+        for mode, value in needed.items()
+    }
+    if len(set(shown.values())) == 1:
+        return next(iter(shown.values()))
+    return words.join(f"{mode} {number}" for mode, number in shown.items())
+
+
+def _find_needed(check: CheckRecord) -> float | None:
+    """R_k at which the utilisation is 1 at its upper end [kN]."""
+    _, demand = check.read_band("E_d")
+    factor = check.read("γ_R")
+    return None if demand is None or factor is None else demand * factor

@@ -1,0 +1,208 @@
+"""Annex for the reviewer: how to verify the report, checklist, provenance."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from netdesign.outcome import Outcome
+from netdesign.report.blocks.block import Pair, Pairs, Part, section
+from netdesign.report.blocks.table import (
+    Table,
+    given_cell,
+    name_columns,
+    text_cell,
+    text_column,
+)
+from netdesign.report.sections.basis import name_law
+from netdesign.report.sections.decision import name_verification
+from netdesign.report.sections.inputs import DEFAULT
+from netdesign.report.sections.profile import count_assumed, name_profile
+from netdesign.report.words import VERDICTS, Words, show_own, show_verdict
+from netdesign.study.document import compute_digest, hash_results
+from netdesign.study.records import Study
+from netdesign.words.names import name
+
+_NUMBER = re.compile(r"[0-9]+(\.[0-9]+)?(e[+-]?[0-9]+)?")
+
+
+def show_verification(study: Study, words: Words) -> Part:
+    """Annex with command and digest, checklist, provenance."""
+    pairs = {
+        "verify_report": name_verification(study),
+        "what_that_does": words("heading.verify_explained"),
+        "study_hash": compute_digest(study),
+    }
+    return section(
+        "annex-verify",
+        words("heading.annex_verify"),
+        Pairs(
+            look="keys",
+            pairs=tuple(
+                Pair(name=words(f"heading.{k}"), text=x) for k, x in pairs.items()
+            ),
+        ),
+        _build_checklist(study, words).shown("checklist"),
+        build_provenance(study, words).shown("provenance"),
+    )
+
+
+def build_provenance(study: Study, words: Words) -> Table:
+    """All that is needed to repeat the study."""
+    made = study.provenance
+    pairs = {
+        "command": made.command,
+        "command_again": "netdesign report study.json",
+        "results_hash": hash_results(study),
+        "program": f"netdesign {made.version}",
+        "started": made.started,
+        "site_file": made.site_file,
+        "site_hash": made.site_sha256,
+        "limit_profile": words(
+            "show.label", label=study.profile.id, text=name_profile(study, words)
+        ),
+        "profile_version": study.profile.version,
+        "profile_choice": study.profile.choice,
+        "profile_hash": study.profile.sha256,
+        "schema": study.schema,
+    }
+    named = {words(f"heading.{key}"): text for key, text in pairs.items()}
+    for key, text in made.settings.items():
+        setting = words.show(name("setting", key))
+        shown = _show_setting(key, text, words)
+        named[words("show.setting", setting=setting)] = shown
+    libraries = ", ".join(f"{k} {v}" for k, v in made.libraries.items())
+    named[words("heading.libraries")] = libraries
+    verdict = show_verdict(study.verdict, words)
+    code = VERDICTS[study.verdict].exit_code
+    named[words("heading.exit_code")] = words(
+        "show.exit_code", code=code, verdict=verdict.word
+    )
+    return Table(
+        caption=words("caption.provenance"),
+        columns=(
+            text_column(words("heading.item")),
+            text_column(words("heading.value")),
+        ),
+        rows=tuple(
+            (text_cell(one), text_cell(text)) for one, text in named.items() if text
+        ),
+    )
+
+
+def _show_setting(key: str, text: str, words: Words) -> str:
+    """Setting as stored; a number, and only that, with the language's mark."""
+    if key == "method":
+        return words.show(name("method_used", text))
+    return words.write(text) if _NUMBER.fullmatch(text) else show_own(words, text)
+
+
+def _build_checklist(study: Study, words: Words) -> Table:
+    """Questions of a reviewer, each with what this document says to it."""
+    keys = ("no", "question", "what_study_says", "see", "done")
+    headings = [words(f"heading.{key}") for key in keys]
+    return Table(
+        caption=words("caption.checklist"),
+        columns=name_columns(headings, numbers=headings[:1]),
+        rows=tuple(
+            (
+                given_cell(words, float(number)),
+                text_cell(words(question)),
+                text_cell(answer(study, words)),
+                text_cell(words(place)),
+                text_cell("☐"),
+            )
+            for number, (question, answer, place) in enumerate(_QUESTIONS, 1)
+        ),
+    )
+
+
+def _describe_site_file(study: Study, words: Words) -> str:
+    return words("show.hash_begins", hash=study.provenance.site_sha256[:12])
+
+
+def _describe_inputs(study: Study, words: Words) -> str:
+    inputs = [*study.range_inputs, *(one for row in study.rows for one in row.inputs)]
+    defaults = sum(one.cell == DEFAULT for one in inputs)
+    return words("show.inputs_counted", count=len(inputs), defaults=defaults)
+
+
+def _describe_profile(study: Study, words: Words) -> str:
+    assumed, count = count_assumed(study)
+    return words("show.assumed_counted", assumed=assumed, count=count)
+
+
+def _describe_independent(study: Study, words: Words) -> str:
+    laws = [one for row in study.rows for one in row.independent]
+    met = sum(one.is_met for one in laws)
+    return words("show.laws_counted", met=met, count=len(laws))
+
+
+def tell_cases(study: Study, words: Words) -> str:
+    """Cases with and without a result."""
+    cases = [case for row in study.rows for case in row.cases]
+    failed = sum(case.outcome is not Outcome.CONVERGED for case in cases)
+    return words("show.cases_solved", solved=len(cases) - failed, failed=failed)
+
+
+def _describe_quality(study: Study, words: Words) -> str:
+    cases = [case for row in study.rows for case in row.cases]
+    residuals = [c.balance_residual for c in cases if c.balance_residual is not None]
+    errors = [c.error_percent for c in cases if c.error_percent is not None]
+    residual = words.show_number("balance_residual", max(residuals, default=None))
+    error = words.show_number("error_percent", max(errors, default=None))
+    return words("show.quality", residual=residual, error=error)
+
+
+def _describe_laws(study: Study, words: Words) -> str:
+    above = [
+        spread
+        for row in study.rows
+        for check in row.checks
+        for spread in check.spreads
+        if not spread.in_verdict and spread.high is not None and spread.high > 1
+        and check.utilisation is not None and check.utilisation <= 1
+    ]  # fmt: skip
+    return words("show.other_laws_counted", count=len(above))
+
+
+def _describe_snow(study: Study, words: Words) -> str:
+    """Governing snow against the densities of its law."""
+    law = name_law(study)
+    inside = [
+        case.is_calibrated
+        for row in study.rows
+        for check in row.checks
+        for case in row.cases
+        if check.case == case.case
+    ]
+    is_accepted = bool(law) and study.project.accepted_law == law
+    return words(
+        "show.snow_of_law",
+        inside=sum(inside),
+        count=len(inside),
+        consent=words("show.law_accepted" if is_accepted else "show.law_not_accepted"),
+    )
+
+
+# What is asked, what the study says to it, and the section that tells more.
+_QUESTIONS: tuple[tuple[str, Callable[[Study, Words], str], str], ...] = (
+    ("question.site_file", _describe_site_file, "heading.provenance"),
+    ("question.inputs", _describe_inputs, "heading.inputs_of_rows"),
+    (
+        "question.ranges",
+        lambda _, words: words("show.see_ranges"),
+        "heading.ranges",
+    ),
+    ("question.profile", _describe_profile, "heading.annex_profile"),
+    ("question.cases", tell_cases, "heading.annex_quality"),
+    ("question.snow_of_law", _describe_snow, "heading.annex_model"),
+    ("question.quality", _describe_quality, "heading.annex_quality"),
+    ("question.independent", _describe_independent, "heading.annex_quality"),
+    ("question.laws", _describe_laws, "heading.annex_quality"),
+    (
+        "question.otherwise",
+        lambda _, words: words("show.see_scope"),
+        "heading.scope",
+    ),
+)

@@ -1,1 +1,0 @@
-"""Contents of a report, independent of its medium."""
