@@ -304,8 +304,8 @@ report_options = join(
     choice(
         "--detail",
         ["summary", "full"],
-        "Of report.html, report.docx: summary leaves out what only a reviewer of a "
-        "row needs; figures unfolds every figure of the checks, also on paper.",
+        "Of report.html, report.docx: summary leaves out the pages of net rows and "
+        "the annexes.",
         default="full",
     ),
     language_option("Of the reports; numbers, symbols and keys stay."),

@@ -14,7 +14,7 @@ from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.row_forces import compute_end_forces
 from netdesign.panel.solve import solve_panel
 from netdesign.report.drawing.panel_figure import draw_panel
-from netdesign.report.view.solved_support import view_support
+from netdesign.report.page.solved_support import view_support
 from netdesign.report.words import Words
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support

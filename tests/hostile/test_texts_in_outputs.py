@@ -16,11 +16,11 @@ import openpyxl
 import pytest
 from rich.console import Console
 
+from netdesign.report.case_table import render_cases
 from netdesign.report.difference import compare_studies
 from netdesign.report.page.html import render_html
 from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
-from netdesign.report.view.case_table import render_cases
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook

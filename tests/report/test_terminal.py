@@ -1,11 +1,13 @@
 import io
 import re
+from dataclasses import replace
 
 from rich.console import Console
 
+from netdesign.report.governing import find_governing
 from netdesign.report.summary import build_summary
 from netdesign.report.terminal import open_console, print_summary
-from netdesign.report.view.whole import build_view
+from netdesign.report.words import ENGLISH, show_check
 from tests.report.build_study import SCRIPT, build_study
 
 
@@ -15,18 +17,29 @@ def printed(study, **options):
     return stream.getvalue()
 
 
-def test_one_line_for_each_net_row_then_reasons_and_assumed_values():
+def test_one_line_for_each_net_row_then_the_verdict_and_what_is_open():
     lines = printed(build_study()).splitlines()
     assert [line.split("  ")[0] for line in lines[1:4]] == [
         "Couloir 1",
         "=1+1",
         f"Ridge {SCRIPT}",
     ]
-    assert "=1+1: 1 of the cases has no result." in lines
-    assert any(
-        line.endswith("factor.action = 1.5, factor.tendon = 1.35") for line in lines
-    )
-    assert lines[-1].startswith("Verdict: FAIL - ")
+    assert lines[4].startswith("Verdict: FAIL - ")
+    assert lines[5].startswith("Net rows: 1 FAIL, 1 NOT PROVEN, 1 PASS. Checks: ")
+    assert lines[5].endswith("Cases: 80 solved, 1 without a result.")
+    assert lines[6].startswith("1. =1+1, ")
+
+
+def test_a_summary_has_few_lines_and_explain_has_the_rest():
+    row = build_study().rows[2]
+    rows = [replace(row, id=f"N{number}") for number in range(6)]
+    study = replace(build_study(), rows=rows, verdict=row.verdict)
+    short, whole = (build_summary(study, explain=one) for one in (False, True))
+    assert len(short.lines) == 5
+    assert short.changes == ()
+    assert len(whole.lines) > len(short.lines)
+    assert set(short.lines[:-1]) <= set(whole.lines)
+    assert whole.changes
 
 
 def test_summary_in_french_has_the_same_numbers():
@@ -34,7 +47,7 @@ def test_summary_in_french_has_the_same_numbers():
     console = Console(file=stream, width=200)
     print_summary(build_summary(build_study(), "fr"), console)
     lines = stream.getvalue().splitlines()
-    assert lines[-1].startswith("Verdict\u00a0: NON SATISFAIT - ")
+    assert lines[4].startswith("Verdict\u00a0: NON VÉRIFIÉ - ")
     english = printed(build_study()).splitlines()
     for number in range(1, 4):
         numbers = re.findall(r"\d+\.\d+", english[number])
@@ -58,8 +71,10 @@ def test_a_narrow_terminal_breaks_no_number_and_no_word():
     stream = io.StringIO()
     print_summary(build_summary(build_study()), Console(file=stream, width=80))
     text = stream.getvalue()
-    for check in (row.governing for row in build_view(build_study()).rows):
-        for part in (*check.title.split(), check.demand, check.utilisation):
+    for row in build_study().rows:
+        check = find_governing(row.checks)
+        used = ENGLISH.show_number("utilisation", check.used)
+        for part in (*show_check(ENGLISH, check).split(), used):
             assert part in text
     assert "Utilisation" in text
 

@@ -9,8 +9,8 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import Scene
 from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.report.case_table import build_case_table
 from netdesign.report.page.html import render_html
-from netdesign.report.view.case_table import build_case_table
 from netdesign.site.model import InputEcho
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import build_ground_from_glide_factor

@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.report.view.what_if import list_sized
+from netdesign.report.what_if import list_sized
 from netdesign.report.words import Words
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner

@@ -30,7 +30,7 @@ def render_document(
     language : str
         ``en``, ``fr`` or ``de``.
     detail : str
-        ``summary`` leaves out the annexes.
+        ``summary`` leaves out the pages of net rows and the annexes.
     template : bytes, optional
         Docx whose styles, page, header and footer are kept.
 

@@ -29,7 +29,7 @@ def render_html(
     language : str
         ``en``, ``fr`` or ``de``.
     detail : str
-        ``summary`` leaves out the annexes.
+        ``summary`` leaves out the pages of net rows and the annexes.
 
     Raises
     ------

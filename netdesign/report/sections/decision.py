@@ -67,8 +67,8 @@ def show_title(study: Study, words: Words) -> Part:
     return masthead(words("heading.anchor_check"), title, *more)
 
 
-def show_decision(study: Study, words: Words) -> Part:
-    """Verdict, rows, open points, signatures."""
+def show_decision(study: Study, words: Words, *, has_rows: bool) -> Part:
+    """Verdict, rows, open points, signatures; links to pages of rows if it has any."""
     verdict = mark_verdict(study, words)
     card = Part(
         kind="div",
@@ -90,7 +90,7 @@ def show_decision(study: Study, words: Words) -> Part:
             heading,
             card,
             Pairs(pairs=pairs, look="pairs"),
-            _tabulate_rows(study, words),
+            _tabulate_rows(study, words, has_rows=has_rows),
             *matrix,
             section("todo", words("heading.todo"), Items(items=todo), level=3),
             _sign(study, words),
@@ -111,7 +111,7 @@ def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
     return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
 
 
-def _tabulate_rows(study: Study, words: Words) -> Block:
+def _tabulate_rows(study: Study, words: Words, *, has_rows: bool) -> Block:
     t = words
     if not study.rows:
         return Paragraph(text=t("heading.no_rows"), look="none")
@@ -120,18 +120,19 @@ def _tabulate_rows(study: Study, words: Words) -> Block:
         caption=t("caption.decision"),
         columns=name_columns([t(f"heading.{key}") for key in keys], numbers=()),
         rows=tuple(
-            _list_row(row, number, words) for number, row in enumerate(study.rows, 1)
+            _list_row(row, f"row-{number}" if has_rows else "", words)
+            for number, row in enumerate(study.rows, 1)
         ),
         look="summary",
     )
 
 
-def _list_row(row: RowStudy, number: int, words: Words) -> tuple[Cell, ...]:
+def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
     check = find_governing(row.checks)
     named = show_check(words, check) if check else words("heading.no_check")
     used = rich_cell(show_used(check, words)) if check else text_cell(MISSING)
     return (
-        rich_cell((Piece(show_text(row.id), "name", link=f"row-{number}"),)),
+        rich_cell((Piece(show_text(row.id), "name", link=anchor),)),
         badge_cell(row.verdict, words),
         text_cell(named),
         used,

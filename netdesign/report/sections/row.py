@@ -173,8 +173,8 @@ class RowSections:
         yield Column(heading="R_d\n[kN]", is_number=True)
         for place in ("inside", "at_end"):
             name = t(f"heading.{place}")
-            yield Column(heading=f"{name}\nE_d [kN]", is_number=True)
-            yield Column(heading=t("heading.utilisation"))
+            yield Column(heading="E_d\n[kN]", is_number=True)
+            yield Column(heading=f"{t('heading.utilisation')}\n{name}")
 
     def _show_place(self, check: CheckRecord | None) -> tuple[Cell, Cell]:
         """Design force and utilisation of a check; of none that there is none."""

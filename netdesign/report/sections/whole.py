@@ -24,7 +24,7 @@ from netdesign.report.what_if import mark_title
 from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 
-Detail = Literal["summary", "full"]  # without the annexes, and with them
+Detail = Literal["summary", "full"]  # without net rows and annexes, and with them
 _ROW = ("drawing", "checks", "worked", "envelope", "changes")
 _PARTS = ("basis", "schedule")
 _ANNEXES = (
@@ -43,7 +43,7 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
     words : Words
         Of the language.
     detail : str
-        ``summary`` leaves out the annexes.
+        ``summary`` leaves out the pages of net rows and the annexes.
 
     Raises
     ------
@@ -51,21 +51,23 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
         If the study contradicts its own numbers.
     """
     require_consistent(study)
-    told = frozenset(basis.share_notes(study, words))
-    rows = (
-        RowSections(row, f"row-{number}", words, told).build()
-        for number, row in enumerate(study.rows, 1)
-    )
+    is_full = detail == "full"
     return (
         decision.show_title(study, words),
-        decision.show_decision(study, words),
-        _list_contents(study, words, detail),
+        decision.show_decision(study, words, has_rows=is_full),
+        _list_contents(study, words, is_full=is_full),
         basis.show_basis(study, words),
         schedule.show_schedule(study, words),
-        *rows,
+        *(_list_rows(study, words) if is_full else ()),
         inputs.show_inputs(study, words),
-        *(_list_annexes(study, words) if detail == "full" else ()),
+        *(_list_annexes(study, words) if is_full else ()),
     )
+
+
+def _list_rows(study: Study, words: Words) -> Iterator[Block]:
+    told = frozenset(basis.share_notes(study, words))
+    for number, row in enumerate(study.rows, 1):
+        yield RowSections(row, f"row-{number}", words, told).build()
 
 
 def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
@@ -76,14 +78,14 @@ def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
     yield verify.show_verification(study, words)
 
 
-def _list_contents(study: Study, words: Words, detail: Detail) -> Contents:
+def _list_contents(study: Study, words: Words, *, is_full: bool) -> Contents:
     """Links to all parts, and to the rows."""
-    annexes = _ANNEXES if detail == "full" else ()
+    annexes = _ANNEXES if is_full else ()
     named = {name: words(f"heading.{name}") for name in _PARTS}
     named["inputs"] = words("heading.inputs_of_rows")
     named |= {name: words(f"heading.{name.replace('-', '_')}") for name in annexes}
     lines = [_list_links(named)]
-    if study.rows:
+    if study.rows and is_full:
         label = words("show.label", label=words("heading.net_rows"), text="")
         rows = {f"row-{k}": show_text(row.id) for k, row in enumerate(study.rows, 1)}
         lines.append((Piece(label), *_list_links(rows)))
@@ -105,8 +107,8 @@ def list_sections(study: Study, detail: Detail) -> list[str]:
         for number in range(1, len(study.rows) + 1)
         for name in _ROW
     ]
-    of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs", *of_rows]
-    return of_page if detail == "summary" else [*of_page, *_ANNEXES]
+    of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs"]
+    return of_page if detail == "summary" else [*of_page, *of_rows, *_ANNEXES]
 
 
 def title_pages(study: Study, words: Words) -> str:

@@ -144,14 +144,13 @@ def _add_cases(book: Book, study: Study) -> None:
     cases = [(row.id, build_cases(row, words)) for row in study.rows]
     extremes = [(row.id, build_extremes(row, words)) for row in study.rows]
     shown = [
-        stack_tables(words("caption.extremes"), extremes, words),
         stack_tables(words("caption.cases"), cases, words),
+        stack_tables(words("caption.extremes"), extremes, words),
     ]
     sheet = book.add_table_sheet("cases", words("heading.all_cases"), shown)
-    first = _FIRST_LINE + max(len(shown[0].rows), 1) + _BETWEEN
-    if shown[1].rows:
-        bottom = first + len(shown[1].rows) - 1
-        add_case_chart(book, sheet, _span(cases, first), bottom)
+    if shown[0].rows:
+        bottom = _FIRST_LINE + sum(_BETWEEN + len(one.rows) for one in shown)
+        add_case_chart(book, sheet, _span(cases, _FIRST_LINE), bottom)
 
 
 def _span(parts: Sequence[tuple[str, Table]], first: int) -> list[tuple[int, int]]:

@@ -12,10 +12,11 @@ import pytest
 
 docx = pytest.importorskip("docx")
 
+
 from netdesign.report.document.word import render_document  # noqa: E402
 from netdesign.report.page.html import render_html  # noqa: E402
-from netdesign.report.view.whole import build_view  # noqa: E402
-from netdesign.report.words import Words  # noqa: E402
+from netdesign.report.sections.checks import list_lines  # noqa: E402
+from netdesign.report.words import Words, show_verdict  # noqa: E402
 from tests.hostile.test_texts_in_outputs import ATTACKS, spoilt_study  # noqa: E402
 from tests.programs import REQUIRED, require_program  # noqa: E402
 from tests.report.build_study import build_study  # noqa: E402
@@ -41,92 +42,70 @@ def language(request):
 
 @pytest.fixture(scope="module")
 def content(language):
-    return render_document(STUDY, language, "figures")
+    return render_document(STUDY, language)
 
 
-def list_checks(view):
-    return [check for row in view.rows for check in row.checks]
-
-
-def test_every_check_stands_in_the_document_with_its_figures(content, language):
-    """Verdict, demand, resistance, utilisation and band of each, at its place."""
-    view, tables = build_view(STUDY, language), list_tables(content)
-    head = Words(language)("heading.check_clause_resistance")
-    of_rows = [table for table in tables if table[0][0] == head]
-    assert len(of_rows) == len(view.rows)
+def test_every_check_stands_in_the_document_with_its_numbers(content, language):
+    """Verdict, demand, resistance and utilisation of each, at its place."""
+    words, tables = Words(language), list_tables(content)
+    of_rows = [table for table in tables if table[0][0] == words("heading.check")]
+    assert len(of_rows) == len(STUDY.rows)
     found = 0
-    for row, table in zip(view.rows, of_rows, strict=True):
+    for row, table in zip(STUDY.rows, of_rows, strict=True):
         lines = [cells for cells in table[1:] if len(cells) > 1]
-        for line, cells in zip(row.lines, lines, strict=True):
-            assert cells[0].startswith(line.title)
-            assert cells[1] == line.resistance
-            for check, cell in ((line.inside, cells[2]), (line.end, cells[3])):
+        for line, cells in zip(list_lines(row.checks), lines, strict=True):
+            assert line.name(words) in cells[0]
+            first = line.checks[0]
+            assert cells[2] == words.show_number("resistance_kN", first.resistance_kN)
+            for check, place in ((line.inside, cells[3:5]), (line.end, cells[5:7])):
                 if check is None:
-                    assert cell == "-"
+                    assert place == ["-", "-"]
                     continue
                 found += 1
-                verdict = f"{check.verdict.symbol}{check.verdict.word}"
-                band = check.band if check.bar else ""
-                told = f"{verdict}{check.utilisation}{band}Ed{check.demand}"
-                assert squeeze(cell).startswith(squeeze(told).removesuffix("Ed-"))
-    unloaded = sum(len(row.requirements) for row in view.rows)
-    assert found + unloaded == len(list_checks(view)) > 10
+                demand = words.show_number("demand_kN", check.demand_kN)
+                used = words.show_number("utilisation", check.used)
+                assert place == [demand, used]
+    assert found == sum(x.is_of_force for row in STUDY.rows for x in row.checks) > 10
 
 
 @pytest.mark.parametrize(
-    ("language", "detail"), [("de", "summary"), ("fr", "full"), ("en", "figures")]
+    ("language", "detail"), [("de", "summary"), ("fr", "full"), ("en", "full")]
 )
-def test_every_cell_of_the_page_on_paper_is_in_the_document(detail, language):
-    """Cell by cell; what only a screen shows may lack, and no cell says else."""
+def test_every_cell_of_the_page_is_in_the_document(detail, language):
     page = PageReader(render_html(STUDY, language, detail))
     shown = render_document(STUDY, language, detail)
     cells = {squeeze(c) for t in list_tables(shown) for line in t for c in line}
-    paper = {
+    of_page = {
         squeeze(cell)
-        for section, tables in page.tables.items()
-        if not section.endswith(("-extremes", "-inputs", "-figures", "formulas"))
-        or (detail == "figures" and section.endswith("-figures"))
+        for tables in page.tables.values()
         for table in tables
         for line in table
         for cell in line
     }
-    numbers = {cell for cell in paper if re.fullmatch(r"[✓✗?†]?[-+]?\d[\d.,]*", cell)}
-    on_screen = {
-        squeeze(cell.text)
-        for row in build_view(STUDY, language).rows
-        for table in (row.pulls, row.head, row.slab, row.floor, row.model_form)
-        for line in table.rows
-        for cell in line
-    }
-    on_screen |= {
-        squeeze(c.text)
-        for row in build_view(STUDY, language).rows
-        for t in (row.drivers, row.spreads)
-        for line in t.rows
-        for c in line
-    }
+    numbers = {cell for cell in of_page if re.fullmatch(r"[-+]?\d[\d.,]*", cell)}
     assert len(numbers) > 15
-    assert numbers - cells - on_screen == set()
+    assert numbers - cells == set()
 
 
 def test_sections_stand_in_the_order_of_the_page(content, language):
-    view = build_view(STUDY, language)
     t = Words(language)
     headings = [
         p.text.replace("\u00a0", " ")
         for p in open_word(content).paragraphs
         if p.style.name == "Heading 1"
     ]
+    shown = [show_verdict(row.verdict, t) for row in STUDY.rows]
     rows = [
-        f"{t('heading.net_row')} {row.id} {row.verdict.symbol} {row.verdict.word}"
-        for row in view.rows
+        f"{t('heading.net_row')} {row.id} {one.symbol} {one.word}"
+        for row, one in zip(STUDY.rows, shown, strict=True)
     ]
-    first = ("identification", "summary_of_rows", "basis")
-    last = ("formulas", "limit_profile", "solver_quality", "checklist", "provenance")
+    annexes = [
+        f"annex_{one}" for one in ("checks", "model", "profile", "quality", "verify")
+    ]
     assert headings == [
-        *(t(f"heading.{one}") for one in first),
+        *(t(f"heading.{one}") for one in ("basis", "schedule")),
         *rows,
-        *(t(f"heading.{one}") for one in last),
+        *(t(f"heading.{one}") for one in ("inputs_of_rows", *annexes)),
     ]
 
 
@@ -135,7 +114,7 @@ def test_verdicts_are_bold_and_numbers_to_the_right(content, language):
     verdict = next(
         p for p in document.paragraphs if p.style.name == "netdesign verdict"
     )
-    shown = build_view(STUDY, language).verdict
+    shown = show_verdict(STUDY.verdict, Words(language))
     assert verdict.text == f"{shown.symbol}\u00a0{shown.word}"
     assert all(run.bold for run in verdict.runs)
     cells = [cell for table in document.tables for cell in table._tbl.iter(f"{W}tc")]
@@ -147,7 +126,7 @@ def test_verdicts_are_bold_and_numbers_to_the_right(content, language):
 def test_every_table_with_headings_repeats_them(content):
     tables = open_word(content).tables
     repeated = [table._tbl.find(f".//{W}tblHeader") is not None for table in tables]
-    # facts of the verdict, what to confirm and how to verify, identification
+    # identification, limit profile, how to verify
     assert repeated.count(False) == 3
     for table in tables:
         assert all(
@@ -188,7 +167,7 @@ def test_contents_list_every_section_and_are_a_field(content):
 
 
 def test_equal_studies_give_equal_bytes(content, language):
-    assert render_document(STUDY, language, "figures") == content
+    assert render_document(STUDY, language) == content
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         assert {one.date_time[0] for one in archive.infolist()} == {1980}
     known = open_word(content).core_properties
@@ -273,7 +252,7 @@ def test_measured_forces_stand_in_the_document_as_a_picture():
     study = build_study(rows=1)
     (row,) = study.rows
     measured = replace(row, monitoring=[build_monitoring(random.Random(5))])
-    bare = replace(measured, drawing=None, envelope=None, head=[])
+    bare = replace(measured, drawing=None, envelope=None, panel=None, cases=[])
     parts = list_parts(render_document(replace(study, rows=[bare]), "fr", "full"))
     told = re.findall(b'descr="([^"]*)"', parts["word/document.xml"])
     (picture,) = [one.decode() for one in told if b"mesur" in one]

@@ -10,7 +10,6 @@ import numpy as np
 from netdesign.coupling.face import Face
 from netdesign.report.drawing.envelope_figure import draw_envelope
 from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
-from netdesign.report.drawing.head_figure import draw_head
 from netdesign.report.drawing.monitoring_figure import draw_monitoring
 from netdesign.report.drawing.net_figures import draw_node_forces, draw_stick_slip
 from netdesign.report.drawing.panel_figure import draw_panel
@@ -29,7 +28,6 @@ from netdesign.study.records import MonitoringRecord
 from netdesign.study.support_records import (
     Arrow,
     Drawing,
-    HeadForce,
     PanelDrawing,
     PanelRecord,
     RopeRecord,
@@ -55,7 +53,6 @@ def draw_all(rng: random.Random, words) -> list[str]:
     return [
         draw_section(build_section(rng), "s", words),
         *(draw(envelope, words) for draw in (draw_maps, draw_lines, draw_drivers)),
-        draw_head(build_head(rng), words),
         draw_panel(build_panel(rng), words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
         draw_monitoring([build_monitoring(rng)], words),
@@ -180,18 +177,6 @@ def _build_bound(rng, keys, size):
         ],
         confirmation=None,
     )  # fmt: skip
-
-
-def build_head(rng: random.Random) -> list[HeadForce]:
-    """Three or four forces that close."""
-    members = ["net", "post", "uphill_guy", "downhill_guy"][: rng.randint(3, 4)]
-    size = 10 ** rng.uniform(0.0, 3.0)
-    forces = [(rng.gauss(0, size), rng.gauss(0, size)) for _ in members[1:]]
-    forces.append((-sum(x for x, _ in forces), -sum(y for _, y in forces)))
-    return [
-        HeadForce(member=member, x_kN=x, y_kN=y)
-        for member, (x, y) in zip(members, forces, strict=True)
-    ]
 
 
 def build_panel(rng: random.Random) -> PanelRecord:

@@ -4,7 +4,6 @@ from xml.etree import ElementTree
 import pytest
 
 from netdesign.report.drawing.envelope_figure import draw_envelope
-from netdesign.report.drawing.head_figure import draw_head
 from netdesign.report.drawing.section_figure import draw_section
 from tests.report.build_study import build_drawing, build_row
 
@@ -71,7 +70,6 @@ def test_drawings_repeat_byte_for_byte_without_a_date():
     for draw in (
         lambda: draw_section(ROW.drawing, "x"),
         lambda: draw_envelope(ROW),
-        lambda: draw_head(ROW.head),
     ):
         svg = draw()
         assert svg == draw()

@@ -79,7 +79,7 @@ def list_calculated(study):
 def type_over(study, place, symbol, value):
     """Workbook with the cell typed over that a step's value comes from."""
     book = read_workbook(render_workbook(study), formulas=True)
-    sheet = book["Calculations"]
+    sheet = book["Steps"]
     cell = sheet[f"E{find_steps(sheet)[place][symbol]}"]
     while isinstance(cell.value, str):
         name, column, line = LINK.search(cell.value.replace("_xlfn", "")).groups()

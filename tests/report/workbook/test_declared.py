@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.gate import require_consistent
+from netdesign.report.gate import require_consistent
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.records import DeclarationRecord
@@ -24,15 +24,15 @@ EDITS = {
     "weak": {"R_k": 1.0},
     "no resistance": {"R_k": None},
     "set to pass": {"R5": "PASS"},
-    "another set to declared": {"L6": None, "R6": "DECLARED"},
+    "another set to declared": {"L6": None, "R6": "PROVEN ELSEWHERE"},
 }
 EXPECTED = {
-    "as it was": ("DECLARED", "PASS", "DECLARED"),
-    "strong": ("DECLARED", "PASS", "DECLARED"),
+    "as it was": ("PROVEN ELSEWHERE", "PASS", "PROVEN ELSEWHERE"),
+    "strong": ("PROVEN ELSEWHERE", "PASS", "PROVEN ELSEWHERE"),
     "weak": ("FAIL", "PASS", "FAIL"),
-    "no resistance": ("DECLARED", "PASS", "DECLARED"),
+    "no resistance": ("PROVEN ELSEWHERE", "PASS", "PROVEN ELSEWHERE"),
     "set to pass": ("NOT PROVEN", "PASS", "NOT PROVEN"),
-    "another set to declared": ("DECLARED", "NOT PROVEN", "NOT PROVEN"),
+    "another set to declared": ("PROVEN ELSEWHERE", "NOT PROVEN", "NOT PROVEN"),
 }
 
 
@@ -55,7 +55,7 @@ STUDY = declare(build_study(rows=1))
 
 def type_over(book, place, value):
     """A cell of the checks, or the resistance of the first one."""
-    sheet = book["Calculations" if place == "R_k" else "Checks"]
+    sheet = book["Steps" if place == "R_k" else "Checks"]
     line = f"E{find_steps(sheet)[0]['R_k']}" if place == "R_k" else place
     sheet[line] = value
 
@@ -80,20 +80,19 @@ def fresh(tmp_path_factory):
 def test_verdicts_follow_the_numbers_and_never_become_a_pass(fresh, name):
     book = read_workbook(fresh[name])
     found = (book["Checks"]["S5"].value, book["Checks"]["S6"].value)
-    assert (*found, book["Summary"]["C6"].value) == EXPECTED[name]
-    assert book["Summary"]["C3"].value == EXPECTED[name][2]
+    assert (*found, book["Decision"]["C6"].value) == EXPECTED[name]
+    assert book["Decision"]["C3"].value == EXPECTED[name][2]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_summary_counts_and_names_what_is_declared(fresh, language):
     words = Words(language)
-    sheet = read_workbook(fresh[language])[words("heading.summary")]
+    sheet = read_workbook(fresh[language])[words("heading.decision")]
     shown = [cell.value for line in sheet.iter_rows() for cell in line]
     assert sheet["F5"].value == words("verdict.declared")
     assert sheet["F6"].value == 1
     assert sheet["D3"].value == words("meaning.declared")
     assert any("Report G-17" in str(text) for text in shown)
-    assert words("heading.declared_elsewhere") in shown
 
 
 def test_a_study_may_not_call_a_check_declared_without_a_declaration():
@@ -134,6 +133,6 @@ def test_a_row_that_the_study_holds_back_says_so(tmp_path):
     type_over(book, "R_k", 1e6)
     book.save(buffer := io.BytesIO())
     content = recalculate({"held": buffer.getvalue()}, tmp_path)["held"]
-    summary = read_workbook(content)["Summary"]
+    summary = read_workbook(content)["Decision"]
     assert summary["C6"].value == "NOT PROVEN"
     assert summary["N6"].value == Words("en")("caption.changed_held")

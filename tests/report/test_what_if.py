@@ -9,9 +9,11 @@ from rich.console import Console
 
 from netdesign.report.document.word import render_document
 from netdesign.report.page.html import render_html
+from netdesign.report.sections.whole import title_pages
 from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
-from netdesign.report.view.whole import build_view
+from netdesign.report.what_if import mark_verdict
+from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.model import ReplacedCell
 from netdesign.words.catalogue import LANGUAGES, load_texts
@@ -24,21 +26,22 @@ STUDY = replace(BUILT, what_if=[CELL])
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_output_says_that_it_is_no_site_as_built(language):
-    texts, view = load_texts(language), build_view(STUDY, language)
+    texts, words = load_texts(language), Words(language)
     mark = texts["what_if.mark"]
-    assert view.verdict.word != build_view(BUILT, language).verdict.word
-    assert view.verdict.word == texts["what_if.verdict"].format(
+    shown = mark_verdict(STUDY, words).word
+    assert shown != mark_verdict(BUILT, words).word
+    assert shown == texts["what_if.verdict"].format(
         verdict=texts[f"verdict.{STUDY.verdict}"]
     )
-    assert view.running_title.startswith(mark)
-    page = render_html(STUDY, language, "summary", view).replace("&#39;", "'")
+    assert title_pages(STUDY, words).startswith(mark)
+    page = render_html(STUDY, language, "summary").replace("&#39;", "'")
     shown = {
         "page": page[page.index("<h1>") :],
-        "terminal": print_out(view, language),
+        "terminal": print_out(STUDY, language),
     }
-    if language == "fr":  # they show the same view in each language
-        document = render_document(STUDY, language, "summary", view)
-        book = render_workbook(STUDY, language, view)
+    if language == "fr":  # they show the same texts in each language
+        document = render_document(STUDY, language, "summary")
+        book = render_workbook(STUDY, language)
         shown["document"] = unpack(document, "word/document.xml")
         shown["workbook"] = unpack(book, "xl/sharedStrings.xml")
     for name, text in shown.items():
@@ -52,16 +55,15 @@ def unpack(content, part):
         return packed.read(part).decode()
 
 
-def print_out(view, language):
+def print_out(study, language):
     console = Console(file=io.StringIO(), width=400)
-    print_summary(build_summary(STUDY, language, view), console)
+    print_summary(build_summary(study, language), console)
     return console.file.getvalue()
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_site_as_built_has_no_mark(language):
-    view = build_view(BUILT, language)
     mark = load_texts(language)["what_if.mark"]
-    assert (view.mark, view.what_if.rows) == ("", ())
-    assert mark not in view.running_title
-    assert mark not in print_out(view, language)
+    assert mark not in title_pages(BUILT, Words(language))
+    assert mark not in print_out(BUILT, language)
+    assert mark not in render_html(BUILT, language)

@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import list_standards, load_standard
-from netdesign.report.view.tables import build_inputs, build_provenance
-from netdesign.report.view.whole import build_view
-from netdesign.report.words import Words
+from netdesign.report.sections.inputs import build_inputs, show_inputs
+from netdesign.report.sections.profile import name_profile
+from netdesign.report.sections.verify import build_provenance
+from netdesign.report.words import ENGLISH, Words
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.model import InputEcho
 from netdesign.site.ranges import SEARCHED
@@ -92,9 +93,32 @@ def test_the_provenance_names_profile_and_law_as_the_pages_do(profile, language)
     provenance = replace(study.provenance, settings=settings)
     study = replace(study, profile=record, provenance=provenance)
     told = {line[0].text: line[1].text for line in build_provenance(study, words).rows}
-    title = build_view(study, language).profile_title
+    title = name_profile(study, words)
     assert told[words("heading.limit_profile")].endswith(title)
     assert profile in told[words("heading.limit_profile")]
     is_english = language == "en"
     assert ("written for netdesign" in title) is is_english
     assert any(name_law(BOUTILLIER_2004) == one for one in told.values()) is is_english
+
+
+def test_inputs_of_all_rows_stand_beside_each_other():
+    study = build_study(rows=1)
+    many = replace(study, rows=[replace(study.rows[0], id=f"N{k}") for k in range(17)])
+    tables = [x for x in show_inputs(many, ENGLISH).blocks if hasattr(x, "columns")]
+    headings = [
+        c.heading for table in tables for c in table.columns if c.heading[:1] == "N"
+    ]
+    assert headings == [f"N{k}" for k in range(17)]
+    lines = {cells[0].text: cells for cells in tables[0].rows}
+    for echo in study.rows[0].inputs:
+        label = ENGLISH.show(echo.label)
+        if echo.value == "":
+            assert label not in lines
+            continue
+        text = (
+            echo.value
+            if isinstance(echo.value, str)
+            else ENGLISH.show_given(echo.value)
+        )
+        assert lines[label][3].text.startswith(text)
+        assert lines[label][3].text.endswith("*") is (echo.cell == "default")

@@ -6,7 +6,7 @@ import pytest
 from netdesign.calculation.quantity import Kind
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
-from netdesign.report.view.gate import require_consistent, require_sections
+from netdesign.report.gate import require_consistent, require_sections
 from netdesign.study.records import IndependentRecord
 from netdesign.words.catalogue import render
 from tests.report.build_study import build_study

@@ -4,13 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.view.basis_tables import (
-    build_assumptions,
+from netdesign.report.sections.basis import (
     list_defaults,
     name_rows,
     tell_accepted_law,
 )
-from netdesign.report.view.row_tables import build_floor
 from netdesign.report.words import Words
 from netdesign.site.model import InputEcho
 from netdesign.words.message import say
@@ -35,28 +33,10 @@ def with_altitude(value, text=""):
 @pytest.mark.parametrize("language", ["en", "de", "fr"])
 def test_altitude_that_is_not_given_is_an_assumption(language):
     words, study = Words(language), with_altitude("")
-    assert TOLD[language] in list_defaults(study, words)
-    assert study.rows[0].id in list_defaults(study, words)
-    table = build_assumptions(study, words)
-    label, _, value = TOLD[language].partition(" ")
-    cells = [tuple(cell.text for cell in row[:2]) for row in table.rows]
-    assert (label, value) in cells
-    given = with_altitude(1873.0, "1873")
-    assert TOLD[language] not in list_defaults(given, words)
-
-
-def test_floor_s_table_tells_what_a_force_follows_from_and_what_is_assumed():
-    study, words = build_study(), Words("en")
-    row = next(one for one in study.rows if one.floor and one.floor.forces)
-    table = build_floor(row, words)
-    assert table.caption.endswith("takes its largest altitude factor, 1.30")
-    keys = [column.quantity for column in table.columns]
-    cells = dict(zip(keys, table.rows[0], strict=True))
-    force = row.floor.forces[0]
-    for key in ("snow_thickness_m", "slack", "stiffness_kN_per_m", "glide_factor"):
-        assert cells[key].number == getattr(force, key)
-    plain = replace(row, floor=replace(row.floor, assumed=[]))
-    assert build_floor(plain, words).caption == words("caption.floor")
+    (told,) = [one for one in list_defaults(study, words) if TOLD[language] in one]
+    assert study.rows[0].id in told
+    given = list_defaults(with_altitude(1873.0, "1873"), words)
+    assert not any(TOLD[language] in one for one in given)
 
 
 def name_of(missing, language, rows=23):

@@ -1,0 +1,123 @@
+"""Checks on lines: nothing is lost, and what does not pass says why."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.outcome import Verdict
+from netdesign.report.governing import find_governing, find_highest
+from netdesign.report.sections.checks import (
+    list_lines,
+    tell_briefly,
+    tell_cause,
+    tell_resistance,
+)
+from netdesign.report.words import Words, show_check
+from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.message import say
+from tests.report.build_study import build_row, build_study
+
+ENGLISH = Words("en")
+STUDY = build_study()
+
+
+def test_governing_check_is_the_worst_verdict_then_the_largest_ratio():
+    row = build_row("A", 2, scale=0.62, missing_resistance=True)
+    assert find_governing(row.checks).id == "downhill_anchor.pull_out"
+    assert find_highest(row.checks).id == "foot_anchor.pull_out"
+    failing = build_row("B", 2, scale=0.72)
+    assert find_governing(failing.checks).id == "foot_anchor.pull_out"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("row", STUDY.rows, ids=lambda row: f"row {row.verdict}")
+def test_every_check_of_a_force_stands_once(row, language):
+    words = Words(language)
+    shown = [one for line in list_lines(row.checks) for one in line.checks]
+    wanted = [one for one in row.checks if one.is_of_force]
+    assert sorted(show_check(words, one) for one in shown) == sorted(
+        show_check(words, one) for one in wanted
+    )
+
+
+def pair(inside=Verdict.PASS, end=Verdict.PASS, **changes):
+    """One check inside the row, and the same at its end with other values."""
+    given = next(one for one in STUDY.rows[0].checks if one.is_of_force)
+    first = replace(given, position="intermediate", verdict=inside)
+    return [first, replace(given, position="edge", verdict=end, **changes)]
+
+
+def test_inside_and_end_of_one_resistance_share_a_line():
+    (line,) = list_lines(pair())
+    assert line.inside
+    assert line.end
+    assert "end of the row" not in line.name(ENGLISH)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"resistance_kN": 61.7},
+        {"resistance_type": "another"},
+        {"resistance_cell": "Anchors!B17"},
+        {"resistance_basis": "computed"},
+    ],
+)
+def test_another_resistance_has_its_own_line(changes):
+    inside, end = list_lines(pair(**changes))
+    assert inside.end is None
+    assert end.inside is None
+
+
+def test_three_of_one_resistance_never_share_a_line():
+    first, last = pair()
+    assert len(list(list_lines([first, first, last]))) == 3
+
+
+@pytest.mark.parametrize("worst", [v for v in Verdict if v is not Verdict.PASS])
+@pytest.mark.parametrize("is_end", [True, False])
+def test_the_worse_of_both_places_is_the_line_s(worst, is_end):
+    why = say("check.not_proven", gaps=())
+    verdicts = {"end" if is_end else "inside": worst}
+    first, last = pair(**verdicts)
+    first, last = replace(first, reason=say("check.passes")), replace(last, reason=why)
+    if not is_end:
+        first, last = (
+            replace(first, reason=why),
+            replace(last, reason=say("check.passes")),
+        )
+    (line,) = list_lines([first, last])
+    assert line.verdict is worst
+    place = ENGLISH("heading.at_end" if is_end else "heading.inside")
+    assert [one.startswith(place) for one in line.list_remarks(ENGLISH)] == [True]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("row", STUDY.rows, ids=lambda row: f"row {row.verdict}")
+def test_a_row_that_does_not_pass_says_why_in_few_words(row, language):
+    told = tell_briefly(row, Words(language))
+    assert bool(told) is (row.verdict is not Verdict.PASS)
+    assert len(told.split()) <= 14
+
+
+def test_a_cause_is_the_gap_alone_or_both_design_values():
+    check = STUDY.rows[0].checks[0]
+    type_ = say("check.type", type="A25")
+    what = say("check.of_cell", what=type_, cell="Anchors!C6")
+    gap = say("check.no_resistance", what=what)
+    reason = say("check.not_proven", gaps=(gap,))
+    told = say("load.reason", reason=reason, load=say("load.coupled"))
+    lacking = replace(check, verdict=Verdict.NOT_PROVEN, reason=told)
+    assert tell_cause(lacking, ENGLISH) == ENGLISH.show(gap)
+    row = replace(STUDY.rows[2], checks=[lacking], verdict=Verdict.NOT_PROVEN)
+    assert "Anchors!C6" not in tell_briefly(row, ENGLISH)
+    failing = replace(check, verdict=Verdict.FAIL, reason=say("check.fails"))
+    shown = [f"{x:.1f} kN" for x in (check.demand_kN, check.resistance_kN)]
+    assert all(one in tell_cause(failing, ENGLISH) for one in shown)
+
+
+def test_a_resistance_names_type_basis_and_cell():
+    check = next(one for one in STUDY.rows[0].checks if one.resistance_cell)
+    told = tell_resistance(check, ENGLISH)
+    assert check.resistance_cell in told
+    assert check.resistance_type in told

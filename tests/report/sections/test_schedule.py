@@ -1,0 +1,52 @@
+"""The anchor schedule: what is built and the forces that it is built for."""
+
+import pytest
+
+from netdesign.report.sections.schedule import build_schedule
+from netdesign.report.words import ENGLISH, Words, show_member
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.build_study import build_study
+
+STUDY = build_study()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_part_with_a_force_has_a_line(language):
+    words = Words(language)
+    lines = [[cell.text for cell in x] for x in build_schedule(STUDY, words).rows]
+    for row in STUDY.rows:
+        for check in row.checks:
+            if check.is_of_force:
+                named = [row.id, show_member(words, check.member)]
+                kinds = [line[2] for line in lines if line[:2] == named]
+                assert (check.resistance_type or "-") in kinds
+
+
+def test_forces_are_the_upper_ends_of_their_checks():
+    for row in STUDY.rows:
+        lines = [x for x in build_schedule(STUDY, ENGLISH).rows if x[0].text == row.id]
+        for line in lines:
+            ends = [
+                one.read_band("E_d")[1]
+                for one in row.checks
+                if one.is_of_force
+                and one.position != "edge"
+                and show_member(ENGLISH, one.member) == line[1].text
+            ]
+            known = [end for end in ends if end is not None]
+            assert line[6].number == (max(known) if known else None)
+
+
+def test_the_least_resistance_passes_and_anything_below_does_not():
+    for row in STUDY.rows:
+        for line in build_schedule(STUDY, ENGLISH).rows:
+            if line[0].text != row.id:
+                continue
+            for check in row.checks:
+                if show_member(ENGLISH, check.member) != line[1].text:
+                    continue
+                _, demand = check.read_band("E_d")
+                factor = check.read("γ_R")
+                if demand and factor:
+                    shown = f"{demand * factor:.1f}"
+                    assert shown in line[-1].text

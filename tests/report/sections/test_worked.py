@@ -1,0 +1,61 @@
+"""Checks worked out: lines of the governing one, and the annex of all."""
+
+from dataclasses import replace
+
+from netdesign.report.governing import find_shown
+from netdesign.report.page.html import render_html
+from netdesign.report.sections.worked import work_out
+from netdesign.report.words import ENGLISH
+from tests.report.build_study import build_row, build_study
+from tests.report.reading import PageReader
+
+STUDY = build_study()
+ROW = STUDY.rows[0]
+
+
+def read(cell):
+    return cell.text or "".join(one.text for one in cell.content)
+
+
+def list_lines(check):
+    return [[read(cell) for cell in row] for row in work_out(check, ENGLISH).rows]
+
+
+def test_worked_check_shows_symbols_numbers_and_result():
+    row = build_row("A", 2, scale=0.6)
+    *_, demand, derivation, resistance, ratio = list_lines(find_shown(ROW))
+    assert derivation[0] == "R_k"
+    force = row.extremes[0].max_kN
+    assert demand[1] == f"= 1.5 · {force:.1f} kN"
+    assert demand[2] == f"= {1.5 * force:.1f} kN"
+    assert resistance[2] == f"= {480 / 1.35:.1f} kN"
+    assert ratio[2].startswith(f"= {1.5 * force / (480 / 1.35):.3f} (")
+
+
+def test_worked_steps_lead_from_the_solved_force_to_the_utilisation():
+    edge, coupled, floor, action, *others = list_lines(ROW.checks[0])
+    assert edge == [
+        "b_e = b / 2 + f_R · Δl",
+        "= 4.00 m / 2 + 1.60 · 1.50 m",
+        "= 4.40 m",
+    ]
+    assert coupled[0] == "E_c = E_s · b_e / b"
+    assert floor[0] == "E_g = E_g0 · b_e / b"
+    assert action[0] == "E_k = max(E_c; E_g)"
+    results = [one[2].removeprefix("= ") for one in (coupled, floor)]
+    assert action[1] == f"= max({'; '.join(results)})"
+    symbols = [one[0].partition(" = ")[0] for one in others]
+    assert symbols[0] == "E_d"
+    assert symbols[-2:] == ["R_d", "μ"]
+    assert list_lines(replace(ROW.checks[0], steps=[])) == []
+
+
+def test_the_annex_has_every_check_of_every_row():
+    page = PageReader(render_html(STUDY))
+    for number, row in enumerate(STUDY.rows, 1):
+        (table,) = page.tables[f"row-{number}-calculation"]
+        told = " ".join(cell for line in table for cell in line)
+        wanted = [one for one in row.checks if one.is_of_force]
+        assert told.count("μ =") == sum("μ" in one.known for one in wanted)
+        for check in wanted:
+            assert check.resistance_cell in told
