@@ -1,4 +1,4 @@
-"""Which check of several decides, and what of a row the outputs show first."""
+"""The check that decides among several, and what outputs show first of a row."""
 
 from __future__ import annotations
 

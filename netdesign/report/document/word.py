@@ -10,7 +10,7 @@ from netdesign.report.document.package import pack, set_properties
 from netdesign.report.document.template import open_document
 from netdesign.report.document.writer import Writer, write_field
 from netdesign.report.sections.whole import Detail, build_report, title_pages
-from netdesign.report.words import Words
+from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
@@ -50,7 +50,7 @@ def render_document(
         document,
         title=words("heading.anchor_check"),
         subject=running,
-        author=study.project.author,
+        author=show_text(study.project.author),
         started=study.provenance.started,
     )
     return pack(document)

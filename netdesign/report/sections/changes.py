@@ -1,4 +1,4 @@
-"""What would make a check pass, and how far single values may go, in words."""
+"""Changes that make a check pass, and limits of single values, in words."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _list_row_changes(row: RowStudy, words: Words) -> Iterator[str]:
 
 
 def _list_room(row: RowStudy, words: Words) -> Iterator[str]:
-    """How far single values may go before the check that is shown turns."""
+    """Limits of single values beyond which the check that is shown turns."""
     check = find_shown(row)
     limits = list_limits(check, words) if check else ()
     if check and limits:

@@ -106,7 +106,7 @@ def tell_loads(check: CheckRecord, words: Words) -> str:
 
 
 def tell_briefly(row: RowStudy, words: Words) -> str:
-    """Why a row has its verdict, in some ten words; "" of a pass."""
+    """Reason of a row's verdict in some ten words; "" of a pass."""
     check = find_governing(row.checks)
     if row.verdict is Verdict.PASS:
         return ""
@@ -132,7 +132,7 @@ def _leave_out_cell(told: Message) -> Message:
 
 
 def tell_cause(check: CheckRecord, words: Words) -> str:
-    """What keeps a check from passing, without what its numbers say already."""
+    """Cause that keeps a check from passing, without what its numbers say already."""
     gaps = find_gaps(check.reason)
     if gaps:
         return words.join(words.show(one) for one in gaps)
@@ -144,7 +144,7 @@ def tell_cause(check: CheckRecord, words: Words) -> str:
 
 
 def find_gaps(reason: object) -> tuple[Message, ...]:
-    """What a check lacks, wherever in its reason that stands."""
+    """Lacks of a check, wherever in its reason they stand."""
     if not isinstance(reason, Message):
         return ()
     if reason.key in ("check.not_proven", "check.fails_besides"):

@@ -179,7 +179,7 @@ def _sum_up(checks: list[CheckRecord], words: Words) -> Cell:
 
 
 def list_open_points(study: Study, words: Words) -> Iterator[str]:
-    """What must be done before the report can be signed, the worst first."""
+    """Points to settle before the report can be signed, the worst first."""
     for verdict in (Verdict.FAIL, Verdict.NOT_PROVEN):
         yield from _list_open_checks(study, verdict, words)
     yield from _list_open_rows(study, words)

@@ -160,7 +160,7 @@ def _build_failed(study: Study, words: Words) -> Table:
 
 
 def explain_case(case: CaseRecord, words: Words) -> Cell:
-    """How a case ended, and why."""
+    """End of a case with its reason."""
     if case.outcome is Outcome.CONVERGED:
         return text_cell(words.show(case.reason))
     sentence = words.show(case.outcome.message)
@@ -309,7 +309,7 @@ def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
 
 
 def _build_drivers(row: RowStudy, words: Words) -> Table:
-    """How the force of the member that is shown follows each quantity."""
+    """Force of the member that is shown at both ends of each range."""
     numbers = [words(f"heading.{key}") for key in ("first_order", "total")]
     low, high = words("heading.at_low_end"), words("heading.at_high_end")
     member = find_shown_member(row)
@@ -424,7 +424,7 @@ def _tell_model_form(record: ModelFormRecord | None, words: Words) -> str:
 
 
 def _list_differences(study: Study, words: Words) -> Iterator[Block]:
-    """Why guideline and coupled calculation differ, row by row."""
+    """Reasons why guideline and coupled calculation differ, row by row."""
     told = tuple(
         words("show.label", label=row.id, text=words.show(row.guideline.sentence))
         for row in study.rows

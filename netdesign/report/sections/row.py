@@ -221,8 +221,8 @@ class RowSections:
     def _show_envelope(self, drawn: RowDrawings) -> Block:
         if not drawn.envelope:
             return self._none("heading.no_case_converged")
-        key = "maps" if self.row.envelope else "envelope_grid"
-        return Figure(svg=drawn.envelope, caption=self.words(f"caption.{key}"))
+        key = "caption.maps" if self.row.envelope else "caption.envelope_grid"
+        return Figure(svg=drawn.envelope, caption=self.words(key))
 
     def _show_further(self, drawn: RowDrawings) -> Iterator[Part]:
         """Panel, measurements and notes, of a row that has them."""

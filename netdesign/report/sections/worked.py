@@ -28,11 +28,12 @@ from netdesign.report.words import (
     Words,
     append_unit,
     show_check,
+    show_member,
     show_text,
     show_verdict,
 )
 from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.words.names import name_check, name_mode
+from netdesign.words.names import name_mode
 
 _LAST = "E_d"  # of the steps that checks of one member share
 # Formulas of every check, which stand once above all of them.
@@ -73,7 +74,7 @@ def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
 def _tell_given(
     one: Quantity, check: CheckRecord, words: Words
 ) -> tuple[str, str] | None:
-    """What stands for numbers and result of a quantity without a formula to show."""
+    """Text in the place of numbers and result of a quantity without a formula."""
     if check.is_unbounded and one.symbol in ("R_d", "μ"):  # nothing is left to resist
         if one.symbol == "R_d":
             return words.show(check.reason), MISSING
@@ -156,7 +157,7 @@ def _group(checks: Sequence[CheckRecord]) -> list[list[CheckRecord]]:
 
 
 def _identify(step: Step) -> tuple[object, ...]:
-    """What a step says; a guy and its anchor have theirs from other places."""
+    """Content of a step; a guy and its anchor have theirs from other places."""
     return step.symbol, step.formula, step.ends
 
 
@@ -202,10 +203,10 @@ def _list_groups(
 
 def _name_group(group: Sequence[CheckRecord], words: Words) -> str:
     """Members that a design force acts on, and their place."""
-    named = dict.fromkeys(
-        words.show(name_check(one.member, "", one.position)) for one in group
-    )
-    return words.join(named)
+    members = dict.fromkeys(show_member(words, one.member) for one in group)
+    named = words.join(members)
+    is_end = group[0].position == "edge"
+    return words("check.of_end", check=named) if is_end else named
 
 
 def _set_leaves_first(steps: Sequence[Step]) -> list[Step]:

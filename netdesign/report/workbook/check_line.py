@@ -96,7 +96,7 @@ class CheckLine:
 
     @cached_property
     def sentences(self) -> tuple[str, str]:
-        """Where the resistance comes from, and the reason of the verdict."""
+        """Source of the resistance, and the reason of the verdict."""
         words = self.book.words
         return tell_resistance(self.check, words), words.show(self.check.reason)
 

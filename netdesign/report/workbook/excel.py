@@ -89,7 +89,7 @@ def render_workbook(study: Study, language: Language = "en") -> bytes:
             {
                 "title": words("heading.anchor_check"),
                 "subject": running,
-                "author": study.project.author,
+                "author": show_text(study.project.author),
                 "created": _read_time(study.provenance.started),
             }
         )

@@ -331,7 +331,7 @@ def _explain(row: RowStudy, words: Words) -> str:
 
 
 def _write_below(book: Book, sheet: Any, study: Study, top: int) -> None:
-    """What is open, identification, room for signatures, under the rows."""
+    """Open points, identification, room for signatures, under the rows."""
     head = book.text(bold=True, bottom=1)
     wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[_LABELLED:_LIMIT])
     words, project = book.words, study.project
