@@ -67,8 +67,12 @@ def tell_time() -> str:
 
 def report_places(names: list[list[Path]], language: Language, *, quiet: bool) -> None:
     """Tell where outputs were written."""
+    by_folder: dict[Path, list[str]] = {}
     for path in [] if quiet else [path for group in names for path in group]:
-        tell(say("cli.wrote", path=str(path)), language, err=True)
+        by_folder.setdefault(path.parent, []).append(path.name)
+    for folder, files in by_folder.items():
+        told = say("cli.wrote_files", folder=str(folder), files=tuple(files))
+        tell(told, language, err=True)
 
 
 def open_run(
@@ -177,9 +181,6 @@ def _name_case(rows: tuple[str, ...], case: str) -> Message:
     return say(key, rows=rows, case=case)
 
 
-TUTORIAL = Path(__file__).resolve().parent.parent / "TUTORIAL.md"
-
-
 def tell_next_steps(
     verdicts: Set[Verdict], site: str, language: Language, *, is_sized: bool
 ) -> None:
@@ -200,8 +201,5 @@ def list_next_steps(
     if not (fails or is_open):
         return []
     size = shlex.join(["netdesign", "check", site, "--size"])
-    told = [say("next.heading"), say("next.inputs")]
-    told += [say("next.open")] if is_open else []
-    told += [say("next.size", command=size)] if fails and not is_sized else []
-    told.append(say("next.again"))
-    return [*told, say("next.more", file=str(TUTORIAL))]
+    sized = [say("next.size", command=size)] if fails and not is_sized else []
+    return [say("next.inputs"), *sized, say("next.again")]

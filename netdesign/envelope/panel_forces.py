@@ -86,12 +86,6 @@ class PanelForces:
         """Panel that brings the largest one of ``PANEL_QUANTITIES``."""
         return max(self.variants, key=lambda one: one.bands[name].value)
 
-    def is_mid_largest(self, member: str) -> bool:
-        """The anchor in mid-panel is the more loaded one of a member's."""
-        mid_foot = math.hypot(*self.solution.mid_foot)
-        beside = self.anchors.member_forces[Member.FOOT_ANCHOR]
-        return member == Member.FOOT_ANCHOR and mid_foot > beside
-
 
 def resolve_panels(
     panels: Sequence[Panel], net: Net, points: SupportPoints, state: SolvedState

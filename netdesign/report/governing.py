@@ -24,13 +24,6 @@ def rank_check(check: CheckRecord) -> tuple[int, float]:
     return SEVERITY.index(check.verdict), -_ratio(check)
 
 
-def rank_row(row: RowStudy) -> tuple[int, tuple[int, float]]:
-    """Sort key of net rows: worst verdict first, then the governing check's."""
-    governing = find_governing(row.checks)
-    rank = rank_check(governing) if governing else (len(SEVERITY), 0.0)
-    return SEVERITY.index(row.verdict), rank
-
-
 def _ratio(check: CheckRecord) -> float:
     return -1.0 if check.used is None else check.used
 

@@ -8,7 +8,12 @@ from collections.abc import Iterable, Iterator
 from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent
 from netdesign.report.governing import SEVERITY, find_governing, rank_check
-from netdesign.report.sections.basis import list_notes, name_cases, tell_floor
+from netdesign.report.sections.basis import (
+    has_other_floor,
+    list_notes,
+    name_cases,
+    tell_floor,
+)
 from netdesign.report.sections.changes import list_changes
 from netdesign.report.sections.checks import name_case, tell_briefly, tell_loads
 from netdesign.report.sections.decision import list_open_points
@@ -24,8 +29,7 @@ from netdesign.report.words import (
 )
 from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
-
-_MOST_POINTS = 3  # open points of a summary; --explain has them all
+from netdesign.words.names import name_check
 
 
 def build_summary(
@@ -76,7 +80,9 @@ def _show_row(row: RowStudy, words: Words) -> RowLine:
         id=show_text(row.id),
         verdict=verdict.word,
         style=verdict.style,
-        check=show_check(words, check) if check else words("heading.no_check"),
+        check=words.show(name_check(check.member, check.mode))
+        if check
+        else words("heading.no_check"),
         utilisation=words.show_number("utilisation", check.used) if check else MISSING,
         reason=tell_briefly(row, words),
     )
@@ -84,23 +90,21 @@ def _show_row(row: RowStudy, words: Words) -> RowLine:
 
 def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
     """Counts, and what is open."""
-    rows = count_verdicts((row.verdict for row in study.rows), words)
-    checks = count_verdicts(
-        (c.verdict for row in study.rows for c in row.checks), words
-    )
-    told = {"rows": rows, "checks": checks, "cases": tell_cases(study, words)}
-    yield words("show.counts", **told)
+    verdicts = [check.verdict for row in study.rows for check in row.checks]
+    checks = _count_verdicts(verdicts, words)
+    yield words("show.counts", checks=checks, cases=tell_cases(study, words))
+    if has_other_floor(study):
+        floor = words("heading.floor")
+        yield words("show.label", label=floor, text=tell_floor(study, words))
     points = list(list_open_points(study, words))
-    most = _MOST_POINTS if is_short and len(points) > _MOST_POINTS + 1 else len(points)
-    yield from (
-        words("show.open_point", number=number, point=point)
-        for number, point in enumerate(points[:most], 1)
-    )
-    if points[most:]:
-        yield words("show.more_points", count=len(points) - most)
+    if is_short:
+        yield words("show.more_points", count=len(points))
+        return
+    for number, point in enumerate(points, 1):
+        yield words("show.open_point", number=number, point=point)
 
 
-def count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
+def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
     """Numbers of verdicts, the worst first: ``1 FAIL, 4 PASS``."""
     counts = Counter(verdicts)
     shown = [

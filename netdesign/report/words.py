@@ -284,12 +284,6 @@ def show_member(words: Words, member: str) -> str:
     return words.show(name_member(member))
 
 
-def show_position(words: Words, position: str) -> str:
-    """Place of a support in its row."""
-    key = f"position.{position}"
-    return words(key) if key in load_texts(words.language) else show_text(position)
-
-
 def show_check(words: Words, check: CheckRecord) -> str:
     """Member and mode of a check: ``Foot anchor, pull-out``."""
     return words.show(name_check(check.member, check.mode, check.position))

@@ -13,7 +13,6 @@ from netdesign.numerics.arrays import Floats
 
 LONGEST_GAP = 3  # days without a reading inside snow that a straight line may close
 LARGEST_RISE = 0.6  # [m] within a day; more is shown as a spike
-HIGHEST_SNOW = 8.0  # [m]
 _FIRST_MONTH = 9  # of a winter: September (northern hemisphere)
 _SNOW_MONTHS = (12, 1, 2, 3)  # a gap that holds one of them may hide snow (assumed)
 

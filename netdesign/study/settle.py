@@ -18,7 +18,6 @@ from netdesign.checks import (
 )
 from netdesign.checks.check import find_missing_force, not_proven
 from netdesign.envelope.ranges import Ranges
-from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.structure.members import Member
@@ -30,11 +29,6 @@ from netdesign.study.records import CheckRecord, DeclarationRecord
 from netdesign.words.message import Message, say
 
 INCLINATION = "column.quantities.inclination"  # name of the net's inclination
-
-
-def find_gap(solved: Message | None, floor: Floor | None) -> Message | None:
-    """Gap of the cases, else of the floor; None where nothing is missing."""
-    return solved or (floor.reason if floor else None)
 
 
 def list_checked(

@@ -33,7 +33,7 @@ def test_no_floor_is_said_and_verified(site, call, language):
     said = load_texts(language)["floor.none_chosen"]
     assert said in ended.out
     page = (site / "a" / "report.html").read_text(encoding="utf-8")
-    card = page[page.index('id="verdict"') : page.index('id="identification"')]
+    card = page[page.index('id="decision"') : page.index('id="basis"')]
     assert "--floor" in card
     assert said in card.replace("&#39;", "'")
     assert call("verify", "--study", "a/study.json", "--site", "site.xlsx").code == 0
@@ -74,5 +74,5 @@ def test_the_profile_s_own_floor_is_nothing_to_tell(site, call):
         "check", "site.xlsx", *QUICK, "--floor", "guideline", "--out", "a", "--no-excel"
     )
     assert read_profile(site / "a")["is_floor_overruled"] is False
-    assert "Floor of the demands" in ended.out
+    assert "Minimum load" not in ended.out
     assert "--floor" not in ended.out

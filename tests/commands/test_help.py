@@ -154,7 +154,7 @@ def test_completion_tells_in_the_language(call, monkeypatch, shell):
     monkeypatch.setenv("COMP_WORDS", joint.join(["netdesign", "wint"]))
     monkeypatch.setenv("COMP_CWORD", "1" if shell == "zsh" else "wint")
     told = " ".join(call().out.split())
-    assert "Suivre les hauteurs de neige d'une station sur les rangées" in told
+    assert "Suivre les hauteurs de neige d'une station sur les lignes" in told
 
 
 def test_help_is_wrapped_at_no_sign_of_french(call):

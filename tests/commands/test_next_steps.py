@@ -2,12 +2,10 @@
 
 import pytest
 
-from netdesign.commands.running import TUTORIAL, list_next_steps, tell_next_steps
+from netdesign.commands.running import list_next_steps, tell_next_steps
 from netdesign.outcome import Verdict
 from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.report.build_study import build_study
-
-HEADING = "## What to do when a row fails"
 
 
 def keys(*verdicts, is_sized=False):
@@ -18,18 +16,16 @@ def keys(*verdicts, is_sized=False):
 def test_each_verdict_has_its_own_steps():
     assert keys(Verdict.PASS) == []
     assert keys(Verdict.PASS, Verdict.DECLARED) == []
-    assert keys(Verdict.FAIL) == ["heading", "inputs", "size", "again", "more"]
-    assert keys(Verdict.NOT_PROVEN) == ["heading", "inputs", "open", "again", "more"]
+    assert keys(Verdict.FAIL) == ["inputs", "size", "again"]
+    assert keys(Verdict.NOT_PROVEN) == ["inputs", "again"]
     both = keys(Verdict.FAIL, Verdict.NOT_PROVEN, is_sized=True)
-    assert both == ["heading", "inputs", "open", "again", "more"]
+    assert both == ["inputs", "again"]
 
 
 def test_the_command_can_be_copied():
     steps = list_next_steps({Verdict.FAIL}, "my site.xlsx", is_sized=False)
     told = "\n".join(map(str, steps))
     assert "netdesign check 'my site.xlsx' --size" in told
-    assert str(TUTORIAL) in told
-    assert HEADING in TUTORIAL.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -39,7 +35,7 @@ def test_they_are_told_in_the_language_of_the_run(language, capsys):
     told = capsys.readouterr()
     assert told.out == ""
     texts = load_texts(language)
-    for key in ("next.heading", "next.inputs", "next.open"):
+    for key in ("next.inputs", "next.again"):
         assert texts[key] in told.err
     tell_next_steps({Verdict.PASS}, "site.xlsx", language, is_sized=False)
     assert capsys.readouterr().err == ""

@@ -129,7 +129,7 @@ def test_contradictions_are_told_before_anything_is_solved(verify):
 @pytest.mark.parametrize(
     ("language", "told"),
     [
-        ("fr", "rangée 'R7' : le verdict est SATISFAIT, mais ses parties donnent NON"),
+        ("fr", "ligne 'R7' : le verdict est VÉRIFIÉ, mais ses parties donnent NON"),
         (
             "de",
             "Werkreihe 'R7': das Ergebnis ist ERFÜLLT, aber seine Teile ergeben",

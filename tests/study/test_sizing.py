@@ -125,7 +125,7 @@ def test_a_type_of_unknown_ground_is_told_as_a_question(example, language):
     _, cells, _ = size(example, **{BUILT: ""})
     (line,) = list_sized(cells, Words(language))
     asks = {"en": "tested in the ground of this row?",
-            "fr": "justifié par essais dans le terrain de cette rangée\u00a0?",
+            "fr": "justifié par essais dans le terrain de cette ligne\u00a0?",
             "de": "im Baugrund dieser Werkreihe geprüft?"}  # fmt: skip
     assert asks[language] in line
     _, cells, _ = size(example, **{A40: "rock", A57: "scree"})

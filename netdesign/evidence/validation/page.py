@@ -246,10 +246,6 @@ def _tabulate_cases(cases: Sequence[VerificationCase], words: Words) -> Table:
     return tabulate_items("", columns, cases, words)
 
 
-def _name_origin(case: VerificationCase, words: Words) -> str:
-    return _mark(mark_expected(case), words)
-
-
 def _mark(mark: str, words: Words) -> str:
     return words(f"validation_mark.{mark}")
 

@@ -91,7 +91,6 @@ class Part:
     look: str = ""
     kind: Literal["section", "article", "header", "div"] = "section"
     fold: str = ""
-    is_open: bool = False
     on: Medium = "all"
 
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeVar
+from typing import Literal
 
-from netdesign.report.blocks.text import Content, symbols
+from netdesign.report.blocks.text import Content
 from netdesign.report.words import MISSING, Words, name_heading, show_text
 
-# Where a block is shown: everywhere; on a screen alone; in a page, not in a document;
-# on paper and in a document, not on a screen.
-Medium = Literal["all", "screen", "page", "paper"]
+# Where a block is shown: everywhere, or in a page and not in a document.
+Medium = Literal["all", "page"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,57 +52,12 @@ class Table:
     look: str = ""
     on: Medium = "all"
     symbols: Literal["", "headings", "cells"] = ""
-    not_on_paper: str = ""  # text of a cell whose row stands on a screen alone
 
     def shown(
-        self,
-        look: str,
-        on: Medium = "all",
-        *,
-        symbols: Literal["", "headings", "cells"] = "",
-        not_on_paper: str = "",
+        self, look: str, *, symbols: Literal["", "headings", "cells"] = ""
     ) -> Table:
-        """The same table with a look, and where it is shown."""
-        return replace(
-            self, look=look, on=on, symbols=symbols, not_on_paper=not_on_paper
-        )
-
-
-def turn(table: Table) -> Table:
-    """Few rows of many columns as many rows: a column for each row.
-
-    Headings become the first column, with their symbols. No rows stay no rows.
-    """
-    if not table.rows:
-        return table
-    first, *further = table.columns
-    names = [row[0].text for row in table.rows]
-    rows = tuple(
-        (rich_cell(symbols(column.heading)), *(row[place] for row in table.rows))
-        for place, column in enumerate(further, 1)
-    )
-    return replace(
-        table, columns=(first, *name_columns(names, numbers=names)), rows=rows
-    )
-
-
-_Item = TypeVar("_Item")
-
-
-def lay_out(
-    caption: str,
-    columns: Sequence[tuple[Column, Callable[[_Item], Cell]]],
-    items: Iterable[_Item],
-    *,
-    empty: str,
-) -> Table:
-    """Table with a row for each item, by columns that read their cells from it."""
-    return Table(
-        caption=caption,
-        columns=tuple(column for column, _ in columns),
-        rows=tuple(tuple(read(item) for _, read in columns) for item in items),
-        empty=empty,
-    )
+        """The same table with a look."""
+        return replace(self, look=look, symbols=symbols or self.symbols)
 
 
 def text_column(heading: str) -> Column:
@@ -126,12 +80,6 @@ def name_columns(
 ) -> tuple[Column, ...]:
     """Columns by heading alone; those in ``numbers`` are set to the right."""
     return tuple(Column(heading=h, is_number=h in numbers) for h in headings)
-
-
-def symbol_columns(fields: Iterable[tuple[str, str]]) -> tuple[Column, ...]:
-    """Columns of numbers from pairs of key and heading, which is a symbol."""
-    headings = [heading for _, heading in fields]
-    return name_columns(headings, numbers=headings)
 
 
 def text_cell(text: str) -> Cell:
@@ -169,8 +117,3 @@ def given_cell(words: Words, value: float | str) -> Cell:
     if isinstance(value, str):
         return text_cell(value)
     return Cell(text=words.show_given(value), number=value)
-
-
-def short_cell(words: Words, value: float | None) -> Cell:
-    """Number to five digits, enough to redo what follows from it; "-" for none."""
-    return Cell(text=words.show_digits(value), number=value)

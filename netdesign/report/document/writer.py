@@ -79,7 +79,7 @@ class Writer:
         self._fill_contents()
 
     def _write_block(self, block: Block) -> None:
-        if not isinstance(block, Contents) and block.on in ("screen", "page"):
+        if not isinstance(block, Contents) and block.on == "page":
             return
         writers: dict[type, Callable[[Any], None]] = {
             Heading: self._write_heading,
@@ -94,7 +94,7 @@ class Writer:
         writers[type(block)](block)
 
     def _write_part(self, block: Part) -> None:
-        if block.is_open or not block.fold:
+        if not block.fold:
             for one in block.blocks:
                 self._write_block(one)
 
@@ -198,8 +198,8 @@ def _list_pair(pair: Pair) -> Runs:
 
 
 def _list_cells(table: Table) -> Grid:
-    """Grid of a table, without the rows that are not on paper."""
-    hidden, of_headings = table.not_on_paper, table.symbols == "headings"
+    """Grid of a table."""
+    of_headings = table.symbols == "headings"
     return Grid(
         headings=tuple(
             list_runs(column.heading, has_symbols=of_headings)
@@ -207,9 +207,7 @@ def _list_cells(table: Table) -> Grid:
         ),
         numbers=tuple(column.is_number for column in table.columns),
         lines=tuple(
-            tuple(_list_cell(cell, table) for cell in cells)
-            for cells in table.rows
-            if not hidden or all(cell.text != hidden for cell in cells)
+            tuple(_list_cell(cell, table) for cell in cells) for cells in table.rows
         ),
     )
 

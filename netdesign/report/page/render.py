@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 
 _LOWERED = re.compile(r"_(\w+)")
 _MARKS = re.compile("[&<>'\"\n]")  # what HTML has another sign for
-_PLACES = {"screen": "screen", "paper": "print"}  # class of what is not everywhere
 _REPORT, _STUDY = ("report.css",), ("report.css", "study.css")
 
 
@@ -109,11 +108,7 @@ def build_environment(language: Language = "en") -> jinja2.Environment:
 
 def _name_looks(block: Block | Pair, look: str = "") -> Markup:
     """Attribute with the classes of a block; "" without any."""
-    looks = (
-        look or getattr(block, "look", ""),
-        _PLACES.get(getattr(block, "on", ""), ""),
-    )
-    named = " ".join(one for one in looks if one)
+    named = look or getattr(block, "look", "")
     return Markup(' class="{}"').format(named) if named else Markup("")
 
 
@@ -171,16 +166,13 @@ def write_line(cells: Sequence[Cell], table: Table) -> Markup:
     if len(cells) == 1 < len(table.columns):
         form = '<tr class="more"><td colspan="{}">{}</td></tr>'
         return Markup(form).format(len(table.columns), _write_cell(cells[0], table))
-    looks = [f"{_mark_column(column, table)}>" for column in table.columns]
+    looks = [f"{_mark_column(column)}>" for column in table.columns]
     texts = [_write_cell(cell, table) for cell in cells]
     written = [
         f"<td{look}{text}</td>" for look, text in zip(looks[1:], texts[1:], strict=True)
     ]
-    hidden = table.not_on_paper
-    is_hidden = hidden and any(cell.text == hidden for cell in cells)
-    row = '<tr class="screen">' if is_hidden else "<tr>"
     first = f'<th scope="row"{looks[0]}{texts[0]}</th>' if texts[0] else "<td></td>"
-    return Markup(f"{row}{first}{''.join(written)}</tr>")
+    return Markup(f"<tr>{first}{''.join(written)}</tr>")
 
 
 def _write_cell(cell: Cell, table: Table) -> str:
@@ -191,13 +183,8 @@ def _write_cell(cell: Cell, table: Table) -> str:
     return write_inline(cell.text) if _MARKS.search(cell.text) else cell.text
 
 
-def _mark_column(column: Column, table: Table) -> Markup:
-    """Class of a column: ``n`` of numbers; in tables of figures ``t`` of texts.
-
-    Those are so many that a class at each number would be a third of the table.
-    """
-    if table.look.startswith("figures"):
-        return Markup("") if column.is_number else Markup(' class="t"')
+def _mark_column(column: Column) -> Markup:
+    """Class of a column: ``n`` of numbers."""
     return Markup(' class="n"') if column.is_number else Markup("")
 
 

@@ -105,6 +105,11 @@ def _show_profile(study: Study, words: Words) -> Iterator[Block]:
         yield Items(items=below)
 
 
+def has_other_floor(study: Study) -> bool:
+    """No minimum load is taken, or another one than the profile has."""
+    return study.profile.floor == "none" or study.profile.is_floor_overruled
+
+
 def tell_floor(study: Study, words: Words) -> str:
     """Least load of the design forces, and how often it governs."""
     told = _count_by_floor(study, words)

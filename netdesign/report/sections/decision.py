@@ -28,7 +28,12 @@ from netdesign.report.blocks.table import (
 )
 from netdesign.report.blocks.text import HIDDEN, Badge, Content, Piece, strong
 from netdesign.report.governing import SEVERITY, find_governing
-from netdesign.report.sections.basis import count_defaults, name_rows
+from netdesign.report.sections.basis import (
+    count_defaults,
+    has_other_floor,
+    name_rows,
+    tell_floor,
+)
 from netdesign.report.sections.changes import list_flips
 from netdesign.report.sections.checks import (
     badge_cell,
@@ -184,6 +189,9 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
         yield from _list_open_checks(study, verdict, words)
     yield from _list_open_rows(study, words)
     yield from _list_declared(study, words)
+    if has_other_floor(study):
+        floor = words("heading.floor")
+        yield words("show.label", label=floor, text=tell_floor(study, words))
     assumed, count = count_assumed(study)
     if assumed:
         yield words("todo.unconfirmed", assumed=assumed, count=count)

@@ -186,8 +186,9 @@ def _list_groups(
     for group in groups:
         whole = list(_take_action(group[0]))
         action = [one for one in whole if one.symbol not in above]
-        known = evaluate(group[0].steps)
-        steps = [_tell_step(one, known, words) for one in _set_leaves_first(action)]
+        known = {one.id: evaluate(one.steps) for one in group}
+        first = known[group[0].id]
+        steps = [_tell_step(one, first, words) for one in _set_leaves_first(action)]
         name = words("show.label", label=_name_group(group, words), text="")
         parts = [
             Piece(name, "name"),
@@ -196,7 +197,8 @@ def _list_groups(
         for check in group:
             own = [one for one in check.steps[len(whole) :] if one.symbol not in above]
             resistance = (check.resistance_cell, check.mode, check.read("R_k"))
-            parts += _tell_check(check, own, words, is_told=resistance in told)
+            is_told = resistance in told
+            parts += _tell_check(check, own, known[check.id], words, is_told=is_told)
             told.add(resistance)
         yield (rich_cell(tuple(parts)),)
 
@@ -242,10 +244,14 @@ def _show_digits(value: float | None, words: Words) -> str:
 
 
 def _tell_check(
-    check: CheckRecord, steps: Sequence[Step], words: Words, *, is_told: bool
+    check: CheckRecord,
+    steps: Sequence[Step],
+    known: dict[str, Quantity],
+    words: Words,
+    *,
+    is_told: bool,
 ) -> tuple[Piece, Piece]:
     """Line of one check: where its resistance comes from, and what follows."""
-    known = evaluate(check.steps)
     told = []
     for step in steps:
         given = _tell_given(known[step.symbol], check, words)

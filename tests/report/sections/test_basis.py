@@ -50,7 +50,7 @@ def name_of(missing, language, rows=23):
 
 @pytest.mark.parametrize(
     ("language", "told"),
-    [("en", "all 23 net rows"), ("fr", "les 23 rangées"), ("de", "alle 23 Werkreihen")],
+    [("en", "all 23 net rows"), ("fr", "les 23 lignes"), ("de", "alle 23 Werkreihen")],
 )
 def test_all_rows_of_a_large_site_are_named_in_a_phrase(language, told):
     assert name_of((), language)[0] == told

@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
-from netdesign.report.governing import SEVERITY, rank_row
+from netdesign.report.governing import SEVERITY
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.decision import (
     build_matrix,
@@ -32,10 +32,6 @@ def test_order_of_checks_and_cases_does_not_matter():
     first, second = (render_html(one, detail="summary") for one in (STUDY, turned))
     start, end = (first.index(one) for one in ('class="summary"', 'id="todo"'))
     assert first[start:end] in second
-
-
-def test_the_failing_row_ranks_first():
-    assert min(STUDY.rows, key=rank_row).id == "=1+1"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
