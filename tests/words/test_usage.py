@@ -83,7 +83,6 @@ ODD = {
     "de": {
         r"(?<!Standort)(?<!Arbeits)[Mm]appe\b": "Arbeitsmappe",
         r"Abstützung": "Stütze",
-        r"Beanspruchung": "Einwirkung",
         r"\bUrteil": "Ergebnis",
         r"\bKlausel\b": "Ziffer",
         r"[Uu]ntere Schranke": "Untergrenze",
