@@ -47,11 +47,8 @@ _STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
 _CASE_DECIMALS = 1
 # Line, first and last column of each link to a sheet, as wide as its name is long.
 _LINKS = (
-    *((0, *place) for place in ((7, 7), (8, 8), (9, 10), (11, 11))),
-    *((0, *place) for place in ((12, 12), (13, 13))),
-    *((1, *place) for place in ((7, 8), (9, 10), (11, 11), (12, 12), (13, 13))),
-    *((3, *place) for place in ((1, 1), (2, 2), (3, 4), (5, 6), (7, 8), (9, 10))),
-    *((3, *place) for place in ((11, 11), (12, 12), (13, 13))),
+    *((0, *place) for place in ((7, 8), (9, 10), (11, 11), (12, 12), (13, 13))),
+    *((1, *place) for place in ((7, 8), (9, 10), (11, 11))),
 )
 
 
@@ -108,7 +105,7 @@ def link_sheets(book: Book, names: Sequence[str]) -> None:
     None stands beside the table: that would make all of it small in print.
     """
     sheet = book.workbook.get_worksheet_by_name(book.name("decision"))
-    for (row, first, last), name in zip(_LINKS, names, strict=False):
+    for (row, first, last), name in zip(_LINKS, names, strict=True):
         if last > first:
             sheet.merge_range(row, first, row, last, "")
         book.link(sheet, (row, first), book.refer(name, "A1"), book.name(name))
