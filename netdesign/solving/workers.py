@@ -10,6 +10,7 @@ import gc
 import logging
 import multiprocessing
 import os
+import pickle
 import signal
 import socket
 import threading
@@ -81,6 +82,12 @@ class Workers(Protocol):
 
     def close(self) -> None:
         """Let go of what was held; what still runs is stopped."""
+
+
+def _call_packed(packed: bytes) -> Any:
+    """Result of a call that was packed by the process that wants it."""
+    call: Callable[[], Any] = pickle.loads(packed)
+    return call()
 
 
 def solve_job(job: Job) -> CaseEnd:
@@ -188,9 +195,13 @@ class ProcessPool:
     def begin(self, work: Callable[..., Found], *given: Any) -> Callable[[], Found]:
         """Call that a worker makes meanwhile; its result is that of what is returned.
 
+        What it is given is packed here and now: the pool would do so in a thread of its
+        own, while this one goes on and fills what the values keep of themselves.
         Where the worker dies or fails, the call is made here when it is asked for.
         """
-        caught = partial(catch_fault, partial(work, *given), work.__name__)
+        packed = pickle.dumps(partial(work, *given), pickle.HIGHEST_PROTOCOL)
+        call: Callable[[], Found] = partial(_call_packed, packed)
+        caught = partial(catch_fault, call, work.__name__)
         try:
             future = self._start().submit(caught)
         except BrokenProcessPool:  # a worker has died since its last work

@@ -170,6 +170,18 @@ def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
         pool.close()
 
 
+def test_a_call_begun_has_what_it_was_given_then(request):
+    """Reports are made of a study that goes on remembering what was read of it."""
+    pool = ProcessPool(processes=1)
+    request.addfinalizer(pool.close)
+    for _ in range(5):
+        given = dict.fromkeys(range(20_011))
+        finish = pool.begin(len, given)
+        for number in range(20_011, 60_000):
+            given[number] = None
+        assert finish() == 20_011
+
+
 def test_a_bug_in_one_case_is_its_outcome():
     end = solve_job(job(300.0, FaultyScene))
     assert (end.outcome, end.reason) == (Outcome.PROGRAM_FAULT, SENTENCE)
