@@ -5,7 +5,7 @@ A line that confirms a number has ``Posts!C2 = 3175`` in the place of a check.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from datetime import date
 from functools import lru_cache
@@ -26,6 +26,11 @@ from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
+# Words of the names of checks, and those of earlier versions that workbooks still have.
+_FORMER = {
+    "fr": (("ontant", "oteau"), ("ligne", "rangée")),
+    "de": (("Ausziehen", "Herausziehen"), ("Fundation, Druck", "Bodenpressung")),
+}
 # Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and
 # a net below its snow are no matter of proof.
 _OF_GEOMETRY = (
@@ -159,9 +164,19 @@ def _list_names() -> Mapping[str, _Subject]:
         subject = (member, mode, position)
         title = name_check(*subject)
         spelt = f"{member}.{mode}{end}"
-        spellings = [spelt, *(render(title, one) for one in LANGUAGES)]
+        spellings = [spelt, *_list_spellings(title)]
         names |= dict.fromkeys(map(normalise, spellings), subject)
     return names
+
+
+def _list_spellings(title: Message) -> Iterator[str]:
+    """Name of a check in every language, and as earlier versions had it."""
+    for language in LANGUAGES:
+        text = render(title, language)
+        yield text
+        for word, former in _FORMER.get(language, ()):
+            text = text.replace(word, former)
+        yield text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -88,7 +88,7 @@ def _fill(value: Any, form: str, language: Language) -> str:
         return render(value, language)
     if isinstance(value, tuple):
         return _join(value, form, language)
-    if isinstance(value, int) and _ONE_OR_MANY in form:
+    if isinstance(value, int | float) and _ONE_OR_MANY in form:
         return _count(value, *form.split(_ONE_OR_MANY), language=language)
     text = format(value, form)
     return set_marks(text, language) if isinstance(value, int | float) else text
@@ -102,7 +102,7 @@ def _join(values: tuple[Any, ...], form: str, language: Language) -> str:
     return (_set_apart(joint) if language == "fr" else joint).join(parts)
 
 
-def _count(count: int, one: str, many: str, *, language: Language) -> str:
+def _count(count: float, one: str, many: str, *, language: Language) -> str:
     """Noun with its number: French has the singular for none, too."""
     is_one = count == 1 or (count == 0 and language == "fr")
     return (one if is_one else many).replace("#", _fill(count, "", language))

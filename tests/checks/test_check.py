@@ -152,7 +152,7 @@ def test_each_factor_alone_can_turn_a_pass_into_a_fail():
 def test_no_solved_case_is_not_proven():
     result = check_member(no_force(), a_resistance(), plain_standard(), gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
-    assert "no case was solved" in str(result.reason)
+    assert "no case could be calculated" in str(result.reason)
     assert [result.find_value(one) for one in ("E_k", "E_d", "μ")] == [None] * 3
 
 
@@ -183,7 +183,7 @@ def test_band_across_the_resistance_says_so():
         a_force(0.95, 0.9, 1.1), a_resistance(), plain_standard(), gap=None
     )
     assert result.verdict is Verdict.NOT_PROVEN
-    assert "band of the demand spans the resistance" in str(result.reason)
+    assert "uncertainty of the design force spans the resistance" in str(result.reason)
 
 
 def test_missing_resistance_names_member_type_and_cell():
@@ -373,7 +373,7 @@ def reason_of(action, resistance=None, standard=None, gap=None) -> str:
     )
 
 
-NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
+NO_RESISTANCE = "resistance missing: type GEWI 25, cell Anchors!B4"
 
 
 @pytest.mark.parametrize(
@@ -381,34 +381,36 @@ NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
     [
         (
             {"action": a_force(0.5)},
-            "The demand stays within the resistance over its whole band.",
+            "The design force stays within the resistance, "
+            "numerical uncertainty included.",
         ),
         (
             {"action": a_force(2.0)},
-            "The demand exceeds the resistance over its whole band.",
+            "The design force exceeds the resistance, "
+            "even at the lower end of its numerical uncertainty.",
         ),
         (
             {"action": a_force(2.0), "gap": "3 of 40 cases failed"},
-            "The demand exceeds the resistance over its whole band; besides, 3 of 40 "
-            "cases failed.",
+            "The design force exceeds the resistance, even at the lower end of its "
+            "numerical uncertainty; besides, 3 of 40 cases failed.",
         ),
         (
             {"action": a_force(1.0, 0.5, 1.5)},
-            "Not proven: the band of the demand spans the resistance.",
+            "Not proven: the numerical uncertainty of the design force "
+            "spans the resistance.",
         ),
         (
             {"action": a_force(0.0)},
             "The member is slack in every case; its resistance is given.",
         ),
-        ({"action": no_force()}, "Not proven: no case was solved."),
+        ({"action": no_force()}, "Not proven: no case could be calculated."),
         (
             {"action": a_force(0.5), "resistance": a_resistance(None)},
             f"Not proven: {NO_RESISTANCE}.",
         ),
         (
             {"action": a_force(0.5), "resistance": a_resistance(None, type_id="")},
-            "Not proven: no resistance is given for Foot anchor (tendon), cell "
-            "Anchors!B4.",
+            "Not proven: resistance missing: Foot anchor (tendon), cell Anchors!B4.",
         ),
         (
             {

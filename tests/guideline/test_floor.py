@@ -396,7 +396,7 @@ def test_where_the_closed_forms_fail_there_is_no_floor_but_a_reason():
     )  # fmt: skip
     fallen = find(build_ranges(a_net(layout=no_guy)))
     assert fallen.forces == ()
-    assert "floor of every demand" in render(fallen.reason, "en")
+    assert "minimum load of every check" in render(fallen.reason, "en")
 
 
 def test_reason_names_the_inclination_and_load_case_that_fail():

@@ -200,7 +200,7 @@ def test_a_missing_resistance_is_named(judge):
     assert study.verdict == Verdict.NOT_PROVEN
     assert check.utilisation is None
     assert check.resistance_kN is None
-    assert "no resistance is given for " in str(check.reason)
+    assert "resistance missing: " in str(check.reason)
     assert "Anchors!B2" in str(check.reason)
     end = check_of(study, "foot_anchor.pull_out.end")
     assert end.reason == check.reason

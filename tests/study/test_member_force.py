@@ -196,7 +196,7 @@ def test_floor_that_is_not_known_proves_nothing(solved):
     forces = [check for check in study.rows[0].checks if check.position]
     assert {check.verdict for check in forces} == {Verdict.NOT_PROVEN}
     for check in forces:
-        assert "guideline's load, the floor of every demand" in str(check.reason)
+        assert "guideline's load, the minimum load of every check" in str(check.reason)
         assert check.changes == []  # none of them makes it known
     assert study.rows[0].floor.forces == []
     assert study.rows[0].floor.reason is not None

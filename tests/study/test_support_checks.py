@@ -43,7 +43,7 @@ def told(check):
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({GUYS: 1}, "one guy in the plane of the section"),
+        ({GUYS: 1}, "single guy in the plane of the section"),
         ({"uphill anchor distance [m]": 0.0}, "do not end at the net's foot"),
         ({"downhill anchor distance [m]": 0.0, "head": (0.4, -22.0)}, "cannot hold"),
     ],
