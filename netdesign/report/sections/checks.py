@@ -111,7 +111,7 @@ def tell_briefly(row: RowStudy, words: Words) -> str:
     if row.verdict is Verdict.PASS:
         return ""
     if check is None or check.verdict is not row.verdict:
-        return words.show(row.reasons[0]) if row.reasons else ""
+        return words.show(row.reasons[0]) if row.reasons else words("todo.row_open")
     if check.verdict is Verdict.DECLARED and check.declared:
         return show_text(check.declared.document)
     gaps = [_leave_out_cell(one) for one in find_gaps(check.reason)]
@@ -136,7 +136,7 @@ def tell_cause(check: CheckRecord, words: Words) -> str:
     gaps = find_gaps(check.reason)
     if gaps:
         return words.join(words.show(one) for one in gaps)
-    if check.is_of_force and not check.is_unbounded:
+    if check.verdict is Verdict.FAIL and check.is_of_force and not check.is_unbounded:
         demand = words.show_with_unit("demand_kN", check.demand_kN)
         resistance = words.show_with_unit("resistance_kN", check.resistance_kN)
         return words("show.exceeds", demand=demand, resistance=resistance)

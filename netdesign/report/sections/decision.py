@@ -37,7 +37,6 @@ from netdesign.report.sections.basis import (
 from netdesign.report.sections.changes import list_flips
 from netdesign.report.sections.checks import (
     badge_cell,
-    find_gaps,
     name_checks,
     show_used,
     tell_briefly,
@@ -59,6 +58,7 @@ from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.message import Message
 
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
+_FEW_CHECKS = 4  # with one cause that are named; of more the page of the row tells
 _OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
 
 
@@ -209,8 +209,8 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
         causes: dict[str, list[CheckRecord]] = {}
         for check in row.checks:
             if check.verdict is verdict:
-                gaps = find_gaps(check.reason)
-                told = tell_cause(check, words) if gaps else words(f"todo.{verdict}")
+                is_by_force = check.is_of_force and verdict is Verdict.FAIL
+                told = words("todo.fail") if is_by_force else tell_cause(check, words)
                 causes.setdefault(told, []).append(check)
         for cause, checks in causes.items():
             yield _tell_point(row, checks, cause, words)
@@ -219,7 +219,10 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
 def _tell_point(
     row: RowStudy, checks: list[CheckRecord], cause: str, words: Words
 ) -> str:
-    place = f"{show_text(row.id)}, {name_checks(checks, words)}"
+    few = name_checks(checks[:_FEW_CHECKS], words)
+    rest = len(checks) - _FEW_CHECKS
+    named = words("todo.and_more", names=few, count=rest) if rest > 0 else few
+    place = f"{show_text(row.id)}, {named}"
     told = words("show.label", label=place, text=cause)
     flips = list_flips(checks[0], words) if len(checks) == 1 else ()
     return words("todo.with_change", what=told, change=flips[0]) if flips else told

@@ -16,7 +16,8 @@ from netdesign.report.sections.decision import (
 from netdesign.report.words import ENGLISH, VERDICTS, Words
 from netdesign.study.records import DeclarationRecord
 from netdesign.words.catalogue import LANGUAGES
-from tests.report.build_study import build_study
+from netdesign.words.message import say
+from tests.report.build_study import as_given, build_study
 
 STUDY = build_study()
 
@@ -42,6 +43,31 @@ def test_every_check_that_does_not_pass_is_an_open_point(language):
         is_open = any(one.verdict is not Verdict.PASS for one in row.checks)
         assert any(one.startswith(f"{row.id}, ") for one in points) is is_open
     assert any("2" in one and "5" in one for one in points)  # values to confirm
+
+
+@pytest.mark.parametrize("verdict", [Verdict.FAIL, Verdict.NOT_PROVEN])
+def test_a_point_without_a_force_names_its_cause(verdict):
+    row = STUDY.rows[0]
+    cause = as_given("The net of 1.9 m does not reach the 2.5 m that are needed.")
+    check = replace(row.checks[-1], governs="", steps=[], utilisation=None)
+    check = replace(check, verdict=verdict, reason=cause, changes=[])
+    study = replace(STUDY, rows=[replace(row, checks=[check], verdict=verdict)])
+    (first, *_) = list_open_points(study, ENGLISH)
+    assert ENGLISH.show(cause) in first
+
+
+def test_many_checks_with_one_cause_are_counted():
+    row = STUDY.rows[0]
+    reason = say("check.not_proven", gaps=(say("check.no_case_solved"),))
+    open_ = [
+        replace(row.checks[0], id=f"c{k}", mode=mode, verdict=Verdict.NOT_PROVEN,
+                reason=reason, changes=[])
+        for k, mode in enumerate(("tendon", "pull_out", "rope", "bearing", "sliding",
+                                  "compression", "bending"))
+    ]  # fmt: skip
+    changed = replace(row, checks=open_, verdict=Verdict.NOT_PROVEN)
+    (first, *_) = list_open_points(replace(STUDY, rows=[changed]), ENGLISH)
+    assert "and 3 more checks: no case could be calculated" in first
 
 
 def test_what_is_proven_elsewhere_is_an_open_point_with_its_document():
