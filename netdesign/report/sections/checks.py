@@ -23,6 +23,7 @@ from netdesign.words.names import name, name_check
 _OVER, _BELOW = "#b23a1e", "#7d838b"  # of a bar: beyond utilisation 1, and below
 _BAR_UNIT = 100.0  # length of a bar at utilisation 1
 _BAR_BEYOND = 50.0  # length that is left for all above 1
+_FEW = 4  # checks that share a reason and are named
 _PLAIN = "check.passes"  # what the numbers say already
 
 
@@ -236,3 +237,9 @@ def name_checks(checks: Sequence[CheckRecord], words: Words) -> str:
     return (
         words.join(dict.fromkeys(show_check(words, one) for one in checks)) or MISSING
     )
+
+
+def name_few(checks: Sequence[CheckRecord], words: Words) -> str:
+    """Names of checks that share something; of many the first, and how many more."""
+    few, rest = name_checks(checks[:_FEW], words), len(checks) - _FEW
+    return words("todo.and_more", names=few, count=rest) if rest > 0 else few

@@ -38,6 +38,7 @@ from netdesign.report.sections.changes import list_flips
 from netdesign.report.sections.checks import (
     badge_cell,
     name_checks,
+    name_few,
     show_used,
     tell_briefly,
     tell_cause,
@@ -58,7 +59,6 @@ from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.message import Message
 
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
-_FEW_CHECKS = 4  # with one cause that are named; of more the page of the row tells
 _OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
 
 
@@ -219,10 +219,7 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
 def _tell_point(
     row: RowStudy, checks: list[CheckRecord], cause: str, words: Words
 ) -> str:
-    few = name_checks(checks[:_FEW_CHECKS], words)
-    rest = len(checks) - _FEW_CHECKS
-    named = words("todo.and_more", names=few, count=rest) if rest > 0 else few
-    place = f"{show_text(row.id)}, {named}"
+    place = f"{show_text(row.id)}, {name_few(checks, words)}"
     told = words("show.label", label=place, text=cause)
     flips = list_flips(checks[0], words) if len(checks) == 1 else ()
     return words("todo.with_change", what=told, change=flips[0]) if flips else told

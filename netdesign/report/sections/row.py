@@ -30,6 +30,7 @@ from netdesign.report.sections.changes import show_changes
 from netdesign.report.sections.checks import (
     CheckLine,
     list_lines,
+    name_few,
     show_used,
     tell_loads,
 )
@@ -129,7 +130,7 @@ class RowSections:
     def _show_checks(self) -> Iterator[Block]:
         row, t = self.row, self.words
         lines = tuple(list_lines(row.checks))
-        if row.reasons and not lines:
+        if row.reasons and not row.checks:
             reasons = tuple(t.show(one) for one in row.reasons)
             yield Items(items=reasons, look="reasons")
         if lines:
@@ -190,21 +191,18 @@ class RowSections:
         if met:
             text = t("show.requirements_met", names=t.join(met))
             yield Paragraph(text=text, look="small")
-        others = [one for one in checks if one.verdict is not Verdict.PASS]
+        others: dict[tuple[Verdict, str], list[CheckRecord]] = {}
+        for one in checks:
+            if one.verdict is not Verdict.PASS:
+                others.setdefault((one.verdict, t.show(one.reason)), []).append(one)
         if others:
             told = tuple(
                 (
-                    Badge(show_verdict(one.verdict, t)),
+                    Badge(show_verdict(verdict, t)),
                     Piece(" "),
-                    Piece(
-                        t(
-                            "show.label",
-                            label=show_check(t, one),
-                            text=t.show(one.reason),
-                        )
-                    ),
+                    Piece(t("show.label", label=name_few(shared, t), text=reason)),
                 )
-                for one in others
+                for (verdict, reason), shared in others.items()
             )
             yield Items(items=told, look="reasons")
 
