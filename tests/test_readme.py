@@ -116,6 +116,7 @@ def test_two_commands_run_as_printed(tmp_path):
         assert result.returncode == EXPECTED_EXIT_CODES[line.split()[1]], result.stderr
 
 
+@pytest.mark.long
 def test_first_site_step_by_step(tmp_path):
     """Every command of the tutorial: what it prints and writes."""
     begin, look, again, hand_on = blocks("sh", TUTORIAL)

@@ -67,6 +67,7 @@ def test_every_dependency_has_a_lowest_version(capsys):
     assert "numpy==1.26.4" in stated
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="sockets are otherwise there")
 def test_a_site_is_checked_without_a_network(tmp_path):
     """In two processes; every way to a socket of the network is an error."""

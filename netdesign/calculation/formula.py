@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from netdesign.calculation.quantity import OPERATIONS, Quantity, apply, constant
 from netdesign.errors import ContentError
@@ -127,10 +128,15 @@ def read_formula(text: str, known: Mapping[str, Quantity]) -> Quantity:
     try:
         if len(text) > _MOST_SIGNS:
             raise SyntaxError
-        tree = ast.parse(text, mode="eval").body
-        return _build(tree, known)
+        return _build(_parse(text), known)
     except (SyntaxError, ValueError, OverflowError, MemoryError, RecursionError):
         raise ContentError(say("calculation.no_formula", text=text[:80])) from None
+
+
+@lru_cache(maxsize=1024)
+def _parse(text: str) -> ast.expr:
+    """Tree of a formula: a study has a few hundred, each many times."""
+    return ast.parse(text, mode="eval").body
 
 
 def _build(tree: ast.expr, known: Mapping[str, Quantity]) -> Quantity:

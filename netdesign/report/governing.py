@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
 from netdesign.study.case_records import CasePoint, CaseRecord
-from netdesign.study.flips import CLOSE
 from netdesign.study.records import CheckRecord, RowStudy
+from netdesign.study.remedies import CLOSE
 
 # Worst first.
 SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)

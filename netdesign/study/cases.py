@@ -23,15 +23,15 @@ from netdesign.search.questions import list_first_design
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.solving.runner import Runner
+from netdesign.study.case_solver import build_scene
 from netdesign.study.check_run import CheckRun
-from netdesign.study.probe import build_scene
 from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
 # has a limit of its own, and a row so many members. Beside the envelope a row takes
 # 26 to 99 for its single values, what would turn its checks and other models of its
 # governing case: 50 in the median of 67 rows, 88 at most of the example.
-_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (90, 200)
+_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (115, 250)
 _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
 HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take

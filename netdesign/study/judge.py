@@ -16,6 +16,7 @@ from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
 from netdesign.study.case_records import CaseRecord, ExtremeRecord
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.check_run import CheckRun
 from netdesign.study.end_note import record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
@@ -29,7 +30,6 @@ from netdesign.study.notes import (
     list_site_notes,
 )
 from netdesign.study.opinion_records import ModelFormRecord
-from netdesign.study.probe import Probe
 from netdesign.study.pulls import record_pulls
 from netdesign.study.record_cases import record_case, record_extreme
 from netdesign.study.record_envelope import record_envelope
@@ -62,7 +62,7 @@ def judge_site(
     solved: Sequence[RowGrid | RowEnvelope],
     standard: Standard,
     run: CheckRun,
-    probe: Probe | None = None,
+    solver: CaseSolver | None = None,
     on_check: Callable[[], None] = lambda: None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
@@ -77,7 +77,7 @@ def judge_site(
         Limit profile.
     run : CheckRun
         Settings and identity of the run, for the provenance.
-    probe : Probe, optional
+    solver : CaseSolver, optional
         Solves what the envelope does not hold: other creep laws, and where a check
         flips. Without it a study has neither; give the same one for each profile.
     on_check : callable, optional
@@ -88,10 +88,10 @@ def judge_site(
     Study
         Complete; a failed case is in it by name.
     """
-    probed = zip(site.rows, solved, strict=True)
+    with_solver = zip(site.rows, solved, strict=True)
     rows = [
-        judge_row(site, row, of_row, standard, run, probe, on_check)
-        for row, of_row in probed
+        judge_row(site, row, of_row, standard, run, solver, on_check)
+        for row, of_row in with_solver
     ]
     return gather_study(site, rows, standard, run)
 
@@ -119,7 +119,7 @@ def judge_row(
     solved: RowGrid | RowEnvelope,
     standard: Standard,
     run: CheckRun,
-    probe: Probe | None = None,
+    solver: CaseSolver | None = None,
     on_check: Callable[[], None] = lambda: None,
 ) -> RowStudy:
     """Study of one row of a site, as ``judge_site`` makes it."""
@@ -128,7 +128,7 @@ def judge_row(
         solved=solved,
         find_floor=_remember(find_row_floor, row, standard),
         bound_floor=_remember(bound_row_floor, row, standard),
-        probe=probe,
+        solver=solver,
         on_check=on_check,
     )
     return _record_row(task, run)
@@ -287,7 +287,7 @@ def _governing_result(
 def _find_model_form(
     task: RowCheck, worst: CheckRecord | None, governing: CaseResult | None
 ) -> ModelFormRecord | None:
-    if task.probe is None or worst is None or governing is None:
+    if task.solver is None or worst is None or governing is None:
         return None
     member = _name_largest(worst)
-    return record_model_form(task.probe, task.basis.row, governing, member, worst)
+    return record_model_form(task.solver, task.basis.row, governing, member, worst)

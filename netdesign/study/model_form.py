@@ -30,8 +30,8 @@ from netdesign.snow.ground import (
 from netdesign.snow.law import Sides
 from netdesign.structure.members import Member
 from netdesign.study.calibration import is_calibrated, list_densities
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.opinion_records import ModelFormRecord, VariantRecord
-from netdesign.study.probe import Probe
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import CheckRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -55,13 +55,13 @@ class _Variant:
 
 
 def record_model_form(
-    probe: Probe, row: NetRow, result: CaseResult, member: str, check: CheckRecord
+    solver: CaseSolver, row: NetRow, result: CaseResult, member: str, check: CheckRecord
 ) -> ModelFormRecord | None:
     """Solve the governing case of a row by other models, and record the spread.
 
     Parameters
     ----------
-    probe : Probe
+    solver : CaseSolver
         Solves; it has the study's creep law.
     row : NetRow
         Net row.
@@ -80,10 +80,10 @@ def record_model_form(
     own = result.member_forces.get(member)
     if own is None or not own.value > 0.0:
         return None
-    before = probe.count
+    before = solver.count
     placed, case = row.at(result.case), replace(result.case, others=())
-    variants = list(_list_variants(probe.law, placed, result))
-    results = _solve(probe, placed, case, variants, result)
+    variants = list(_list_variants(solver.law, placed, result))
+    results = _solve(solver, placed, case, variants, result)
     records = [
         _record(one, found, placed, case, member, own.value)
         for one, found in zip(variants, results, strict=True)
@@ -100,7 +100,7 @@ def record_model_form(
         utilisation_high=None,
         numerical_low=band[0],
         numerical_high=band[1],
-        solves=probe.count - before,
+        solves=solver.count - before,
         variants=records,
     )
     return span_variants(record)
@@ -175,7 +175,7 @@ def _place(kind: str, law: CreepLaw, row: NetRow, table: str = "") -> _Variant:
 
 
 def _solve(
-    probe: Probe,
+    solver: CaseSolver,
     row: NetRow,
     case: Case,
     variants: Sequence[_Variant],
@@ -187,7 +187,7 @@ def _solve(
         for index, one in enumerate(variants)
         if one.reason is None and _find_denser(one.law, row, case) is None
     ]
-    solved = probe.solve_all(
+    solved = solver.solve_all(
         [(_lay(row, one.ground), case, one.law) for _, one in wanted],
         [one.ground_contact for _, one in wanted],
     )

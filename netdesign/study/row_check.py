@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.guideline.floor import Floor, FloorEnd
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.judgement import Basis
-from netdesign.study.probe import Probe
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,7 +17,7 @@ class RowCheck:
     """One net row under one profile.
 
     ``find_floor`` gives the guideline's load over ranges in which something may be
-    moved, ``bound_floor`` two ends of it, or None where these are not known; ``probe``
+    moved, ``bound_floor`` two ends of it, or None where these are not known; ``solver``
     is None where nothing beyond the solved cases is to be solved;
     ``on_check`` is called after each check of a force.
     """
@@ -26,9 +26,9 @@ class RowCheck:
     solved: RowGrid | RowEnvelope
     find_floor: Callable[[Ranges], Floor | None]
     bound_floor: Callable[[Ranges], tuple[FloorEnd, FloorEnd] | None]
-    probe: Probe | None
+    solver: CaseSolver | None
     on_check: Callable[[], None] = lambda: None
 
     def count_faults(self) -> int:
         """Faults of the program in the solves so far."""
-        return self.probe.faults if self.probe else 0
+        return self.solver.faults if self.solver else 0

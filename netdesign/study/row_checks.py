@@ -7,14 +7,12 @@ from dataclasses import dataclass, replace
 
 from netdesign.envelope.extremes import Extreme
 from netdesign.outcome import Verdict
-from netdesign.study.changes import (
-    build_end_target,
-    find_row_holds,
-    list_changes,
-    list_end_changes,
-    list_targets,
+from netdesign.study.case_check import CaseCheck
+from netdesign.study.case_checks import (
+    build_end_case_check,
+    find_row_margins,
+    list_case_checks,
 )
-from netdesign.study.holds import solve_ends
 from netdesign.study.judgement import (
     Known,
     MemberCheck,
@@ -23,10 +21,11 @@ from netdesign.study.judgement import (
     record_member,
     record_others,
 )
+from netdesign.study.margins import solve_ends
 from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.remedies import list_end_remedies, list_remedies
 from netdesign.study.row_check import RowCheck
 from netdesign.study.spreads import list_end_spreads, list_spreads
-from netdesign.study.target import Target
 from netdesign.words.message import say
 
 # A program that fails beside the cases of a check is not trusted in them.
@@ -41,19 +40,19 @@ def check_row(
     ``extremes`` are those of its solved cases, ``known`` what these tell.
     """
     judged = judge_members(task.basis, known)
-    targets = _list_targets(task, judged, extremes)
-    if task.probe is not None:  # what is solved here serves changes and limits
-        solve_ends([one for one in targets if one is not None], task.probe)
+    case_checks = _list_case_checks(task, judged, extremes)
+    if task.solver is not None:  # what is solved here serves changes and limits
+        solve_ends([one for one in case_checks if one is not None], task.solver)
     beside = []
-    for place, (one, target) in enumerate(zip(judged, targets, strict=True)):
+    for place, (one, case_check) in enumerate(zip(judged, case_checks, strict=True)):
         before = task.count_faults()
-        beside.append(_solve_beside(task, one, target, extremes))
+        beside.append(_solve_beside(task, one, case_check, extremes))
         if task.count_faults() > before:
             judged[place] = judge_with_fault(task.basis, one, _FAULT_BESIDE)
         task.on_check()
     before = task.count_faults()
     changes = [parts.changes for parts in beside]
-    holds = find_row_holds(task, judged, changes, targets)
+    holds = find_row_margins(task, judged, changes, case_checks)
     if task.count_faults() > before:
         judged = [judge_with_fault(task.basis, one, _FAULT_BESIDE) for one in judged]
     checks = [
@@ -76,22 +75,22 @@ class _Beside:
     changes: list[ChangeRecord]
 
 
-def _list_targets(
+def _list_case_checks(
     task: RowCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
-) -> list[Target | None]:
+) -> list[CaseCheck | None]:
     """Checks as functions of a solved case; None of those that no solve may turn."""
     members = [one for one in judged if not one.is_of_end]
     ends = [one for one in judged if one.is_of_end]
     return [
-        *list_targets(task, members, extremes),
-        *(build_end_target(task, one, extremes) for one in ends),
+        *list_case_checks(task, members, extremes),
+        *(build_end_case_check(task, one, extremes) for one in ends),
     ]
 
 
 def _solve_beside(
     task: RowCheck,
     one: MemberCheck,
-    target: Target | None,
+    case_check: CaseCheck | None,
     extremes: Mapping[str, Extreme],
 ) -> _Beside:
     """Intervals of a check and changes that turn it, as far as solves tell them."""
@@ -100,9 +99,11 @@ def _solve_beside(
     extreme = extremes[one.force.largest.quantity]
     if one.is_of_end:
         return _Beside(
-            list_end_spreads(one, extreme), list_end_changes(task, one, target)
+            list_end_spreads(one, extreme), list_end_remedies(task, one, case_check)
         )
-    return _Beside(list_spreads(task, one, extreme), list_changes(task, one, target))
+    return _Beside(
+        list_spreads(task, one, extreme), list_remedies(task, one, case_check)
+    )
 
 
 def distrust(check: CheckRecord) -> CheckRecord:

@@ -19,12 +19,12 @@ from netdesign.fault import Fault, catch_fault
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.document import write_row
 from netdesign.study.judge import judge_row
 from netdesign.study.known_rows import Studies, cut_site
-from netdesign.study.probe import Probe
 from netdesign.words.message import Message, say
 
 # Of a row, by its ground: the looser the snow, the more a limit takes (20 rows).
@@ -185,10 +185,10 @@ def _judge_row(
     on_check: Callable[[], None],
 ) -> Studies:
     """Studies of a row; profiles share its cases: forces do not depend on them."""
-    probe = Probe(job.run.settings, job.run.creep_law, runner)
+    solver = CaseSolver(job.run.settings, job.run.creep_law, runner)
     site = cut_site(job.site, row)
     return [
-        judge_row(site, row, solved, standard, job.run, probe, on_check)
+        judge_row(site, row, solved, standard, job.run, solver, on_check)
         for standard in job.standards
     ]
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.judgement import MemberCheck
-from netdesign.study.probe import Probe
 from netdesign.study.records import SpreadRecord
 from netdesign.study.row_check import RowCheck
 from netdesign.words.message import Message, say
@@ -40,8 +40,8 @@ def list_spreads(
         say("spread.floor_governs") if is_floor else None,
         say("spread.unknown_along", axes=unknown) if unknown else None,
     )
-    if task.probe is not None and extreme.force.value > 0.0:
-        spreads += _list_creep_laws(task.probe, task.basis.row, extreme, scale)
+    if task.solver is not None and extreme.force.value > 0.0:
+        spreads += _list_creep_laws(task.solver, task.basis.row, extreme, scale)
     return spreads
 
 
@@ -85,10 +85,10 @@ def _split(
 
 
 def _list_creep_laws(
-    probe: Probe, row: NetRow, extreme: Extreme, scale: float
+    solver: CaseSolver, row: NetRow, extreme: Extreme, scale: float
 ) -> Iterable[SpreadRecord]:
-    laws = {k: law for k, law in CREEP_LAWS.items() if k != probe.law.name}
-    results = probe.solve_all(
+    laws = {k: law for k, law in CREEP_LAWS.items() if k != solver.law.name}
+    results = solver.solve_all(
         [(row, extreme.governing.case, law) for law in laws.values()]
     )
     for law, result in zip(laws, results, strict=True):

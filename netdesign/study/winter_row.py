@@ -8,7 +8,7 @@ from netdesign.envelope.ranges import Case
 from netdesign.errors import ModelError
 from netdesign.site.model import NetRow, Site, StationWinter
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.study.probe import build_scene
+from netdesign.study.case_solver import build_scene
 from netdesign.winter.day import WinterRow
 from netdesign.words.message import say
 

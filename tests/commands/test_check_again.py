@@ -38,6 +38,7 @@ def read_outputs(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+@pytest.mark.long
 def test_a_second_run_gives_the_same_bytes_and_words(place, call, judged):
     ended = [
         call(*SITE, "--out", name, *more)

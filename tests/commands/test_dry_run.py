@@ -6,7 +6,7 @@ from netdesign.commands import dry_run
 from netdesign.solving import workers
 from tests.short_example import write_short_example
 
-SEARCH, BESIDE = 7 * 55, 7 * 90
+SEARCH, BESIDE = 7 * 55, 7 * 115
 
 
 @pytest.fixture

@@ -135,6 +135,7 @@ def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
     assert all(one["upper_bound"] is None for one in found["extremes"])
 
 
+@pytest.mark.long
 def test_a_grid_never_exceeds_the_bound_of_the_search(scene, store):
     searched = document(scene, *RANGES, store=store)
     grid = document(
@@ -248,6 +249,7 @@ def outputs(folder):
     return found
 
 
+@pytest.mark.long
 def test_a_killed_run_continues_to_the_same_bytes(scene, tmp_path):
     """Killed twice; ``test_killed_study.py`` kills more, and at random moments."""
     whole = start(scene, tmp_path / "whole.sqlite", tmp_path / "whole")

@@ -52,6 +52,7 @@ def test_sizing_writes_a_study_that_its_own_command_makes_again(site, call):
     assert [path.name for path in (site / "c").iterdir()] == ["what-if-report.html"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_sizing_with_a_ground_that_nobody_gives_asks_and_writes_no_study(
     site, call, language

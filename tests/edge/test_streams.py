@@ -47,6 +47,7 @@ def close_reader():
     return writing
 
 
+@pytest.mark.long
 @POSIX
 @pytest.mark.parametrize(("code", "json_option"), [(0, ()), (1, ("--json",)), (4, ())])
 def test_a_reader_who_stops_leaves_the_verdict(sites, tmp_path, code, json_option):

@@ -17,7 +17,10 @@ import pytest
 FAIL, USAGE, INTERRUPTED = 1, 2, 130
 OUTPUTS = {"study.json", "report.html", "report.xlsx"}
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="POSIX limits, signals")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(sys.platform == "win32", reason="POSIX limits, signals"),
+]
 
 
 def long(*values):

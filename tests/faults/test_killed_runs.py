@@ -15,7 +15,10 @@ KILLER = Path(__file__).with_name("kill_runs.py")
 FAILS = 1  # R7 of the example is too weak
 IN_THE_SUITE, ALL = 5, 100
 
-pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="forks its runs")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(not hasattr(os, "fork"), reason="forks its runs"),
+]
 
 
 def kill(site, folder, kills, seed):

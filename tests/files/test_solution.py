@@ -83,6 +83,7 @@ def test_an_accuracy_that_is_not_reached_is_told(accuracy, is_missed):
     assert not is_missed or f"{accuracy:.2%}" in told[0]
 
 
+@pytest.mark.long
 def test_the_staggered_method_states_no_error_of_the_mesh():
     scene, settings = load_scenes(("paper-30",))["paper-30"], StaggeredSettings()
     solution = solve_scene(scene, settings)

@@ -78,6 +78,7 @@ def ends(tmp_path_factory):
     return found
 
 
+@pytest.mark.long
 def test_every_hostile_file_is_refused_as_input_with_a_message(ends):
     wrong = {
         name: (code, message[:200])

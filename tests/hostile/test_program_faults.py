@@ -21,7 +21,7 @@ from netdesign.solving import workers as workers_module
 from netdesign.solving.solve import solve_scene
 from netdesign.solving.workers import ProcessPool
 from netdesign.study import cases as site_cases
-from netdesign.study.probe import build_scene
+from netdesign.study.case_solver import build_scene
 from tests.short_example import write_short_example
 from tests.small_scene import SMALL_SCENE
 
@@ -108,6 +108,7 @@ def require_told(rows, sound, told, kind):
     return faulty
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["steady", "transient"])
 def test_a_fault_in_any_solve_is_told_and_spares_the_other_rows(spoil, check, method):
     """The first, the last, and six more: cases, histories, other laws, and flips."""

@@ -169,6 +169,7 @@ def test_values_are_told_apart_however_close():
     assert str(change).endswith("100 -> 100.000000001")
 
 
+@pytest.mark.long
 def test_every_value_of_a_study_is_compared():
     """Whatever one leaf of the document is altered to: it is told, save two."""
     small = obey_laws(build_study(samples=2, rows=2))

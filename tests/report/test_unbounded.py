@@ -143,6 +143,7 @@ def test_workbook_shows_infinity(study):
     assert cached["K6"].value == "Post, compression with bending"
 
 
+@pytest.mark.long
 def test_recalculated_workbook_keeps_infinity_and_its_governing_check(study, tmp_path):
     books = recalculate({"one": render_workbook(study)}, tmp_path)
     sheet = read_workbook(books["one"]).worksheets[0]

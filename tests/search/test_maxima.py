@@ -282,6 +282,7 @@ def test_answers_that_are_not_as_many_as_questions_are_refused():
         search.tell([(1.25,)])
 
 
+@pytest.mark.long
 def test_a_kink_by_the_maximum_leaves_six_parameters_closed():
     """Where snow begins to slip the largest force has one, a fifteenth of a range wide.
 

@@ -105,6 +105,7 @@ def test_a_french_site_written_by_hand_as_ods(tmp_path):
     assert_french(read_site(write_ods(tmp_path / "site.ods", french_site())))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["ods", "xlsx"])
 def test_the_french_site_saved_by_libreoffice(save, tmp_path, kind):
     (tmp_path / "typed").mkdir()

@@ -15,7 +15,7 @@ from netdesign.solving.runner import Runner
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
-from netdesign.study.probe import build_scene
+from netdesign.study.case_solver import build_scene
 from tests.solving.made_up_workers import Recording
 
 SNOW = [

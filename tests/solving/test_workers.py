@@ -312,6 +312,7 @@ def test_a_cluster_gives_the_same_bytes_as_one_process(cluster, alone):
         workers.close()
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore")
 def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
     workers = DaskCluster(cluster)

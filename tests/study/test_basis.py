@@ -10,9 +10,9 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES, Project
 from netdesign.snow.snowpack import Layer
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.judge import judge_site
-from netdesign.study.probe import Probe
 from tests.small_site import RANGES, RUN, STRONG, WEAK, build_row, build_site, resist
 
 LAW = RUN.creep_law.name
@@ -43,10 +43,10 @@ def standard():
 
 @pytest.fixture
 def judge(standard):
-    def judge_rows(*rows, probe=None, **changes):
+    def judge_rows(*rows, solver=None, **changes):
         site = build_site(*rows, **changes)
         solve = solve_site if site.ranges.is_grid else search_site
-        return judge_site(site, solve(site, RUN), standard, RUN, probe)
+        return judge_site(site, solve(site, RUN), standard, RUN, solver)
 
     return judge_rows
 
@@ -109,8 +109,8 @@ def test_one_light_layer_of_the_governing_snow_is_enough(judge):
 
 def test_nothing_is_said_to_pass_with_another_number_while_the_law_is_open(judge):
     close = resist(foot_anchor__tendon=2.2e5)
-    probe = Probe(RUN.settings, RUN.creep_law)
-    study = judge(build_row("R1", resistances=close), ranges=LIGHT, probe=probe)
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    study = judge(build_row("R1", resistances=close), ranges=LIGHT, solver=solver)
     check = forces(study.rows[0])["foot_anchor.tendon"]
     assert check.utilisation > 0.9
     assert {str(change.note) for change in check.changes} == {
@@ -195,8 +195,8 @@ def test_an_overtopped_row_leaves_its_forces_open_and_the_others_alone(
     judge, strength, ranges
 ):
     low = build_row("R1", net_height=2.2, resistances=resist(strength))
-    probe = Probe(RUN.settings, RUN.creep_law)
-    study = judge(low, build_row("R2"), ranges=ranges, probe=probe)
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    study = judge(low, build_row("R2"), ranges=ranges, solver=solver)
     first, second = study.rows
     assert first.verdict is study.verdict is Verdict.FAIL
     members = (*MEMBER_MODES, *DEPENDENT_MODES)

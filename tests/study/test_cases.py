@@ -18,10 +18,10 @@ from netdesign.snow.snowpack import Layer
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.probe import Probe
 from netdesign.words.message import say
 from tests.read_check import compare_support
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
@@ -231,8 +231,8 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
     )
     project = Project(accepted_law=RUN.creep_law.name)
     site = build_site(row, ranges=RANGES, project=project)
-    probe = Probe(RUN.settings, RUN.creep_law)
-    again = judge_site(site, envelopes[:1], standard, RUN, probe)
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    again = judge_site(site, envelopes[:1], standard, RUN, solver)
     check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon.end")
     assert check.verdict is Verdict.FAIL
     changes = {str(change.quantity): change for change in check.changes}
@@ -305,8 +305,8 @@ def test_each_phase_solves_no_more_than_was_promised(standard, is_grid, seed):
     promised = {one.key: one for one in list_phases(site, RUN)}
     solved = (solve_site if is_grid else search_site)(site, RUN, runner)
     of_envelope = runner.counts.solved
-    probe = Probe(RUN.settings, RUN.creep_law, runner)
-    study = judge_site(site, solved, standard, RUN, probe)
+    solver = CaseSolver(RUN.settings, RUN.creep_law, runner)
+    study = judge_site(site, solved, standard, RUN, solver)
     beside = runner.counts.solved - of_envelope
     assert 0 < of_envelope <= promised["envelope"].cases
     assert 0 < beside <= promised["checks"].most

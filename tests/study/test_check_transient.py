@@ -114,6 +114,7 @@ def example(tmp_path):
     return write
 
 
+@pytest.mark.long
 def test_the_steady_state_is_the_demand_but_for_what_is_surely_more(
     monkeypatch, capsys, example
 ):

@@ -15,10 +15,10 @@ from netdesign.site.model import InputEcho
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
+from netdesign.study.case_solver import CaseSolver, build_scene
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.probe import Probe, build_scene
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say
@@ -68,8 +68,8 @@ def standard():
 
 @pytest.fixture(scope="module")
 def study(site, envelopes, standard):
-    probe = Probe(RUN.settings, RUN.creep_law)
-    return judge_site(site, envelopes, standard, RUN, probe)
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    return judge_site(site, envelopes, standard, RUN, solver)
 
 
 def test_the_worst_foot_case_is_deep_snow_that_glides_on_a_taut_net(envelopes):

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.envelope.ranges import build_cases
-from netdesign.study.probe import Probe
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_support import record_head
 from tests.study.test_row_study import RANGES, ROW, RUN
@@ -14,8 +14,8 @@ from tests.study.test_row_study import RANGES, ROW, RUN
 
 @pytest.fixture(scope="module")
 def solved():
-    probe = Probe(RUN.settings, RUN.creep_law)
-    return probe.solve(ROW, build_cases(RANGES)[-1])
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    return solver.solve(ROW, build_cases(RANGES)[-1])
 
 
 def check(result, head=None):

@@ -21,12 +21,12 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
 from netdesign.study import check_site as use_case
 from netdesign.study import known_rows, side_by_side
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.known_rows import cut_site, name_rows
-from netdesign.study.probe import Probe
 from tests.short_example import write_short_example
 from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
 from tests.study.test_member_force import ACCEPTED
@@ -95,6 +95,7 @@ def change_text(text, drawn):
         return drawn.choice([f"{drawn.uniform(250, 420):.1f}", "Combe", "A40-tested"])
 
 
+@pytest.mark.long
 def test_a_changed_cell_gives_what_a_run_without_known_rows_gives(
     tmp_path, store, judged, monkeypatch
 ):
@@ -158,7 +159,7 @@ def test_a_row_is_judged_on_its_part_of_the_site_alone():
     site = build_site(*ROWS, notes=())
     whole = judge_site(
         site, solve_site(site, RUN), STANDARDS[0], RUN,
-        Probe(RUN.settings, RUN.creep_law),
+        CaseSolver(RUN.settings, RUN.creep_law),
     )  # fmt: skip
     assert check_site(site, STANDARDS[:1], RUN) == [whole]
 

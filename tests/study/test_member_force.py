@@ -14,6 +14,7 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.effects import find_effects
@@ -26,7 +27,6 @@ from netdesign.study.member_force import (
     leave_out_governing,
     tell_governing,
 )
-from netdesign.study.probe import Probe
 from netdesign.study.record_cases import record_point
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.rejudge import rejudge
@@ -445,8 +445,8 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
         ranges=RANGES,
         project=ACCEPTED,
     )
-    probe = Probe(RUN.settings, RUN.creep_law)
-    checks = checks_of(judge_site(site, solved, SWISS, RUN, probe))
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    checks = checks_of(judge_site(site, solved, SWISS, RUN, solver))
     inside = list_changes(checks["foot_anchor.tendon"])
     assert set(inside) == {"change.characteristic_resistance", "change.post_spacing"}
     end = checks["foot_anchor.tendon.end"]
@@ -470,7 +470,7 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
 
 def judge_end(solved, resistance):
     row = replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=resistance))
-    probe = Probe(RUN.settings, RUN.creep_law)
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
     site = build_site(row, ranges=RANGES, project=ACCEPTED)
-    study = judge_site(site, solved, SWISS, RUN, probe)
+    study = judge_site(site, solved, SWISS, RUN, solver)
     return checks_of(study)

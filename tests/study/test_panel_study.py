@@ -22,10 +22,10 @@ from netdesign.site.model import (
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.probe import Probe
 from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say
 from tests.read_check import bring, scale_force, scale_step
@@ -71,10 +71,10 @@ def with_panel(panel, *, end=None, **changes):
     return build_row("R1", panel=panel, row_end=end, **changes)
 
 
-def judge(row, *, standard=PROFILE, probe=None, ranges=RANGES):
+def judge(row, *, standard=PROFILE, solver=None, ranges=RANGES):
     site = build_site(row, ranges=ranges, project=ACCEPTED)
     solved = solve_site(site, RUN) if ranges.is_grid else search_site(site, RUN)
-    return site, judge_site(site, solved, standard, RUN, probe)
+    return site, judge_site(site, solved, standard, RUN, solver)
 
 
 def checks_of(study):
@@ -257,7 +257,7 @@ def test_limits_of_single_values_follow_the_panel(pair):
     for panel in (None, a_panel()):
         resistances = resist(uphill_guy__rope=resistance)
         row = with_panel(panel, resistances=resistances)
-        _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+        _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))
         check = checks_of(study)["uphill_guy.rope.end"]
         assert check.verdict is Verdict.PASS
         found.append({one.quantity: one for one in check.holds}["upslope_length_m"])
@@ -272,7 +272,7 @@ def test_changes_that_mend_a_check_follow_the_panel(pair):
     by_panel = checks_of(pair[1])["uphill_guy.rope.end"]
     resistance = 0.97 * by_panel.demand_kN * by_panel.read("γ_R") * 1e3
     row = with_panel(a_panel(), resistances=resist(uphill_guy__rope=resistance))
-    _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+    _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))
     check = checks_of(study)["uphill_guy.rope.end"]
     assert check.verdict is not Verdict.PASS
     changes = {one.quantity.key: one for one in check.changes}

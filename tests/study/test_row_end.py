@@ -12,8 +12,8 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import END_MODES, BaseFriction
 from netdesign.structure.members import RopeForce
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.effects import find_effects
-from netdesign.study.probe import Probe
 from netdesign.study.rejudge import rejudge
 from netdesign.study.row_end import compute_end_factor
 from netdesign.words.message import say
@@ -245,7 +245,7 @@ def test_limits_of_end_members_are_where_they_turn(judged, member, share):
         )
     else:
         row = with_panel(a_panel(), end=an_end(37.0, value))
-    _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+    _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))
     check = checks_of(study)[name]
     assert check.verdict is Verdict.PASS
     (limit,) = (one for one in check.holds if one.quantity == "upslope_length_m")
@@ -264,7 +264,7 @@ def test_changes_that_mend_an_end_member(judged):
     name = "end_guy_anchor.tendon.end"
     value = use_nearly(checks_of(judged[1])[name], 1.11)
     row = with_panel(a_panel(), end=an_end(37.0, value))
-    _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+    _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))
     check = checks_of(study)[name]
     assert check.verdict is Verdict.FAIL
     changes = {one.quantity.key: one for one in check.changes}

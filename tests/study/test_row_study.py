@@ -11,10 +11,10 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES, Project, Resistance
 from netdesign.snow.ground import GroundLaw
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
-from netdesign.study.probe import Probe
 from tests.small_site import build_row, build_site
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
@@ -49,14 +49,14 @@ ROW = build_row(
 )
 
 
-def study(row=ROW, ranges=RANGES, *, probed=False):
+def study(row=ROW, ranges=RANGES, *, with_solver=False):
     project = Project(accepted_law=RUN.creep_law.name)
     site = build_site(row, ranges=ranges, project=project)
     site = replace(site, catalogue=row.resistances)
-    probe = Probe(RUN.settings, RUN.creep_law) if probed else None
+    solver = CaseSolver(RUN.settings, RUN.creep_law) if with_solver else None
     results = solve_site(site, RUN)
     standard = load_standard("nf-p-95-304-style")
-    return judge_site(site, results, standard, RUN, probe).rows[0]
+    return judge_site(site, results, standard, RUN, solver).rows[0]
 
 
 def check(row):
@@ -65,7 +65,7 @@ def check(row):
 
 @pytest.fixture(scope="module")
 def found():
-    return study(probed=True)
+    return study(with_solver=True)
 
 
 @pytest.fixture(scope="module")

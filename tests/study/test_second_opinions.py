@@ -14,8 +14,8 @@ from netdesign.haefeli.slab import Slab, find_linear_slip
 from netdesign.outcome import Verdict
 from netdesign.snow.creep_law import BOUTILLIER_2004, GAGLIARDINI_1997
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from netdesign.study.case_solver import CaseSolver
 from netdesign.study.model_form import record_model_form
-from netdesign.study.probe import Probe
 from netdesign.study.record_slab import record_slab
 from netdesign.study.records import CheckRecord
 from tests.small_site import build_row
@@ -39,7 +39,7 @@ CHECK = CheckRecord(
 
 
 def build_probe():
-    return Probe(SolverSettings(accuracy=0.02), BOUTILLIER_2004)
+    return CaseSolver(SolverSettings(accuracy=0.02), BOUTILLIER_2004)
 
 
 @pytest.fixture(scope="module")
@@ -49,8 +49,8 @@ def sliding():
         ground=build_ground_from_glide_factor(1.9, build_row("R7").snow_thickness),
         glide_factor=1.9,
     )
-    probe = build_probe()
-    return row, probe, probe.solve(row, CASE)
+    solver = build_probe()
+    return row, solver, solver.solve(row, CASE)
 
 
 def test_closed_form_of_a_sliding_row(sliding):
@@ -99,8 +99,8 @@ def test_snow_that_the_law_refuses_has_no_closed_form(sliding):
 
 
 def test_model_form_of_a_sliding_row(sliding):
-    row, probe, result = sliding
-    record = record_model_form(probe, row, result, "foot_anchor", CHECK)
+    row, solver, result = sliding
+    record = record_model_form(solver, row, result, "foot_anchor", CHECK)
     variants = {(one.kind, one.creep_law): one for one in record.variants}
     known = {one.ratio for one in record.variants if one.ratio is not None}
     assert record.low_ratio == min(known) < 0.95
@@ -126,8 +126,8 @@ def test_model_form_of_a_sliding_row(sliding):
 
 def test_model_form_of_a_row_whose_slip_length_was_typed():
     row = build_row("R7", ground=GroundLaw(kind="sliding", slip_length=2.2))
-    probe = build_probe()
-    record = record_model_form(probe, row, probe.solve(row, CASE), "post", CHECK)
+    solver = build_probe()
+    record = record_model_form(solver, row, solver.solve(row, CASE), "post", CHECK)
     solved = [one for one in record.variants if one.ratio is not None]
     assert {one.slip_length_m for one in solved} == {2.2}
     # at the same slip length a smaller exponent is held back farther
@@ -138,16 +138,16 @@ def test_model_form_of_a_row_whose_slip_length_was_typed():
 
 
 def test_model_form_needs_a_force(sliding):
-    row, probe, result = sliding
-    assert record_model_form(probe, row, result, "post_of_no_kind", CHECK) is None
+    row, solver, result = sliding
+    assert record_model_form(solver, row, result, "post_of_no_kind", CHECK) is None
 
 
 def test_beyond_the_branch_no_exponent_is_derived():
     row = build_row("R7", ground=GroundLaw(kind="free"))
     dense = replace(CASE, density=760.0)
-    probe = build_probe()
-    result = probe.solve(row, dense)
-    record = record_model_form(probe, row, result, "foot_anchor", CHECK)
+    solver = build_probe()
+    result = solver.solve(row, dense)
+    record = record_model_form(solver, row, result, "foot_anchor", CHECK)
     derived = [one for one in record.variants if one.kind == "exponent"]
     assert derived
     assert all("no other exponent" in str(one.reason) for one in derived)

@@ -32,6 +32,7 @@ def list_offers(site, demand):
             yield given, offer.quantity
 
 
+@pytest.mark.long
 def test_whatever_is_known_of_grounds_no_type_of_another_one_is_offered(workbook):
     dice = random.Random(20261124)
     kinds = set()

@@ -145,12 +145,14 @@ def test_the_verdict_stands_on_the_first_page(twelve, tmp_path, language):
     assert ".card { break-inside: avoid; }" in page  # one that is longer than a page
 
 
+@pytest.mark.long
 def test_no_page_but_the_last_is_three_quarters_empty(twelve, tmp_path):
     shares = measure_pages(render_html(twelve, "fr"), tmp_path)
     assert len(shares) > 20
     assert min(shares[:-1]) > 0.25
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_nothing_is_wider_than_the_paper(twelve, tmp_path, language):
     """A browser would shrink the whole report so that its widest table fits."""

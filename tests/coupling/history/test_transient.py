@@ -97,6 +97,7 @@ def test_the_papers_history_takes_few_steps_and_is_smooth(
         assert np.minimum(back, np.abs(change[:-1])).max() < 5e-3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "friction_deg", [pytest.param(15.0, marks=pytest.mark.slow), 30.0]
 )

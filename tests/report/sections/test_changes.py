@@ -12,7 +12,7 @@ from netdesign.report.sections.changes import (
     show_changes,
 )
 from netdesign.report.words import Words, show_check
-from netdesign.study.flips import CLOSE
+from netdesign.study.remedies import CLOSE
 from netdesign.study.records import ChangeRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study

@@ -158,6 +158,7 @@ def compare_changes(count, folder):
     assert any(not is_same for _, is_same in verdicts)
 
 
+@pytest.mark.long
 def test_a_changed_value_gives_the_verdict_of_its_calculation(tmp_path):
     compare_changes(FEW, tmp_path)
 

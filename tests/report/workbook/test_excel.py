@@ -454,6 +454,7 @@ def factored(tmp_path_factory):
     return recalculate(books, tmp_path_factory.mktemp("factored"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("name", FACTOR_EDITS)
 def test_the_reason_follows_the_verdict_of_another_factor(language, name, factored):

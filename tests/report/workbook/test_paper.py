@@ -68,6 +68,7 @@ def list_pages(pdf):
             yield Printed(sizes, {round(y) for y, *_ in body})
 
 
+@pytest.mark.long
 def test_every_page_is_legible_and_none_is_nearly_empty(tmp_path):
     study = build_study(rows=2)  # in German, whose words are the longest
     again = [replace(row, id=f"{row.id}{k}") for k in range(3) for row in study.rows]

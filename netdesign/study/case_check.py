@@ -14,12 +14,11 @@ from functools import cached_property
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
-from netdesign.study.probe import Probe
+from netdesign.study.case_solver import CaseSolver
 
 TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 # Quantities that a glide factor follows from.
 ON_GLIDE = ("thickness", "snow_height", "slip_length", "glide_factor")
-SERVES = 0.85  # share of its largest force that a member carries in a case it shares
 # What the guideline's load does not know; it has densities of its own.
 _NOT_IN_FLOOR = ("density", "friction_angle", "upslope_length")
 _RIVAL = 0.9  # share of the governing force from which a case may take over
@@ -27,11 +26,15 @@ _BESIDE = 0.13  # of every range: an eighth, and its rounding
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Move:
+class Setting:
     """Another single value of a quantity, named as in ``parameters.PARAMETERS``, SI."""
 
     name: str
     value: float
+
+    def at(self, case: Case) -> Case:
+        """Case with the quantity at this value."""
+        return case.with_value(self.name, self.value)
 
     def on(self, ranges: Ranges) -> Ranges:
         """Ranges with the quantity at this value."""
@@ -56,7 +59,7 @@ class Push:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Target:
+class CaseCheck:
     """One check as a function of a solved case.
 
     Attributes
@@ -157,69 +160,40 @@ class Target:
         return all(not self.utilisation(result) for result in self.results)
 
     def solve(
-        self, probe: Probe, cases: Sequence[Case], move: Move
+        self, solver: CaseSolver, cases: Sequence[Case], setting: Setting
     ) -> list[CaseResult]:
         """Results of some cases of the row with what is moved.
 
         What a move leaves as it is was solved in the search: it is not solved again.
         """
-        known = {case: self._find_unmoved(case, move) for case in cases}
+        known = {case: self._find_unmoved(case, setting) for case in cases}
         moved = [case for case in cases if known[case] is None]
-        wanted = [(case, move.name, move.value) for case in moved]
-        solved = probe.solve_moved(self.row, wanted)
+        solved = solver.solve_all(
+            [(self.row, setting.at(case), solver.law) for case in moved]
+        )
         found = known | dict(zip(moved, solved, strict=True))
         return [one for case in cases if (one := found[case]) is not None]
 
-    def _find_unmoved(self, case: Case, move: Move) -> CaseResult | None:
+    def _find_unmoved(self, case: Case, setting: Setting) -> CaseResult | None:
         """Result of a solved case that already has the value; None of any other."""
-        if self.find_value(case, move.name) != move.value:
+        if self.find_value(case, setting.name) != setting.value:
             return None
         same = (one for one in self.results if one.case == case)
         return next((one for one in same if self.has_result(one)), None)
 
-    def utilisation(self, result: CaseResult, move: Move | None = None) -> float | None:
+    def utilisation(
+        self, result: CaseResult, setting: Setting | None = None
+    ) -> float | None:
         """Upper end of the utilisation in a case [-]; None if it has no result.
 
-        ``move`` is what was moved in the case.
+        ``setting`` is what was moved in the case.
         """
         if not self.has_result(result):
             return None
         used = self.use(self.force(result))
         for name, scale in self.beside:
             used = max(used, scale * self._read(result, name) + self.added)
-        return used * self._compare_width(move)
-
-    def list_estimates(self, probe: Probe, name: str) -> dict[float, float]:
-        """Utilisation at values of a quantity that were solved, as far as known [-].
-
-        Each by the case in which the forces are nearest to their largest values, as if
-        they grew there as they do in that case.
-        """
-        now = self.find_value(self.governing, name)
-        shares = {
-            one.case: self.share(one)
-            for one in self.results
-            if self.find_value(one.case, name) == now
-        }
-        found: dict[float, tuple[float, float]] = {}
-        for (case, value), result in probe.list_moved(self.row, name).items():
-            share = shares.get(case, 0.0)
-            if share < SERVES or share <= found.get(value, (0.0, 0.0))[0]:
-                continue
-            used = self.utilisation(result, Move(name=name, value=value))
-            if used is not None:
-                found[value] = share, used / share
-        known = {value: used for value, (_, used) in found.items()}
-        return known if now is None else known | {now: self.use(self.largest)}
-
-    @cached_property
-    def _shares_of_use(self) -> dict[Case, float]:
-        used = {one.case: self.utilisation(one) or 0.0 for one in self.results}
-        return {case: one / (max(used.values()) or 1.0) for case, one in used.items()}
-
-    def compare(self, case: Case) -> float:
-        """Utilisation in a solved case over the largest one [-], as things are."""
-        return self._shares_of_use[case]
+        return used * self._compare_width(setting)
 
     def find_value(self, case: Case, name: str) -> float | None:
         """Value that a case has, or the row in it as far as it may be asked for."""
@@ -227,30 +201,32 @@ class Target:
             return self.row.at(case).snow_thickness
         return case.values.get(name)
 
-    def use_least(self, move: Move | None = None) -> float:
+    def use_least(self, setting: Setting | None = None) -> float:
         """Utilisation by the guideline's load alone [-], of what is moved."""
-        return self.use_floor(self._move_floor(move)) * self._compare_width(move)
+        return self.use_floor(self._range_floor(setting)) * self._compare_width(setting)
 
-    def use_about(self, move: Move) -> float:
+    def use_about(self, setting: Setting) -> float:
         """Utilisation by the guideline's load alone, on the same side of 1 [-].
 
         As exact as its lower end, where its two ends tell that side.
         """
-        width = self._compare_width(move)
-        least, most = (width * one for one in self.bound_floor(self._move_floor(move)))
-        return least if most <= 1.0 or least > 1.0 else self.use_least(move)
+        width = self._compare_width(setting)
+        least, most = (
+            width * one for one in self.bound_floor(self._range_floor(setting))
+        )
+        return least if most <= 1.0 or least > 1.0 else self.use_least(setting)
 
-    def use_more(self, used: float, move: Move) -> float:
+    def use_more(self, used: float, setting: Setting) -> float:
         """Larger one of a utilisation and that by the guideline's load [-].
 
         Which floor a check beyond 1 has is not asked.
         """
-        return used if used > 1.0 else max(used, self.use_about(move))
+        return used if used > 1.0 else max(used, self.use_about(setting))
 
-    def _move_floor(self, move: Move | None) -> Ranges:
+    def _range_floor(self, setting: Setting | None) -> Ranges:
         """Ranges that the guideline's load is searched over."""
-        is_still = move is None or move.name in _NOT_IN_FLOOR
-        return self.ranges if is_still or move is None else move.on(self.ranges)
+        is_still = setting is None or setting.name in _NOT_IN_FLOOR
+        return self.ranges if is_still or setting is None else setting.on(self.ranges)
 
     def use(self, force: float) -> float:
         """Utilisation by a force of the member [-]."""
@@ -259,31 +235,31 @@ class Target:
             added += self.rise * max(0.0, force / self.largest - 1.0)
         return self.scale * force + added
 
-    def _compare_width(self, move: Move | None) -> float:
+    def _compare_width(self, setting: Setting | None) -> float:
         """Load of the moved row's support by its end over that of the row as is."""
-        if move is None or move.name not in ON_GLIDE:
+        if setting is None or setting.name not in ON_GLIDE:
             return 1.0
-        return self.widen(move.on(self.ranges)) / self.widen(self.ranges)
+        return self.widen(setting.on(self.ranges)) / self.widen(self.ranges)
 
 
-def list_near(target: Target) -> list[Case]:
+def list_near(check: CaseCheck) -> list[Case]:
     """Cases whose force is near the largest, that first; of a search some of them."""
     forces = {
-        result.case: target.force(result)
-        for result in target.results
-        if target.has_result(result)
+        result.case: check.force(result)
+        for result in check.results
+        if check.has_result(result)
     }
     least = _RIVAL * max(forces.values())
     near = [case for case in forces if forces[case] >= least]
     near.sort(key=lambda case: (-forces[case], case))
-    return near if target.ranges.is_grid else _thin_out(near, target.ranges)
+    return near if check.ranges.is_grid else _thin_out(near, check.ranges)
 
 
 def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
     """Cases without those close beside an earlier one.
 
     A search crowds its cases around the largest force; what lies between those that
-    are left is in the margin of the target.
+    are left is in the margin of the check.
     """
     reach = [_BESIDE * (span.high - span.low) for _, span in ranges.intervals]
     kept: dict[Case, list[float]] = {}

@@ -1,4 +1,4 @@
-"""Single coupled solves of a changed row, each done once."""
+"""Coupled solves of a row with a changed value, each done once."""
 
 from __future__ import annotations
 
@@ -49,10 +49,10 @@ def build_scene(
     )
 
 
-class Probe:
+class CaseSolver:
     """Solves a row at a case, remembers it, and counts its solves.
 
-    Profiles that are checked one after the other share one probe: forces do not
+    Profiles that are checked one after the other share one solver: forces do not
     depend on them.
     """
 
@@ -66,29 +66,11 @@ class Probe:
         self._settings = settings
         self._runner = runner or Runner()
         self._known: dict[tuple[NetRow, Case, str, Sides], CaseResult] = {}
-        # by row and quantity: cases and values that it was moved to
-        self._moved: dict[tuple[NetRow, str], dict[tuple[Case, float], CaseResult]] = {}
 
     def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
         """Result of one case; a failed one is a result too."""
         (result,) = self.solve_all([(row, case, law or self.law)])
         return result
-
-    def solve_moved(
-        self, row: NetRow, wanted: Sequence[tuple[Case, str, float]]
-    ) -> list[CaseResult]:
-        """Results of some cases, each with another value of a named quantity [SI]."""
-        moved = [case.with_value(name, value) for case, name, value in wanted]
-        results = self.solve_all([(row, case, self.law) for case in moved])
-        for (case, name, value), result in zip(wanted, results, strict=True):
-            self._moved.setdefault((row, name), {})[case, value] = result
-        return results
-
-    def list_moved(
-        self, row: NetRow, name: str
-    ) -> dict[tuple[Case, float], CaseResult]:
-        """Results so far of a row with a quantity moved, by case and value."""
-        return self._moved.get((row, name), {})
 
     def solve_all(
         self,

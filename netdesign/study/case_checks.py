@@ -1,46 +1,34 @@
-"""Limits of single values of a check of forces, and changes that mend it."""
+"""Checks of a row as functions of a solved case, and their margins."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import cache, partial
 
 from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
-from netdesign.outcome import Verdict
-from netdesign.site.model import BaseFriction
 from netdesign.structure.members import RopeForce, name_in_panel
-from netdesign.study.calibration import find_doubt
+from netdesign.study.case_check import CaseCheck, Push
 from netdesign.study.effects import find_effects
-from netdesign.study.flips import (
-    CLOSE,
-    find_density_change,
-    find_friction_change,
-    find_height_change,
-    find_spacing_change,
-)
 from netdesign.study.force_records import ForceRecord
-from netdesign.study.holds import find_holds
 from netdesign.study.judgement import MemberCheck, is_worst
+from netdesign.study.margins import find_margins
 from netdesign.study.member_force import MemberForce
 from netdesign.study.records import ChangeRecord, HoldRecord
 from netdesign.study.row_check import RowCheck
 from netdesign.study.row_end import compute_end_factor
-from netdesign.study.stronger_types import find_type_change
-from netdesign.study.target import Push, Target
 from netdesign.units import kilonewton_from_newton
-from netdesign.words.message import Message, say
+from netdesign.words.message import Message
 
 # Changes that are limits of single values, too, and the names of these.
 _SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness"}
 
 
-def list_targets(
+def list_case_checks(
     task: RowCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
-) -> list[Target | None]:
+) -> list[CaseCheck | None]:
     """Checks as functions of a solved case; None of those that no solve may turn.
 
     Of several supports that one which uses a member most: where that holds, the
@@ -49,41 +37,41 @@ def list_targets(
     if _is_open(task):
         return [None] * len(judged)
     return [
-        _build_target(task, one, extremes)
-        if _has_target(one) and is_worst(one, judged)
+        _build_case_check(task, one, extremes)
+        if _has_case_check(one) and is_worst(one, judged)
         else None
         for one in judged
     ]
 
 
 def _is_open(task: RowCheck) -> bool:
-    return task.probe is None or bool(task.solved.gap) or task.basis.row.is_overtopped
+    return task.solver is None or bool(task.solved.gap) or task.basis.row.is_overtopped
 
 
-def find_row_holds(
+def find_row_margins(
     task: RowCheck,
     judged: Sequence[MemberCheck],
     changes: Sequence[Sequence[ChangeRecord]],
-    targets: Sequence[Target | None],
+    case_checks: Sequence[CaseCheck | None],
 ) -> dict[str, list[HoldRecord]]:
     """Limits of single values for the checks that follow from forces, by their ids.
 
-    ``changes`` and ``targets`` are those of the checks in their order.
+    ``changes`` and ``case_checks`` are those of the checks in their order.
     """
-    if task.probe is None:
+    if task.solver is None:
         return {}
     held = {
-        one.id: target
-        for one, target in zip(judged, targets, strict=True)
-        if target is not None
+        one.id: case_check
+        for one, case_check in zip(judged, case_checks, strict=True)
+        if case_check is not None
     }
-    told = {
-        one.id: _list_told(found) for one, found in zip(judged, changes, strict=True)
+    known = {
+        one.id: _list_known(found) for one, found in zip(judged, changes, strict=True)
     }
-    return find_holds(held, task.probe, told)
+    return find_margins(held, task.solver, known)
 
 
-def _list_told(changes: Sequence[ChangeRecord]) -> dict[str, float]:
+def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:
     """Largest values up to which a check passes, by the quantity's name [SI]."""
     found = {}
     for change in changes:
@@ -94,9 +82,9 @@ def _list_told(changes: Sequence[ChangeRecord]) -> dict[str, float]:
     return found
 
 
-def build_end_target(
+def build_end_case_check(
     task: RowCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
-) -> Target | None:
+) -> CaseCheck | None:
     """Check of a member that holds the row along itself as a function of a case.
 
     None where a solve tells nothing of it.
@@ -108,7 +96,7 @@ def build_end_target(
     if not force.largest.high_kN > 0.0:
         return None
     member = force.largest.quantity
-    return Target(
+    return CaseCheck(
         row=task.basis.row,
         ranges=task.basis.site.ranges,
         member=member,
@@ -119,26 +107,6 @@ def build_end_target(
     )
 
 
-def list_end_changes(
-    task: RowCheck, one: MemberCheck, target: Target | None
-) -> list[ChangeRecord]:
-    """Changes that flip a failing, unproven or close check of such a member."""
-    if not _is_worth_telling(task, one):
-        return []
-    changes = _list_resistance_changes(task, one)
-    return changes + (_list_solved_changes(task, target) if target else [])
-
-
-def _is_worth_telling(task: RowCheck, one: MemberCheck) -> bool:
-    """It has a force, and does not pass with much to spare."""
-    demand, used = one.result.find("E_d"), one.result.find("μ")
-    if demand is None or demand.high == 0.0 or task.basis.row.is_overtopped:
-        return False
-    if used is None:
-        return one.result.verdict is not Verdict.PASS
-    return (used.high or 0.0) >= CLOSE
-
-
 def _find_end_factor(task: RowCheck, ranges: Ranges) -> float:
     """Factor of the end effect on a rope's pull, over some ranges [-]."""
     effects = find_effects(task.basis.row, task.basis.standard, ranges)
@@ -146,43 +114,7 @@ def _find_end_factor(task: RowCheck, ranges: Ranges) -> float:
     return compute_end_factor(edge, effects.post_spacing)
 
 
-def list_changes(
-    task: RowCheck, one: MemberCheck, target: Target | None
-) -> list[ChangeRecord]:
-    """Changes that flip a failing, unproven or close check.
-
-    What needs a solve is looked for where there is a ``target``.
-    """
-    if not _is_worth_telling(task, one) or isinstance(
-        one.given.dimensions, BaseFriction
-    ):
-        return []  # sliding is in proportion to what presses the base
-    changes = _list_resistance_changes(task, one)
-    used = one.result.find("μ")
-    if used is None or used.high is None:
-        return changes
-    if task.basis.row.panel is None:  # its forces are in no proportion to the spacing
-        spacing = task.basis.row.layout.post_spacing
-        changes.append(find_spacing_change(spacing, one.width, used.high))
-    if one.gap or one.doubt:
-        key = "change.as_far_as_solved" if one.gap else "change.if_law_accepted"
-        return [replace(change, note=say(key)) for change in changes]
-    return changes + (_list_solved_changes(task, target) if target else [])
-
-
-def _list_solved_changes(task: RowCheck, target: Target) -> list[ChangeRecord]:
-    """Changes of snow and friction, each found by solves."""
-    if task.probe is None:
-        return []
-    found = (
-        _doubt_density(task, find_density_change(target, task.probe)),
-        find_height_change(target, task.probe),
-        find_friction_change(target, task.probe),
-    )
-    return [change for change in found if change is not None]
-
-
-def _has_target(one: MemberCheck) -> bool:
+def _has_case_check(one: MemberCheck) -> bool:
     """The check follows from the member's force by numbers that stay as they are.
 
     A resistance that follows the snow does not, nor what is added to no force at all.
@@ -193,9 +125,9 @@ def _has_target(one: MemberCheck) -> bool:
     return force.largest.high_kN > 0.0 or force.added_high == 0.0
 
 
-def _build_target(
+def _build_case_check(
     task: RowCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
-) -> Target:
+) -> CaseCheck:
     """The check as a function of a solved case and of the row.
 
     Of section and panel that one which is larger is followed, the other beside it.
@@ -210,7 +142,7 @@ def _build_target(
     }
     followed = force.largest.quantity
     use_floor = (task, member, force, use)
-    return Target(
+    return CaseCheck(
         row=task.basis.row,
         ranges=task.basis.site.ranges,
         member=followed,
@@ -303,41 +235,3 @@ def _add_by_floor(force: MemberForce, pull: float) -> float:
     """
     growth = max(0.0, pull / force.pull - 1.0) if force.pull else 0.0
     return force.added + growth * force.rise
-
-
-def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:
-    """Change of density that says where the creep law is not given for its snow."""
-    if change.bound is None or not find_doubt(
-        task.basis.site,
-        task.basis.row,
-        task.basis.law,
-        density=change.bound,
-        largest=math.inf,
-    ):
-        return change
-    return replace(change, note=say("change.if_law_accepted"))
-
-
-def _list_resistance_changes(task: RowCheck, one: MemberCheck) -> list[ChangeRecord]:
-    """Characteristic resistance that is needed, and the type that has it."""
-    site, standard, result = task.basis.site, task.basis.standard, one.result
-    demand, factor = result.find("E_d"), result.find_value("γ_R")
-    note: Message | None = None
-    if factor is None:  # nothing is given, and so no basis: suppose a test
-        found = standard.find_resistance_factor(one.given.mode, "tested")
-        factor = found.value_si if found else None
-        note = say("change.on_basis_of_tests")
-    if factor is None or demand is None or demand.high is None:
-        return []
-    change = ChangeRecord(
-        quantity=say("change.characteristic_resistance"),
-        unit="kN",
-        now=result.find_value("R_k"),
-        bound=math.ceil(demand.high * factor * 10.0 - 1e-9) / 10.0,
-        sense="at least",
-        solves=0,
-        note=note,
-    )
-    row = task.basis.row
-    kind = find_type_change(site, row, one.given, demand.high, standard)
-    return [change, kind] if kind else [change]

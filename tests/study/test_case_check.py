@@ -9,9 +9,9 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.study.case_check import CaseCheck, Setting
 from netdesign.study.effects import find_effects
 from netdesign.study.floor import find_row_floor
-from netdesign.study.target import Move, Target
 from tests.small_site import build_row
 
 STANDARD = load_standard("swiss-guideline-2007")
@@ -81,8 +81,8 @@ def test_floor_follows_a_moved_inclination():
     assert post != pytest.approx(list_floor(row, ranges)["post"], rel=1e-3)
 
 
-def build_target(row, ranges):
-    return Target(
+def build_check(row, ranges):
+    return CaseCheck(
         row=row,
         ranges=ranges,
         member="post",
@@ -98,10 +98,10 @@ def test_end_effect_follows_what_is_moved_and_nothing_else():
     """A range of another quantity does not make the support narrower."""
     row = draw_row(random.Random(7))
     ranges = draw_ranges(random.Random(7), slack=Interval(low=0.01, high=0.08))
-    target = build_target(row, ranges)
-    assert target.use_least() == 0.3
-    assert target.use_least(Move(name="slack", value=0.02)) == 0.4
-    larger = target.use_least(Move(name="glide_factor", value=row.glide_factor + 0.1))
+    check = build_check(row, ranges)
+    assert check.use_least() == 0.3
+    assert check.use_least(Setting(name="slack", value=0.02)) == 0.4
+    larger = check.use_least(Setting(name="glide_factor", value=row.glide_factor + 0.1))
     typed = draw_row(random.Random(7), glide_factor=row.glide_factor + 0.1)
     widths = [
         find_effects(one, STANDARD, ranges).supports[-1].width for one in (typed, row)
@@ -148,16 +148,16 @@ def test_two_ends_of_the_floor_change_no_answer(ends):
         return 0.4
 
     row, ranges = draw_row(random.Random(9)), draw_ranges(random.Random(9))
-    target = replace(
-        build_target(row, ranges), use_floor=use_floor, bound_floor=lambda _: ends
+    check = replace(
+        build_check(row, ranges), use_floor=use_floor, bound_floor=lambda _: ends
     )
-    move = Move(name="slack", value=0.0213)
-    assert target.use_more(0.617, move) == 0.617
-    assert target.use_more(0.217, move) == (0.4 if ends[1] > 1.0 else ends[0])
-    assert target.use_about(move) <= 1.0
+    setting = Setting(name="slack", value=0.0213)
+    assert check.use_more(0.617, setting) == 0.617
+    assert check.use_more(0.217, setting) == (0.4 if ends[1] > 1.0 else ends[0])
+    assert check.use_about(setting) <= 1.0
     assert len(found) == 3 * (ends[1] > 1.0)
     found.clear()
-    assert target.use_more(1.003, move) == 1.003
+    assert check.use_more(1.003, setting) == 1.003
     assert not found
 
 
@@ -170,16 +170,16 @@ def test_a_quantity_that_the_floor_does_not_know_leaves_it(quantity):
     ]
     moved = ranges.with_value(quantity, value)
     assert list_floor(row, moved) == list_floor(row, ranges)
-    target = build_target(row, ranges)
-    assert target.use_least(Move(name=quantity, value=0.37)) == 0.3
+    check = build_check(row, ranges)
+    assert check.use_least(Setting(name=quantity, value=0.37)) == 0.3
 
 
 @pytest.mark.parametrize("ends", [(0.0, math.inf), (0.97, 1.09), (1.003, 1.09)])
 def test_floor_that_is_not_met_is_so_by_its_ends_too(ends):
     row, ranges = draw_row(random.Random(9)), draw_ranges(random.Random(9))
-    target = replace(
-        build_target(row, ranges),
+    check = replace(
+        build_check(row, ranges),
         use_floor=lambda _: 1.004,
         bound_floor=lambda _: ends,
     )
-    assert target.use_about(Move(name="slack", value=0.0213)) > 1.0
+    assert check.use_about(Setting(name="slack", value=0.0213)) > 1.0

@@ -14,8 +14,8 @@ from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.study.holds import find_holds, list_spans, solve_ends
-from netdesign.study.target import Target
+from netdesign.study.case_check import CaseCheck
+from netdesign.study.margins import find_margins, list_spans, solve_ends
 from tests.small_site import build_row
 
 RANGES = Ranges.of(
@@ -67,17 +67,15 @@ def alone(*_):
     return 1.0
 
 
-class MadeUpProbe:
-    """Stands for the coupled solve; solves each case once, like a probe."""
+class MadeUpSolver:
+    """Stands for the coupled solve; solves each case once, like a solver."""
 
     def __init__(self, forces=tauter, fails=never):
         self.count, self._forces, self._fails = 0, forces, fails
         self._known, self.law = {}, BOUTILLIER_2004
 
-    def solve_moved(self, row, wanted):
-        return [
-            self._solve(row, case.with_value(name, at)) for case, name, at in wanted
-        ]
+    def solve_all(self, wanted):
+        return [self._solve(row, case) for row, case, _ in wanted]
 
     def _solve(self, row, case):
         if (row, case) not in self._known:
@@ -98,9 +96,9 @@ def a_result(forces, fails, row, case):
     return CaseResult(case=case, outcome=Outcome.CONVERGED, member_forces=bands)
 
 
-def a_target(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
+def a_check(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
     cases = (GOVERNING, RIVAL, OTHER)
-    return Target(
+    return CaseCheck(
         row=row,
         ranges=ranges,
         member=member,
@@ -110,9 +108,9 @@ def a_target(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
     )
 
 
-def hold_of(target, quantity, probe=None, widen=alone):
-    held = replace(target, widen=widen)
-    found = find_holds({"c": held}, probe or MadeUpProbe())["c"]
+def margin_of(check, quantity, solver=None, widen=alone):
+    held = replace(check, widen=widen)
+    found = find_margins({"c": held}, solver or MadeUpSolver())["c"]
     return next(one for one in found if one.quantity == quantity)
 
 
@@ -123,20 +121,20 @@ def read_glide_factor(ranges):
 
 @pytest.mark.parametrize("used", [0.86, 0.91, 0.97])
 def test_a_pass_holds_down_to_the_slack_at_which_a_power_law_turns(used):
-    hold = hold_of(a_target(used), "slack")
+    margin = margin_of(a_check(used), "slack")
     exact = _slack_of(used ** (1.0 / 0.21))
-    assert exact <= hold.least < 0.037
-    at = used * _loosen(hold.least) ** -0.21
+    assert exact <= margin.least < 0.037
+    at = used * _loosen(margin.least) ** -0.21
     assert 0.92 <= at <= 1.0
-    assert hold.most is None
-    assert (hold.low, hold.high) == (0.0, pytest.approx(0.137))
+    assert margin.most is None
+    assert (margin.low, margin.high) == (0.0, pytest.approx(0.137))
 
 
 @pytest.mark.parametrize("used", [0.83, 0.9])
 def test_the_other_member_turns_on_the_other_side(used):
     """Slack and stiffness act oppositely on foot and post."""
     foot, post = (
-        hold_of(a_target(used, member), "thickness_m")
+        margin_of(a_check(used, member), "thickness_m")
         for member in ("foot_anchor", "post")
     )
     assert foot.most == pytest.approx(2.47 * used ** (-1.0 / 2.1), rel=0.04)
@@ -145,29 +143,29 @@ def test_the_other_member_turns_on_the_other_side(used):
 
 
 def test_limits_are_rounded_to_the_passing_side():
-    hold = hold_of(a_target(0.93), "stiffness_kN_per_m")
+    margin = margin_of(a_check(0.93), "stiffness_kN_per_m")
     exact = 7300.0 * 0.93 ** (-1.0 / 0.13)
-    assert hold.most <= exact
-    assert hold.most == float(f"{hold.most:.3g}")
-    assert hold.now == 7300.0
+    assert margin.most <= exact
+    assert margin.most == float(f"{margin.most:.3g}")
+    assert margin.now == 7300.0
 
 
 @pytest.mark.parametrize("exact", [4.4e-6, 2.3e-5, 0.00113])
 def test_no_limit_is_told_finer_than_a_thousandth_of_its_search(exact):
     """A slack of 4e-6 is no number that anybody builds."""
-    hold = hold_of(a_target(_loosen(exact) ** 0.21), "slack")
-    assert exact <= hold.least == round(hold.least, 4)
-    assert hold.least == pytest.approx(exact, abs=0.003)
+    margin = margin_of(a_check(_loosen(exact) ** 0.21), "slack")
+    assert exact <= margin.least == round(margin.least, 4)
+    assert margin.least == pytest.approx(exact, abs=0.003)
 
 
 @pytest.mark.parametrize("used", [1.04, 1.2])
 def test_a_fail_would_pass_below_a_thickness_and_above_a_slack(used):
-    target = a_target(used)
-    thickness = hold_of(target, "thickness_m")
+    check = a_check(used)
+    thickness = margin_of(check, "thickness_m")
     assert thickness.most <= 2.47 * used ** (-1.0 / 2.1)
     assert thickness.most == pytest.approx(2.47 * used ** (-1.0 / 2.1), rel=0.04)
     assert thickness.least is None
-    slack = hold_of(target, "slack")
+    slack = margin_of(check, "slack")
     exact = _slack_of(used ** (1.0 / 0.21))
     assert slack.most is None
     assert slack.least is not None
@@ -175,14 +173,14 @@ def test_a_fail_would_pass_below_a_thickness_and_above_a_slack(used):
 
 
 def test_nothing_in_reach_is_no_limit():
-    hold = hold_of(a_target(4.0), "slack")
-    assert (hold.least, hold.most) == (None, None)
-    assert hold_of(a_target(0.2), "upslope_length_m").least is None
+    margin = margin_of(a_check(4.0), "slack")
+    assert (margin.least, margin.most) == (None, None)
+    assert margin_of(a_check(0.2), "upslope_length_m").least is None
 
 
 def test_the_end_effect_that_grows_with_glide_brings_the_limit_nearer():
-    plain = hold_of(a_target(0.85), "glide_factor")
-    wide = hold_of(a_target(0.85), "glide_factor", widen=read_glide_factor)
+    plain = margin_of(a_check(0.85), "glide_factor")
+    wide = margin_of(a_check(0.85), "glide_factor", widen=read_glide_factor)
     assert plain.most == pytest.approx(1.62 * 0.85 ** (-1 / 1.2), rel=0.05)
     assert wide.most == pytest.approx(1.62 * 0.85 ** (-1 / 2.2), rel=0.05)
 
@@ -197,9 +195,9 @@ def test_a_rival_that_overtakes_is_confirmed_too():
         force = share * near * _loosen(row.at(case).slack) ** power
         return {"foot_anchor": force}
 
-    target = a_target(0.8, forces=crossing)
-    hold = hold_of(target, "slack", MadeUpProbe(crossing))
-    worst = max(crossing(ROW, case.with_value("slack", hold.least))["foot_anchor"]
+    check = a_check(0.8, forces=crossing)
+    margin = margin_of(check, "slack", MadeUpSolver(crossing))
+    worst = max(crossing(ROW, case.with_value("slack", margin.least))["foot_anchor"]
                 for case in (GOVERNING, RIVAL))  # fmt: skip
     assert 0.8 * worst <= 1.0
 
@@ -211,28 +209,28 @@ def test_the_guidelines_load_limits_what_the_coupled_solve_would_allow():
         is_moved = "thickness" in ranges.further
         return 0.9 * (ranges["thickness"].high / 2.47 if is_moved else 1.0) ** 3
 
-    floor = replace(a_target(0.6), use_floor=use_floor)
-    hold = hold_of(floor, "thickness_m")
-    assert hold.most <= 2.47 * 0.9 ** (-1 / 3)
-    assert hold.most == pytest.approx(2.47 * 0.9 ** (-1 / 3), rel=0.03)
-    assert hold_of(a_target(0.6), "thickness_m").most is None
+    floor = replace(a_check(0.6), use_floor=use_floor)
+    margin = margin_of(floor, "thickness_m")
+    assert margin.most <= 2.47 * 0.9 ** (-1 / 3)
+    assert margin.most == pytest.approx(2.47 * 0.9 ** (-1 / 3), rel=0.03)
+    assert margin_of(a_check(0.6), "thickness_m").most is None
 
 
 def test_members_share_solves():
     """Ends of the search are solved once for all checks of a row."""
-    probe, targets = MadeUpProbe(), {}
+    solver, checks = MadeUpSolver(), {}
     for k, used in enumerate((0.21, 0.22, 0.23, 0.24)):
-        target = a_target(used, ("foot_anchor", "post")[k % 2])
-        targets[str(k)] = target
-    find_holds(targets, probe)
-    assert probe.count <= 2 * len(list_spans(ROW, RANGES)) + 6
+        check = a_check(used, ("foot_anchor", "post")[k % 2])
+        checks[str(k)] = check
+    find_margins(checks, solver)
+    assert solver.count <= 2 * len(list_spans(ROW, RANGES)) + 6
 
 
 def test_a_case_without_a_result_gives_no_limit_and_says_so():
-    probe = MadeUpProbe(fails=lambda row, case: row.at(case).slack < 0.02)
-    hold = hold_of(a_target(0.9), "slack", probe)
-    assert (hold.least, hold.low) == (None, 0.037)
-    assert "without a result" in str(hold.note)
+    solver = MadeUpSolver(fails=lambda row, case: row.at(case).slack < 0.02)
+    margin = margin_of(a_check(0.9), "slack", solver)
+    assert (margin.least, margin.low) == (None, 0.037)
+    assert "without a result" in str(margin.note)
 
 
 def test_only_what_does_not_range_is_moved():
@@ -294,7 +292,7 @@ def apart(row, case):
 
 def an_apart(used, member, governing):
     cases = (GOVERNING, MIDDLE, RIVAL)
-    return Target(
+    return CaseCheck(
         row=ROW,
         ranges=RANGES,
         member=member,
@@ -305,12 +303,12 @@ def an_apart(used, member, governing):
 
 
 def test_ends_are_solved_in_one_case_that_serves_all_members():
-    probe = MadeUpProbe(apart)
-    targets = [an_apart(0.9, "foot_anchor", GOVERNING), an_apart(0.8, "post", RIVAL)]
-    assert [one.case for one in solve_ends(targets, probe)] == [MIDDLE, MIDDLE]
+    solver = MadeUpSolver(apart)
+    checks = [an_apart(0.9, "foot_anchor", GOVERNING), an_apart(0.8, "post", RIVAL)]
+    assert [one.case for one in solve_ends(checks, solver)] == [MIDDLE, MIDDLE]
     spans = list_spans(ROW, RANGES)
     ends = [end for span in spans for end in {span.low, span.high} - {span.now}]
-    assert probe.count == len(ends)
+    assert solver.count == len(ends)
 
 
 @pytest.mark.parametrize("used", [0.57, 0.83, 0.94, 0.99, 1.03, 1.21])
@@ -321,16 +319,16 @@ def test_a_limit_followed_in_a_case_that_carries_less_holds_in_every_case(
     used, member, at
 ):
     """Told on the passing side, not far from where the check turns."""
-    target = an_apart(used, member, at)
-    hold = hold_of(target, "thickness_m", MadeUpProbe(apart))
+    check = an_apart(used, member, at)
+    margin = margin_of(check, "thickness_m", MadeUpSolver(apart))
     most = used * max(
-        apart(ROW, one.case.with_value("thickness", hold.most or ROW.net_height))[
+        apart(ROW, one.case.with_value("thickness", margin.most or ROW.net_height))[
             member
         ]
-        for one in target.results
+        for one in check.results
     )
     assert most <= 1.0
-    if hold.most is not None:
+    if margin.most is not None:
         assert most > 0.9
     else:
         assert used < 0.9
@@ -338,20 +336,20 @@ def test_a_limit_followed_in_a_case_that_carries_less_holds_in_every_case(
 
 @pytest.mark.parametrize(("used", "told"), [(0.93, 2.53), (1.17, 2.29)])
 def test_what_a_change_told_is_no_more_looked_for(used, told):
-    target, probes = a_target(used), [MadeUpProbe(), MadeUpProbe()]
+    check, solvers = a_check(used), [MadeUpSolver(), MadeUpSolver()]
     plain, known = (
         next(
             one
-            for one in find_holds({"c": target}, probe, {"c": values})["c"]
+            for one in find_margins({"c": check}, solver, {"c": values})["c"]
             if one.quantity == "thickness_m"
         )
-        for probe, values in zip(probes, ({}, {"thickness": told}), strict=True)
+        for solver, values in zip(solvers, ({}, {"thickness": told}), strict=True)
     )
     assert known.most == told
     assert plain.most == pytest.approx(told, rel=0.02)
     assert (known.least, known.low, known.high) == (plain.least, plain.low, plain.high)
-    assert probes[1].count < probes[0].count
-    wrong_side = find_holds({"c": target}, MadeUpProbe(), {"c": {"thickness": 2.47}})
+    assert solvers[1].count < solvers[0].count
+    wrong_side = find_margins({"c": check}, MadeUpSolver(), {"c": {"thickness": 2.47}})
     assert next(h.most for h in wrong_side["c"] if h.quantity == "thickness_m") == (
         plain.most
     )
