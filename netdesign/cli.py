@@ -24,18 +24,18 @@ from netdesign.commands.config import (
     require_known_variables,
 )
 from netdesign.commands.options import language_option
-from netdesign.commands.running import EXIT_CODES, own_command, tell_faults
-from netdesign.commands.table import CommandTable, ToldContext
-from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal, tell
+from netdesign.commands.running import EXIT_CODES, own_command, print_faults
+from netdesign.commands.table import CommandTable, LanguageContext
+from netdesign.commands.usage import LanguageGroup, UsageRefusal, describe_refusal, tell
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import guard_streams
-from netdesign.errors import (
+from netdesign.outcome import (
     NetDesignError,
     OutputError,
     SiteDataError,
+    describe_fault,
 )
-from netdesign.fault import describe_fault
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -68,7 +68,7 @@ none of them; a standard output that cannot be written to ends with 2."
 
 
 @click.group(
-    cls=ToldGroup,
+    cls=LanguageGroup,
     commands=_COMMANDS,
     epilog=_EPILOG,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -97,7 +97,7 @@ def cli(context: click.Context, language: Language) -> None:
         tell(say("cli.note", text=idle), _speak(), err=True)
 
 
-cli.context_class = ToldContext  # its commands get theirs when they are imported
+cli.context_class = LanguageContext  # its commands get theirs when they are imported
 
 
 def main() -> NoReturn:
@@ -120,7 +120,7 @@ def main() -> NoReturn:
     sys.exit(code)
 
 
-class _LogTeller(logging.Handler):
+class _LogPrinter(logging.Handler):
     """Tells what rooms below have logged, in the language of the run."""
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -131,7 +131,7 @@ class _LogTeller(logging.Handler):
 
 def _run() -> NoReturn:
     gc.set_threshold(_OBJECTS)
-    logging.getLogger("netdesign").handlers[:] = [_LogTeller()]
+    logging.getLogger("netdesign").handlers[:] = [_LogPrinter()]
     if instruction := os.environ.get(COMPLETE_VARIABLE):
         from netdesign.commands.completion import answer_shell
 
@@ -167,7 +167,7 @@ def _run() -> NoReturn:
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
             raise
-        sys.exit(_tell_unexpected(error))
+        sys.exit(_describe_unexpected(error))
     sys.exit(0)
 
 
@@ -176,9 +176,9 @@ def _speak() -> Language:
     return find_language(cli, sys.argv[1:])
 
 
-def _tell_unexpected(error: Exception) -> int:
+def _describe_unexpected(error: Exception) -> int:
     """Say what nobody handled: what given paths can cause, their readers have."""
-    return tell_faults({describe_fault(error): ()}, _speak())
+    return print_faults({describe_fault(error): ()}, _speak())
 
 
 def _count_findings(error: SiteDataError) -> Message:

@@ -1,10 +1,24 @@
-"""Ends of solves and verdicts of checks."""
+"""Outcomes of solves, verdicts, errors, faults, and guards of values: how things end.
+
+An *outcome* is the end of a solve. An *error* is raised on purpose, for the user. A
+*fault* is whatever the package does not raise on purpose: it is no answer to an
+engineer's question. Whoever has one leaves the case without a result, shows the fault
+on stderr, keeps it from the store, and ends with ``EXIT_CODE``. A *guard* refuses a
+value that is out of range; all are written in the positive, so that NaN fails them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+import re
+import traceback
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
+from pathlib import Path
+from typing import ClassVar, Protocol, TypeVar, cast
 
+from netdesign.units import given_degree_from_radian, given_kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 
@@ -73,3 +87,265 @@ def merge_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
     if not parts or Verdict.NOT_PROVEN in parts:
         return Verdict.NOT_PROVEN
     return Verdict.DECLARED if Verdict.DECLARED in parts else Verdict.PASS
+
+
+class Told(Protocol):
+    """Anything with a message; ``site.cells.findings.Finding`` is one."""
+
+    @property
+    def message(self) -> Message:
+        """Message to the user."""
+
+    @property
+    def severity(self) -> str:
+        """``error`` of a fault, ``note`` of a remark."""
+
+
+class NetDesignError(Exception):
+    """Base of every error that the program raises on purpose.
+
+    Attributes
+    ----------
+    message : Message
+        What the user is told; somebody else's words may be given as they are.
+    """
+
+    exit_code: ClassVar[int] = 5
+
+    def __init__(self, message: Message | str) -> None:
+        super().__init__(message)
+        given = say("text.as_given", text=message) if isinstance(message, str) else None
+        self.message = given or cast(Message, message)
+
+    def __str__(self) -> str:
+        """The message in English, for logs and for whoever uses the package."""
+        return str(self.message)
+
+
+class ContentError(ValueError):
+    """Fault inside a file or value, before its place is known."""
+
+    def __init__(self, message: Message) -> None:
+        super().__init__(message)
+        self.message = message
+
+    def __str__(self) -> str:
+        """The message in English."""
+        return str(self.message)
+
+
+class ModelError(NetDesignError):
+    """An input is impossible or outside what the model can represent."""
+
+    exit_code = 3
+
+
+class StandardError(NetDesignError):
+    """A limit profile is missing, malformed or incomplete."""
+
+    exit_code = 3
+
+
+class SiteDataError(NetDesignError):
+    """A site workbook was refused; carries every finding, not the first."""
+
+    exit_code = 3
+
+    def __init__(
+        self, findings: Sequence[Told], lines: tuple[Message, ...] = ()
+    ) -> None:
+        self.findings = tuple(findings)
+        told = lines or tuple(finding.message for finding in self.findings)
+        super().__init__(say("text.lines", lines=told))
+        self.args = (findings, lines)
+
+
+class StudyError(NetDesignError):
+    """A stored study cannot be read."""
+
+    exit_code = 3
+
+
+class SceneFileError(NetDesignError):
+    """A scene file was refused; the message lists every fault."""
+
+    exit_code = 3
+
+
+class OutputError(NetDesignError):
+    """An output cannot be written: it exists already, or the place is unfit."""
+
+    exit_code = 2
+
+
+class SolveError(NetDesignError):
+    """A solve ended without a proven result."""
+
+    exit_code = 4
+
+    def __init__(self, outcome: Outcome, reason: Message | str | None = None) -> None:
+        self.outcome = outcome
+        given = say("text.as_given", text=reason) if isinstance(reason, str) else reason
+        self.reason: Message = given or outcome.message
+        super().__init__(say("error.solve", ended=outcome.word, reason=self.reason))
+        self.args = (outcome, self.reason)
+
+
+EXIT_CODE = 5
+# What a report says: the rest is of use to those only who can mend it.
+SENTENCE = say("fault.sentence")
+_LONGEST = 500  # signs of a message
+
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fault:
+    """An exception that nobody meant to raise.
+
+    Attributes
+    ----------
+    kind, message : str
+        Its type and text.
+    place : str
+        Where, in the package: ``snow/body.py:88``.
+    case : str
+        What was being solved, in engineer's units.
+    trace : str
+        The whole way to it.
+    """
+
+    kind: str
+    message: str
+    place: str
+    case: str = ""
+    trace: str = ""
+
+    def __str__(self) -> str:
+        """``ValueError: array is empty, in snow/body.py:88``."""
+        return f"{self.kind}: {self.message}, in {self.place}"
+
+
+def catch_fault(solve: Callable[[], Result], case: str) -> Result | Fault:
+    """Result of a solve, or the fault that ended it.
+
+    Parameters
+    ----------
+    solve : callable
+        Takes nothing.
+    case : str
+        What it solves, as the fault shall name it.
+
+    Raises
+    ------
+    SolveError, ModelError, MemoryError
+        As raised: none of them is a fault of the program.
+    """
+    try:
+        return solve()
+    except (SolveError, ModelError, MemoryError):
+        raise
+    except Exception as error:  # a bug in one case must not hide the others
+        return describe_fault(error, case)
+
+
+def describe_fault(error: Exception, case: str = "") -> Fault:
+    """Facts on an exception, as texts that go from process to process."""
+    return Fault(
+        kind=type(error).__name__,
+        message=str(error)[:_LONGEST],
+        place=_find_place(error),
+        case=case,
+        trace="".join(traceback.format_exception(error)),
+    )
+
+
+def _find_place(error: Exception) -> str:
+    """Line of the package that was at work: its own, or that which called another's."""
+    package = Path(__file__).parent
+    frames = traceback.extract_tb(error.__traceback__)
+    places = [
+        f"{Path(one.filename).relative_to(package).as_posix()}:{one.lineno}"
+        for one in frames
+        if Path(one.filename).is_relative_to(package)
+    ]
+    return places[-1] if places else "unknown"
+
+
+def require_positive(name: str, value: float, unit: str = "") -> None:
+    """Refuse anything but a finite number above zero."""
+    if not (math.isfinite(value) and value > 0):
+        raise ModelError(
+            say(
+                "guard.positive",
+                name=name_quantity(name),
+                value=float(value),
+                unit=_in(unit),
+            )
+        )
+
+
+def require_count(name: str, value: int) -> None:
+    """Refuse anything but a whole number above zero."""
+    if not (isinstance(value, int) and value > 0):
+        raise ModelError(say("guard.count", name=name_quantity(name), value=value))
+
+
+def require_within(
+    name: str, value: float, low: float, high: float, unit: str = ""
+) -> None:
+    """Refuse anything but a finite number with ``low <= value <= high``."""
+    if not (math.isfinite(value) and low <= value <= high):
+        raise ModelError(
+            say(
+                "guard.within",
+                name=name_quantity(name),
+                value=value,
+                low=low,
+                high=high,
+                unit=_in(unit),
+            )
+        )
+
+
+def require_one_of(name: str, value: str, accepted: tuple[str, ...]) -> None:
+    """Refuse a word that is not one of the accepted ones."""
+    if value not in accepted:
+        raise ModelError(
+            say(
+                "guard.one_of",
+                name=name_quantity(name),
+                value=value,
+                accepted=accepted,
+            )
+        )
+
+
+def name_quantity(name: str) -> Message:
+    """Name of a quantity in refusals: ``quantity.slope_angle`` of ``slope angle``."""
+    return say(f"quantity.{re.sub('[^a-z]+', '_', name)}")
+
+
+# Units inside, and what an engineer gives: the conversion and the unit's sign.
+_GIVEN = {
+    " rad": (given_degree_from_radian, " deg"),
+    " N/m": (given_kilonewton_from_newton, " kN/m"),
+}
+
+
+def show_given_units(refusal: Message) -> Message:
+    """Refusal of a number in the unit in which it was given; any other as it is."""
+    unit = refusal.arguments.get("unit")
+    if not isinstance(unit, str) or unit not in _GIVEN:
+        return refusal
+    convert, given = _GIVEN[unit]
+    numbers = {
+        name: convert(one)
+        for name, one in refusal.arguments.items()
+        if isinstance(one, int | float)
+    }
+    return say(refusal.key, **{**refusal.arguments, **numbers, "unit": given})
+
+
+def _in(unit: str) -> str:
+    return f" {unit}" if unit else ""

@@ -22,9 +22,9 @@ from netdesign.envelope.ranges import Ranges as Ranges
 from netdesign.envelope.rows import RowEnvelope as RowEnvelope
 from netdesign.envelope.rows import RowTask as RowTask
 from netdesign.envelope.search import search_rows as search_rows
-from netdesign.errors import NetDesignError as NetDesignError
-from netdesign.errors import SolveError as SolveError
 from netdesign.files.scene import read_scene as read_scene
+from netdesign.outcome import NetDesignError as NetDesignError
+from netdesign.outcome import SolveError as SolveError
 from netdesign.panel.inputs import Panel as Panel
 from netdesign.panel.inputs import Rope as Rope
 from netdesign.panel.solution import FailedPanel as FailedPanel

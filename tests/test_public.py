@@ -40,7 +40,7 @@ def test_a_solver_is_loaded_only_when_a_public_name_is_asked_for():
     probe = (
         "import sys, netdesign\n"
         "assert 'Scene' in dir(netdesign) and not hasattr(netdesign, 'wrong')\n"
-        "from netdesign import errors\n"
+        "from netdesign import outcome\n"
         "print('numpy' in sys.modules)\n"
         "from netdesign import Scene, solve_steady\n"
         "print('numpy' in sys.modules)\n"

@@ -16,7 +16,7 @@ from netdesign.edge import locks
 from netdesign.edge.locks import LOCK_FILE
 from netdesign.edge.output import require_free, write_files
 from netdesign.edge.streams import _spell_sign
-from netdesign.errors import OutputError, SiteDataError
+from netdesign.outcome import OutputError, SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.sources import parse_package

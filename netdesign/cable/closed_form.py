@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from netdesign.guards import require_positive, require_within
+from netdesign.outcome import require_positive, require_within
 
 
 def compute_parabola_sag(

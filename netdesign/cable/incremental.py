@@ -14,10 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.tension import compute_tensions, require_lengths
-from netdesign.errors import ModelError
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Signs
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, require_positive, require_within
 from netdesign.words.message import say
 
 Nodes = NDArray[np.intp]

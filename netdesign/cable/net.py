@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import require_positive, require_within
 
 LARGEST_INCLINATION = math.radians(80.0)
 LARGEST_SLACK = 0.5

@@ -18,9 +18,8 @@ from netdesign.cable.tension import (
     compute_tensions,
     compute_turning_angles,
 )
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
 
 # A segment that bends more than this between its ends is no arc of a smooth curve.

@@ -16,9 +16,8 @@ from itertools import pairwise
 import numpy as np
 
 from netdesign.cable.tension import compute_tensions, require_lengths
-from netdesign.errors import ModelError
 from netdesign.numerics.arrays import Floats, Signs
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 from netdesign.words.message import say
 
 _ACCEPTED_CLIMB = 0.5

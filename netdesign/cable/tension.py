@@ -10,9 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.errors import ModelError
-from netdesign.guards import name_quantity, require_positive, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import (
+    ModelError,
+    name_quantity,
+    require_positive,
+    require_within,
+)
 from netdesign.words.message import say
 
 _LARGEST_FRICTION = np.tan(np.radians(89.0))

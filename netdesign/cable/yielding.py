@@ -24,9 +24,8 @@ from netdesign.cable.response import (
     respond,
 )
 from netdesign.cable.sliding import NetState, SlidingStep
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Mask, Signs
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
 
 _MOST_ITERATIONS = 40

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from netdesign.calculation.quantity import OPERATIONS, Quantity, apply, constant
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.words.message import say
 
 _RANK = {"+": 1, "-": 1, "*": 2, "/": 2}

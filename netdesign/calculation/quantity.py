@@ -14,7 +14,7 @@ from enum import StrEnum
 from typing import NamedTuple
 
 from netdesign.calculation.units import PURE, Dimension, find_dimension, name_dimension
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.words.message import Message, say
 
 

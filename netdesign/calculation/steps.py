@@ -13,7 +13,7 @@ from typing import ClassVar
 
 from netdesign.calculation.formula import read_formula, write_formula
 from netdesign.calculation.quantity import Kind, Quantity, given
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.words.message import Message, say
 
 SAME = 1e-9  # relative; of a stored number and the same worked out again

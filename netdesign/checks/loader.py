@@ -33,7 +33,7 @@ from netdesign.edge.given_files import (
     parse_toml,
     read_bounded,
 )
-from netdesign.errors import StandardError
+from netdesign.outcome import StandardError
 from netdesign.units import radian_from_degree
 from netdesign.words.message import Message, say
 

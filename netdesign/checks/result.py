@@ -8,8 +8,7 @@ from typing import Protocol
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.steps import list_named
-from netdesign.errors import ModelError
-from netdesign.outcome import Verdict
+from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.words.message import Message, say
 
@@ -78,7 +77,7 @@ class GivenResistance(Protocol):
         """Reason for a missing value, where "none is given" does not say it."""
 
 
-def tell_proof(document: str, author: str, date: str, cell: str) -> Message:
+def describe_proof(document: str, author: str, date: str, cell: str) -> Message:
     """Document, author, date ("" for none) and cell of a declaration as one phrase."""
     if not date:
         return say("check.proof_undated", document=document, author=author, cell=cell)
@@ -116,7 +115,7 @@ class Declaration:
     @property
     def proof(self) -> Message:
         """The place of the proof, as one phrase."""
-        return tell_proof(self.document, self.author, self.date, self.source)
+        return describe_proof(self.document, self.author, self.date, self.source)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

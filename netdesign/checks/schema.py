@@ -18,7 +18,7 @@ from pydantic import (
 from pydantic_core import ErrorDetails
 
 from netdesign.edge.causes import explain_shape
-from netdesign.errors import ContentError, StandardError
+from netdesign.outcome import ContentError, StandardError
 from netdesign.words.message import Message, say
 
 ACTION_FACTOR = "action.snow"

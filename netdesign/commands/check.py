@@ -29,7 +29,7 @@ from netdesign.commands.options import (
     what_if_options,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
-from netdesign.commands.running import own_command, tell_time
+from netdesign.commands.running import format_time, own_command
 from netdesign.commands.site_input import (
     READING,
     open_site,
@@ -37,7 +37,7 @@ from netdesign.commands.site_input import (
     temporary_example,
 )
 from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.errors import StandardError
+from netdesign.outcome import StandardError
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -110,13 +110,13 @@ def check(site_file: Path | None, **asked: Any) -> None:
 
     language: Language = asked["language"]
     profiles = _choose_profiles(asked["standards"], site, asked["floor"])
-    _tell_other_profile(asked["standards"], site, language)
+    _describe_other_profile(asked["standards"], site, language)
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
         method=asked["method"],
         jobs=asked["jobs"] or os.cpu_count() or 1,
         command=own_command(),
-        started=tell_time(),
+        started=format_time(),
     )
     if asked["dry_run"]:
         from netdesign.commands.dry_run import announce
@@ -181,7 +181,9 @@ def _choose_profiles(
     return [one.overrule_floor(floor) for one in profiles] if floor else profiles
 
 
-def _tell_other_profile(names: Sequence[str], site: Site, language: Language) -> None:
+def _describe_other_profile(
+    names: Sequence[str], site: Site, language: Language
+) -> None:
     """Note that the command line overrules the profile that the site names."""
     named = site.project.standard
     if named and names and named not in names:

@@ -12,9 +12,9 @@ from netdesign.commands.report import choose_style, list_wanted, mark_names
 from netdesign.commands.running import (
     find_exit_code,
     open_run,
+    print_faults,
+    print_next_steps,
     report_places,
-    tell_faults,
-    tell_next_steps,
 )
 from netdesign.edge.output import PROFILES_FILE, STUDY_FILE, WHAT_IF_MARK, write_files
 from netdesign.edge.streams import print_json
@@ -76,8 +76,8 @@ def carry_out(task: Check, site_name: str) -> int:
         progress.enter("reports")
         begun = begin_outputs(task.outputs, studies, runner)
         files = render_outputs(task.outputs, studies, sized, begun)
-    lines = tell_sized(sized, studies, language)
-    failed = tell_faults(runner.faults, language)
+    lines = print_sizes(sized, studies, language)
+    failed = print_faults(runner.faults, language)
     write_files(files, overwrite=asked["force"])
     if as_json:
         print_json(_write_documents(studies))
@@ -86,7 +86,7 @@ def carry_out(task: Check, site_name: str) -> int:
     report_places([list(files)], language, quiet=quiet)
     if not quiet:
         verdicts = frozenset(row.verdict for study in studies for row in study.rows)
-        tell_next_steps(verdicts, site_name, language, is_sized=is_sized)
+        print_next_steps(verdicts, site_name, language, is_sized=is_sized)
     return failed or find_exit_code(studies)
 
 
@@ -320,11 +320,11 @@ def render_sized(
     )
 
 
-def tell_sized(
+def print_sizes(
     sized: Sequence[Sized], studies: Sequence[Study], language: Language
 ) -> list[str]:
     """Lines of what was found for each profile, and what those what-if studies say."""
-    from netdesign.report.what_if import list_sized, tell_overall
+    from netdesign.report.what_if import describe_overall, list_sized
     from netdesign.report.words import Words
 
     words = Words(language)
@@ -333,7 +333,7 @@ def tell_sized(
         lines.append(words("what_if.sized_for", profile=built.profile.id))
         lines += list_sized(one.cells, words) or [words("what_if.nothing")]
         if one.study is not None:
-            lines.append(tell_overall(one.study, words))
+            lines.append(describe_overall(one.study, words))
         elif any(cell.is_asked for cell in one.cells):
             lines.append(words("what_if.no_study_asked"))
         elif one.cells:

@@ -100,11 +100,11 @@ def answer_shell(command: click.Command, instruction: str) -> int:
     """Answer a shell that asks for completions; the exit code it expects."""
     shell = instruction.partition("_")[0]
     if kind := get_completion_class(shell):
-        add_completion_class(_tell_in_language(kind), shell)
+        add_completion_class(_describe_in_language(kind), shell)
     return shell_complete(command, {}, _PROGRAM, COMPLETE_VARIABLE, instruction)
 
 
-def _tell_in_language(kind: type[ShellComplete]) -> type[ShellComplete]:
+def _describe_in_language(kind: type[ShellComplete]) -> type[ShellComplete]:
     """Completion of a shell whose descriptions are in the language of the line."""
 
     class Told(kind):  # type: ignore[valid-type, misc]  # a class as an argument

@@ -32,7 +32,7 @@ import click
 from netdesign.commands.usage import UsageRefusal, ValueRefusal, explain_usage
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import is_there, list_faults, read_toml
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.words.catalogue import LANGUAGES, Language
 from netdesign.words.message import Message, say
 
@@ -121,7 +121,9 @@ def find_idle_variables(
     starts = (*(_name_variable(one, "") for one in names), *_OF_TESTS)
     known = _list_variables(name, command)
     return [
-        _tell_idle(variable, _name_variable(name, variable.removeprefix(_START)), known)
+        _describe_idle(
+            variable, _name_variable(name, variable.removeprefix(_START)), known
+        )
         for variable in sorted(os.environ)
         if variable.startswith(_START)
         and variable not in _OF_ALL
@@ -129,7 +131,7 @@ def find_idle_variables(
     ]
 
 
-def _tell_idle(variable: str, own: str, known: Sequence[str]) -> Message:
+def _describe_idle(variable: str, own: str, known: Sequence[str]) -> Message:
     if own in known:
         return say("usage.idle_variable_near", variable=variable, near=own)
     return say("usage.idle_variable", variable=variable)

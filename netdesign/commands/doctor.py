@@ -182,7 +182,7 @@ def _solve_small_scene() -> Message:
     from netdesign.coupling.scene import Scene, SolverSettings
     from netdesign.coupling.solution import FailedSolution
     from netdesign.coupling.steady.solve import solve_steady
-    from netdesign.errors import SolveError
+    from netdesign.outcome import SolveError
     from netdesign.snow.ground import GroundLaw
     from netdesign.snow.snowpack import Snowpack
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from netdesign.commands.running import tell_faults
+from netdesign.commands.running import print_faults
 from netdesign.commands.usage import tell
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -64,7 +64,7 @@ def announce(
         click.echo(json.dumps(plan, indent=1))
     else:
         _show(site, run, phases, seconds, language)
-    return tell_faults(runner.faults, language)
+    return print_faults(runner.faults, language)
 
 
 def _show(

@@ -25,7 +25,7 @@ from netdesign.commands.options import (
     refuse_jobs,
     solving_options,
 )
-from netdesign.commands.running import open_phases, tell_faults
+from netdesign.commands.running import open_phases, print_faults
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -112,7 +112,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
         else:
             document, record = _search(task, runner, progress, start, language)
         progress.enter("outputs")
-    failed = tell_faults(runner.faults, language)
+    failed = print_faults(runner.faults, language)
     text = _write(document, record, paths, overwrite=asked["force"], language=language)
     if asked["as_json"]:
         click.echo(text)
@@ -241,7 +241,7 @@ def _search(
     from netdesign.envelope.search import search_rows
     from netdesign.files.envelope import write_envelope_document
 
-    (found,) = search_rows([task], runner, progress.tell_wave)
+    (found,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start
     return write_envelope_document(found, runner.counts, elapsed, language)
 

@@ -49,32 +49,32 @@ class HelpTexts:
             key = next((one for one in self.texts if one.startswith(start)), key)
         return self.texts.get(key, text)
 
-    def tell_paragraphs(self, text: str) -> str:
+    def translate_paragraphs(self, text: str) -> str:
         """A command's help: paragraphs, and lines whose breaks are kept."""
         return "\n\n".join(
-            "\n".join(self._tell_columns(line) for line in one.split("\n"))
+            "\n".join(self._describe_columns(line) for line in one.split("\n"))
             if one.startswith(_AS_IT_STANDS)
             else self.tell(one)
             for one in text.split("\n\n")
         )
 
-    def tell_option(self, text: str) -> str:
+    def translate_option(self, text: str) -> str:
         """Description of an option with what click has added to it."""
         found = _EXTRAS.fullmatch(text)
         if found is None:
             return self.tell(text)
         joint = self.extras["; "]
-        extras = joint.join(self._tell_extra(one) for one in found[2].split("; "))
+        extras = joint.join(self._describe_extra(one) for one in found[2].split("; "))
         return f"{self.tell(found[1])}  [{extras}]"
 
-    def tell_signs(self, text: str) -> str:
+    def translate_signs(self, text: str) -> str:
         """Names of options and arguments with the signs of their values."""
         return _METAVAR.sub(lambda one: self.signs.get(one[0], one[0]), text)
 
-    def _tell_columns(self, line: str) -> str:
+    def _describe_columns(self, line: str) -> str:
         return "".join(self.tell(part) for part in _COLUMNS.split(line))
 
-    def _tell_extra(self, extra: str) -> str:
+    def _describe_extra(self, extra: str) -> str:
         name, mark, value = extra.partition(": ")
         return self.extras.get(name + mark, name + mark) + value
 

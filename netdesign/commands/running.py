@@ -14,8 +14,7 @@ import click
 
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.given_files import make_printable
-from netdesign.fault import EXIT_CODE, Fault
-from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -53,7 +52,7 @@ def own_command() -> str:
     return make_printable(shlex.join(["netdesign", *sys.argv[1:]]))
 
 
-def tell_time() -> str:
+def format_time() -> str:
     """Time of the run, or that of SOURCE_DATE_EPOCH for reproducible outputs."""
     from datetime import UTC, datetime
 
@@ -127,7 +126,7 @@ _SHOWN = 20  # cases of one fault
 TRACEBACK = "NETDESIGN_TRACEBACK"  # a variable that asks for the whole way
 
 
-def tell_faults(
+def print_faults(
     faults: Mapping[Fault, Collection[str]], language: Language = "en"
 ) -> int:
     """Tell each fault with its cases and their net rows, on stderr.
@@ -148,7 +147,7 @@ def tell_faults(
     for fault, rows in faults.items():
         alike.setdefault(str(fault), {})[fault] = rows
     for cases in alike.values():
-        _tell_alike(cases, language)
+        _describe_alike(cases, language)
     if not faults:
         return 0
     if not os.environ.get(TRACEBACK):
@@ -156,7 +155,9 @@ def tell_faults(
     return EXIT_CODE
 
 
-def _tell_alike(faults: Mapping[Fault, Collection[str]], language: Language) -> None:
+def _describe_alike(
+    faults: Mapping[Fault, Collection[str]], language: Language
+) -> None:
     """The same fault in some cases: its text once, and the way to the first."""
     first = next(iter(faults))
     lines: list[Message | str] = [say("cli.fault", fault=str(first))]
@@ -181,7 +182,7 @@ def _name_case(rows: tuple[str, ...], case: str) -> Message:
     return say(key, rows=rows, case=case)
 
 
-def tell_next_steps(
+def print_next_steps(
     verdicts: Set[Verdict], site: str, language: Language, *, is_sized: bool
 ) -> None:
     """Tell what to do about rows that do not pass; nothing where all do.

@@ -21,7 +21,7 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.causes import explain_with_file
-from netdesign.errors import OutputError, SiteDataError
+from netdesign.outcome import OutputError, SiteDataError
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 

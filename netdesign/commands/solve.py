@@ -15,10 +15,9 @@ from netdesign.commands.options import (
     language_option,
     out_option,
 )
-from netdesign.commands.running import EXIT_CODES, report_places, tell_faults
+from netdesign.commands.running import EXIT_CODES, print_faults, report_places
 from netdesign.commands.usage import tell
-from netdesign.fault import SENTENCE, Fault, catch_fault
-from netdesign.outcome import Outcome, Verdict
+from netdesign.outcome import SENTENCE, Fault, Outcome, Verdict, catch_fault
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
@@ -110,7 +109,7 @@ def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved
     if not isinstance(solution, Fault):
         return solution, 0
     failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
-    return failed, tell_faults({solution: ()}, language)
+    return failed, print_faults({solution: ()}, language)
 
 
 def _resolve_support(solution: Solved, given: GivenScene) -> SolvedSupport | None:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import click
 
 from netdesign.commands.options import language_option
-from netdesign.commands.usage import ToldGroup, tell
-from netdesign.errors import OutputError
+from netdesign.commands.usage import LanguageGroup, tell
+from netdesign.outcome import OutputError
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 from netdesign.words.names import name as name_of
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from netdesign.checks import Standard
 
 
-@click.group(cls=ToldGroup)
+@click.group(cls=LanguageGroup)
 @language_option("Of this help.", expose_value=False)
 def standards() -> None:
     """Show the limit profiles, and start one of your own.

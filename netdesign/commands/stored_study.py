@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.site_input import reopen_site, temporary_example
-from netdesign.errors import NetDesignError, StudyError
+from netdesign.outcome import NetDesignError, StudyError
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -160,14 +160,14 @@ def _find_site(
         if site_file is not None:
             raise
         first = render(error.message, language).partition("\n")[0]
-        _tell_uncompared(study_file, "stored.site_uncompared", first, language)
+        _describe_uncompared(study_file, "stored.site_uncompared", first, language)
         return None
     if site.sha256 == study.provenance.site_sha256:
         return site
     if site_file is not None:
         raise StudyError(say("stored.not_the_site", file=str(site_file)))
     reason = say("stored.other_site")
-    _tell_uncompared(study_file, "stored.site_uncompared", reason, language)
+    _describe_uncompared(study_file, "stored.site_uncompared", reason, language)
     return None
 
 
@@ -183,18 +183,18 @@ def _find_profile(
         if standard is not None:
             raise
         reason = error.message
-        _tell_uncompared(study_file, "stored.profile_uncompared", reason, language)
+        _describe_uncompared(study_file, "stored.profile_uncompared", reason, language)
         return None
     if profile.sha256 == study.profile.sha256:
         return profile
     if standard is not None:
         raise StudyError(say("stored.not_the_profile", profile=standard))
     reason = say("stored.other_profile")
-    _tell_uncompared(study_file, "stored.profile_uncompared", reason, language)
+    _describe_uncompared(study_file, "stored.profile_uncompared", reason, language)
     return None
 
 
-def _tell_uncompared(
+def _describe_uncompared(
     study_file: Path, key: str, reason: Message | str, language: Language
 ) -> None:
     from netdesign.edge.given_files import make_printable

@@ -13,7 +13,7 @@ from netdesign.commands.config import accept_variables, find_language
 from netdesign.commands.help_texts import HelpTexts, load_help
 
 
-class ToldFormatter(click.HelpFormatter):
+class LanguageFormatter(click.HelpFormatter):
     """Writes what click has to say in a language."""
 
     def __init__(self, told: HelpTexts, **widths: Any) -> None:
@@ -23,7 +23,7 @@ class ToldFormatter(click.HelpFormatter):
     def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
         """Write the line on usage."""
         start = f"{self.told.tell('Usage')}: " if prefix is None else prefix
-        super().write_usage(prog, self.told.tell_signs(args), start)
+        super().write_usage(prog, self.told.translate_signs(args), start)
 
     def write_heading(self, heading: str) -> None:
         """Write a heading."""
@@ -31,20 +31,20 @@ class ToldFormatter(click.HelpFormatter):
 
     def write_text(self, text: str) -> None:
         """Write the paragraphs of a command's help."""
-        super().write_text(self.told.tell_paragraphs(text))
+        super().write_text(self.told.translate_paragraphs(text))
 
     def write_dl(
         self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
     ) -> None:
         """Write names with their descriptions."""
         told = [
-            (self.told.tell_signs(name), self.told.tell_option(text))
+            (self.told.translate_signs(name), self.told.translate_option(text))
             for name, text in rows
         ]
         super().write_dl(told, col_max, col_spacing)
 
 
-class ToldContext(click.Context):
+class LanguageContext(click.Context):
     """Context of a command whose help is in the language of the run."""
 
     def make_formatter(self) -> click.HelpFormatter:
@@ -55,16 +55,16 @@ class ToldContext(click.Context):
         told = load_help(find_language(root, sys.argv[1:]))
         if told is None:
             return super().make_formatter()
-        return ToldFormatter(
+        return LanguageFormatter(
             told, width=self.terminal_width, max_width=self.max_content_width
         )
 
 
-def tell_help(command: click.Command) -> None:
+def print_help(command: click.Command) -> None:
     """Let the help of a command, and of all below it, be in the language of the run."""
-    command.context_class = ToldContext
+    command.context_class = LanguageContext
     for one in getattr(command, "commands", {}).values():
-        tell_help(one)
+        print_help(one)
 
 
 class CommandTable(MutableMapping[str, click.Command]):
@@ -81,7 +81,7 @@ class CommandTable(MutableMapping[str, click.Command]):
             module, function = self._places[name].split(".")
             found = getattr(import_module(f"netdesign.commands.{module}"), function)
             accept_variables(name, found)
-            tell_help(found)
+            print_help(found)
             self._commands[name] = found
         return self._commands[name]
 

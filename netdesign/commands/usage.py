@@ -41,7 +41,7 @@ class ValueRefusal(click.BadParameter):
         self.told = message
 
 
-class ToldGroup(click.Group):
+class LanguageGroup(click.Group):
     """A group that refuses an unknown command with a message."""
 
     def resolve_command(
@@ -74,7 +74,7 @@ def describe_refusal(
         return shown.getvalue()
     reason = render(explain_usage(error, command), language)
     if isinstance(error, click.MissingParameter):
-        reason = _tell_signs(reason, language)
+        reason = _translate_signs(reason, language)
     told = [say("usage.error", reason=reason)]
     context = getattr(error, "ctx", None)
     if context is not None:
@@ -85,7 +85,7 @@ def describe_refusal(
 def _describe_usage(context: click.Context, language: Language) -> list[Message]:
     command = context.command
     pieces = " ".join(command.collect_usage_pieces(context))
-    line = f"{context.command_path} {_tell_signs(pieces, language)}"
+    line = f"{context.command_path} {_translate_signs(pieces, language)}"
     lines = [say("usage.usage", line=line)]
     if command.get_help_option(context) is not None:
         option = context.help_option_names[-1]
@@ -93,10 +93,10 @@ def _describe_usage(context: click.Context, language: Language) -> list[Message]
     return lines
 
 
-def _tell_signs(text: str, language: Language) -> str:
+def _translate_signs(text: str, language: Language) -> str:
     """Names of arguments as the help of the language has them."""
     told = load_help(language)
-    return told.tell_signs(text) if told else text
+    return told.translate_signs(text) if told else text
 
 
 def explain_usage(

@@ -21,7 +21,7 @@ from netdesign.commands.options import (
     origin_options,
     refuse_without,
 )
-from netdesign.commands.running import open_run, tell_faults
+from netdesign.commands.running import open_run, print_faults
 from netdesign.commands.stored_study import (
     NO_COMMAND,
     contradict_command,
@@ -157,7 +157,7 @@ def _verify_study(
     asked = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
     with open_run(site, run, asked | {"language": language}) as (runner, watch):
         (again,) = check_site(site, [profile], run, runner, watch)
-    if failed := tell_faults(runner.faults, language):
+    if failed := print_faults(runner.faults, language):
         return failed
     count, differences = list_differences(study, again)
     ties = [one for one in differences if is_of_ties(one)]

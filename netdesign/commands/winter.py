@@ -33,8 +33,8 @@ from netdesign.commands.options import (
 from netdesign.commands.running import (
     EXIT_CODES,
     open_phases,
+    print_faults,
     report_places,
-    tell_faults,
 )
 from netdesign.commands.site_input import (
     READING,
@@ -44,8 +44,7 @@ from netdesign.commands.site_input import (
 )
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.streams import print_json
-from netdesign.errors import ModelError
-from netdesign.outcome import Verdict
+from netdesign.outcome import ModelError, Verdict
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -121,7 +120,7 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     with open_phases(phases, asked) as (runner, progress):
         progress.enter("winters")
         run = fit_rows(_solve(chosen, station, runner, asked), asked, runner)
-    failed = tell_faults(runner.faults, language)
+    failed = print_faults(runner.faults, language)
     document = write_winter_document(run, language)
     if folder:
         _write(folder, document, language, overwrite=asked["force"])
@@ -296,7 +295,7 @@ def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> Non
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"], language)
         if row["fit"]:
-            tell_fit(row["id"], row["fit"], language)
+            print_fit(row["id"], row["fit"], language)
 
 
 def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
@@ -359,7 +358,7 @@ def fit_rows(run: WinterRun, asked: Mapping[str, Any], runner: Runner) -> Winter
     return replace(run, fits=fits)
 
 
-def tell_fit(row: str, fit: Mapping[str, Any], language: Language) -> None:
+def print_fit(row: str, fit: Mapping[str, Any], language: Language) -> None:
     """Print what a fit says, and the bands that follow from it."""
     tell(
         say(

@@ -6,9 +6,8 @@ import numpy as np
 
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance, Solution
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.flow import compute_weight
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.placed_mesh import PlacedMesh

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from netdesign.cable.net import Net
-from netdesign.errors import ModelError
-from netdesign.guards import (
+from netdesign.outcome import (
+    ModelError,
     require_count,
     require_one_of,
     require_positive,

@@ -11,9 +11,8 @@ import numpy as np
 from netdesign.coupling.moments import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
-from netdesign.fault import Fault
 from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.outcome import Outcome
+from netdesign.outcome import Fault, Outcome
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.words.message import Message, say

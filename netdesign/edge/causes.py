@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from netdesign.edge.locks import is_held
-from netdesign.errors import ContentError, NetDesignError
+from netdesign.outcome import ContentError, NetDesignError
 from netdesign.words.message import Message, say
 
 # Of the kinds that a system tells by number; others keep the system's words.
@@ -66,7 +66,7 @@ def explain_with_file(error: OSError) -> Message | str:
         return explain(error)
     path = Path(os.fsdecode(error.filename))
     if is_held(error, path):
-        return say("os_error.open_elsewhere", file=repr(str(path)))
+        return say("os_error.open_in_program", file=repr(str(path)))
     return say("os_error.at_file", cause=explain(error), file=repr(error.filename))
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from netdesign.errors import ContentError, NetDesignError
+from netdesign.outcome import ContentError, NetDesignError
 from netdesign.words.message import Message, say
 
 # A scene, a profile's file and a set of defaults have a few kilobytes.
@@ -63,7 +63,7 @@ def parse_toml(content: bytes) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise ContentError(_tell_toml(error)) from None
+        raise ContentError(_describe_toml(error)) from None
     except ValueError:  # of Python's, which the parser lets through
         raise ContentError(say("file.long_number")) from None
     except RecursionError:
@@ -85,7 +85,7 @@ def decode_utf8(content: bytes) -> str:
         raise ContentError(say("file.no_utf8", line=line)) from None
 
 
-def _tell_toml(error: tomllib.TOMLDecodeError) -> Message:
+def _describe_toml(error: tomllib.TOMLDecodeError) -> Message:
     """Words of ours for what the parser tells in English only."""
     told = str(error)
     found = _TOML_PLACE.search(told)

@@ -9,7 +9,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.words.message import say
 
 if TYPE_CHECKING:  # slow to import and only needed to read a document

@@ -84,7 +84,7 @@ def is_held(error: OSError, path: Path) -> bool:
     return isinstance(error, PermissionError) and find_lock(path) is not None
 
 
-def is_open_elsewhere(path: Path) -> bool:
+def is_open_in_program(path: Path) -> bool:
     """A file cannot be replaced now, since another program has it open.
 
     Only Windows refuses that; elsewhere the old file stays with whoever reads it.

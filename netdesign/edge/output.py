@@ -10,8 +10,8 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from netdesign.edge.causes import explain_system, explain_with_file
-from netdesign.edge.locks import is_open_elsewhere, lock_folder
-from netdesign.errors import OutputError
+from netdesign.edge.locks import is_open_in_program, lock_folder
+from netdesign.outcome import OutputError
 from netdesign.words.message import say
 
 # Names of outputs, for those who plan files and for those who write them.
@@ -66,9 +66,9 @@ def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> Non
     if taken and not overwrite:
         raise OutputError(say("output.exists", paths=taken))
     there = [path for path in paths if path.exists()]
-    busy = tuple(str(path) for path in there if is_open_elsewhere(path))
+    busy = tuple(str(path) for path in there if is_open_in_program(path))
     if busy:
-        raise OutputError(say("output.open_elsewhere", paths=busy))
+        raise OutputError(say("output.open_in_program", paths=busy))
     for folder in {path.parent for path in paths}:
         nearest = next(p for p in (folder, *folder.absolute().parents) if p.exists())
         if not nearest.is_dir():

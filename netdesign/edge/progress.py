@@ -208,7 +208,7 @@ class RunProgress:
         self._waiting = 0
         self._tell()
 
-    def tell_wave(self, wave: SearchWave) -> None:
+    def report_wave(self, wave: SearchWave) -> None:
         """A wave of a search is over."""
         later = wave.cases_waiting + _LATER_CASES * wave.rows_open
         self._expected = self._done_here + later

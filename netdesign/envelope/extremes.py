@@ -74,14 +74,14 @@ def describe_gap(results: Sequence[CaseResult]) -> Message | None:
     if not results:
         return say("envelope.no_case")
     if failed:
-        return _tell_failed("envelope.failed_cases", failed, len(results))
+        return _describe_failed("envelope.failed_cases", failed, len(results))
     without = [one for one in results if isinstance(one.panel, FailedPanel)]
     if without:
-        return _tell_failed("panel.failed_cases", without, len(results))
+        return _describe_failed("panel.failed_cases", without, len(results))
     return None
 
 
-def _tell_failed(key: str, failed: Sequence[CaseResult], count: int) -> Message:
+def _describe_failed(key: str, failed: Sequence[CaseResult], count: int) -> Message:
     reasons = {str(one.lack): one.lack for one in failed if one.lack is not None}
     told = [reasons[text] for text in sorted(reasons)]
     if key == "panel.failed_cases":  # one of each kind: every case has its own depth

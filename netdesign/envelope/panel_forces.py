@@ -15,8 +15,7 @@ from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.support_bands import resolve_pulls, spread_out
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel, PanelSolution, RopeForces
 from netdesign.panel.solve import solve_strips

@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack, compute_thickness, scale_layers
 from netdesign.units import (

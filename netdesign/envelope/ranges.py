@@ -12,8 +12,7 @@ import numpy as np
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
 from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS, place_scene
-from netdesign.errors import ModelError
-from netdesign.guards import show_given_units
+from netdesign.outcome import ModelError, show_given_units
 from netdesign.words.message import Message, say
 
 # What every case has; the other parameters only where they range.

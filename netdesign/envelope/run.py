@@ -13,9 +13,7 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.panel_forces import PanelForces, resolve_panels
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.support_bands import resolve_pulls
-from netdesign.errors import ModelError
-from netdesign.fault import SENTENCE, Fault, catch_fault
-from netdesign.outcome import Outcome
+from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel
 from netdesign.solving.describe import describe_case

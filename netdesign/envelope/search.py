@@ -22,7 +22,7 @@ from netdesign.envelope.rows import (
     list_grid,
 )
 from netdesign.envelope.run import CaseResult
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.search.known_search import KnownSearch, Repetition
 from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.solving.runner import Runner

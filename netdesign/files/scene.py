@@ -18,13 +18,13 @@ from netdesign.coupling.history.settings import (
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_toml
-from netdesign.errors import ModelError, SceneFileError
 from netdesign.files.support_tables import (
     GivenSupport,
     PanelTable,
     SupportTable,
     build_support,
 )
+from netdesign.outcome import ModelError, SceneFileError
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     DENSEST_SNOW,

@@ -315,7 +315,7 @@ def _find_missed_accuracy(
 def _list_history_flags(history: History | None, scene: Scene) -> list[Message]:
     if history is None:
         return []
-    flags = [_tell_clock(scene)] if scene.settles_as_stations else []
+    flags = [_describe_clock(scene)] if scene.settles_as_stations else []
     plateau = history.plateau
     if plateau.was_left:
         flags.append(
@@ -334,7 +334,7 @@ def _list_history_flags(history: History | None, scene: Scene) -> list[Message]:
     return flags
 
 
-def _tell_clock(scene: Scene) -> Message:
+def _describe_clock(scene: Scene) -> Message:
     n = scene.creep_law.exponent
     fluidity = fluidity_per_mpa_year(scene.creep_fluidity, n)
     return say("solution.settling_clock", fluidity=fluidity, exponent=n)

@@ -11,7 +11,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.panel.inputs import LARGEST_GUY_ANGLE, LARGEST_SAG, Cut, Panel, Rope
 from netdesign.structure.layout import (
     DEFAULT_DOWNHILL_RATIO,

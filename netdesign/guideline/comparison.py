@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import Generic
 
-from netdesign.errors import ModelError
 from netdesign.guideline.load_model import (
     LoadModel,
     SnowLoad,
@@ -21,6 +20,7 @@ from netdesign.numerics.either import (
     take_larger,
     take_smaller,
 )
+from netdesign.outcome import ModelError
 from netdesign.snow.ground import DEFAULT_CREEP_LAW, GroundLaw, load_glide_tables
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport

@@ -10,7 +10,6 @@ from itertools import product
 
 import numpy as np
 
-from netdesign.errors import ModelError
 from netdesign.guideline.comparison import (
     GuidelineResult,
     LoadCase,
@@ -24,6 +23,7 @@ from netdesign.guideline.load_model import LoadModel, SnowLoad
 from netdesign.guideline.net_pull import NetPull
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.climb import build_grid, find_largest
+from netdesign.outcome import ModelError
 from netdesign.structure.anchors import (
     AnchorForces,
     ManyForces,

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from typing import Generic
 
 from netdesign.checks.loader import Standard
-from netdesign.errors import StandardError
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Number
 from netdesign.numerics.either import (
     find_tangent,
@@ -17,6 +15,7 @@ from netdesign.numerics.either import (
     take_larger,
     take_smaller,
 )
+from netdesign.outcome import StandardError, require_positive, require_within
 from netdesign.structure.row_position import EndEffectRule
 from netdesign.words.message import say
 

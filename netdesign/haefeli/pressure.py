@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.guards import require_positive, require_within
 from netdesign.haefeli.slab import Slab, compute_influence_length
+from netdesign.outcome import require_positive, require_within
 from netdesign.snow.snowpack import GRAVITY
 
 _MOST_DECAY = 700.0  # of exp(), which has an end

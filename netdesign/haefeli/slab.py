@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.errors import ModelError
-from netdesign.guards import require_positive, require_within
+from netdesign.outcome import ModelError, require_positive, require_within
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     ICE_DENSITY,

@@ -10,8 +10,8 @@ from typing import cast
 
 import numpy as np
 
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Mask, Number
+from netdesign.outcome import require_positive, require_within
 
 Truth = bool | Mask
 

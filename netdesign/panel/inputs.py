@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from netdesign.guards import require_one_of, require_positive, require_within
+from netdesign.outcome import require_one_of, require_positive, require_within
 
 # uniform: one length everywhere; upper: to the hanging ridge rope; fitted: to both.
 Cut = Literal["uniform", "upper", "fitted"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.guards import require_within
+from netdesign.outcome import require_within
 from netdesign.panel.inputs import LARGEST_GUY_ANGLE
 from netdesign.panel.solution import PanelSolution
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces

@@ -13,10 +13,8 @@ import numpy as np
 from netdesign.core.arguments import locate, to_floats
 from netdesign.core.library import find_core, require_sound
 from netdesign.coupling.solution import Solution
-from netdesign.errors import SolveError
-from netdesign.guards import require_within
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError, require_within
 from netdesign.panel.equations import (
     PanelProblem,
     RopeLoads,

@@ -18,9 +18,8 @@ from netdesign.cable.funicular import (
 )
 from netdesign.cable.net import Net
 from netdesign.coupling.solution import EndPull, Solution
-from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.panel.inputs import Panel
 from netdesign.panel.stations import Stations
 from netdesign.words.message import say

@@ -10,8 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
-from netdesign.guards import require_positive, require_within
 from netdesign.haefeli.slab import Slab, find_linear_slip
+from netdesign.outcome import require_positive, require_within
 from netdesign.planview.free_gap import find_isolated_excess, solve_free_gap
 from netdesign.planview.gap import GapFlow, find_excess_within
 from netdesign.planview.pulled_gap import ISOLATED_EXCESS, solve_pulled_gap

@@ -10,8 +10,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import require_positive, require_within
 from netdesign.planview.special import gamma, jv, rgamma
 
 MOST_FUNCTIONS = 16

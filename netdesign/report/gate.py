@@ -8,8 +8,7 @@ from html.parser import HTMLParser
 
 from netdesign.calculation.steps import SAME, Step, compare_steps, is_same
 from netdesign.checks.schema import MODES_WITHOUT_FORCE
-from netdesign.errors import ContentError, NetDesignError
-from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.outcome import ContentError, NetDesignError, Verdict, merge_verdicts
 from netdesign.structure.members import ROPE_OF
 from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value

@@ -9,15 +9,15 @@ from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent
 from netdesign.report.governing import SEVERITY, find_governing, rank_check
 from netdesign.report.sections.basis import (
+    describe_floor,
     has_other_floor,
     list_notes,
     name_cases,
-    tell_floor,
 )
 from netdesign.report.sections.changes import list_changes
-from netdesign.report.sections.checks import name_case, tell_briefly, tell_loads
+from netdesign.report.sections.checks import describe_briefly, describe_loads, name_case
 from netdesign.report.sections.decision import list_open_points
-from netdesign.report.sections.verify import tell_cases
+from netdesign.report.sections.verify import describe_cases
 from netdesign.report.terminal import Headings, RowLine, Summary
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
@@ -84,7 +84,7 @@ def _show_row(row: RowStudy, words: Words) -> RowLine:
         if check
         else words("heading.no_check"),
         utilisation=words.show_number("utilisation", check.used) if check else MISSING,
-        reason=tell_briefly(row, words),
+        reason=describe_briefly(row, words),
     )
 
 
@@ -92,10 +92,10 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
     """Counts, and what is open."""
     verdicts = [check.verdict for row in study.rows for check in row.checks]
     checks = _count_verdicts(verdicts, words)
-    yield words("show.counts", checks=checks, cases=tell_cases(study, words))
+    yield words("show.counts", checks=checks, cases=describe_cases(study, words))
     if has_other_floor(study):
         floor = words("heading.floor")
-        yield words("show.label", label=floor, text=tell_floor(study, words))
+        yield words("show.label", label=floor, text=describe_floor(study, words))
     points = list(list_open_points(study, words))
     if is_short:
         yield words("show.more_points", count=len(points))
@@ -124,14 +124,14 @@ def _explain(study: Study, words: Words) -> Iterator[str]:
     yield name_cases(study, words)
     for row in study.rows:
         check = find_governing(row.checks)
-        if check and (loads := tell_loads(check, words)):
+        if check and (loads := describe_loads(check, words)):
             place = f"{show_text(row.id)}, {show_check(words, check)}"
             told = words.join([name_case(check, words), loads])
             yield words("show.label", label=place, text=told)
         for reason in row.reasons:
             text = words.show(reason)
             yield words("show.label", label=show_text(row.id), text=text)
-    floor = tell_floor(study, words)
+    floor = describe_floor(study, words)
     yield words("show.label", label=words("heading.floor"), text=floor)
     for note in list_notes(study, words):
         yield words("show.note", note=note)

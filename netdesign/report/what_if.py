@@ -38,7 +38,7 @@ def mark_verdict(study: Study, words: Words) -> VerdictWords:
     )
 
 
-def tell_overall(study: Study, words: Words) -> str:
+def describe_overall(study: Study, words: Words) -> str:
     """Verdict of a study in one line, with what it means."""
     verdict = mark_verdict(study, words)
     return f"{words('show.overall', verdict=verdict.word)} - {verdict.meaning}"
@@ -52,10 +52,12 @@ def mark_title(study: Study, title: str, words: Words) -> str:
 
 
 def _list(study: Study) -> list[str]:
-    return [_tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if]
+    return [
+        _describe_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if
+    ]
 
 
-def _tell_cell(cell: str, was: str, now: str) -> str:
+def _describe_cell(cell: str, was: str, now: str) -> str:
     """Cell with what it has and what is read instead."""
     return show_text(f"{cell}: {was} → {now}")
 
@@ -81,10 +83,10 @@ def build_what_if(study: Study, words: Words) -> Table:
 
 def list_sized(sized: Iterable[SizedCell], words: Words) -> Sequence[str]:
     """Lines on the smallest types that were found, or that none was."""
-    return [_tell_sized(one, words) for one in sized]
+    return [_print_sizes(one, words) for one in sized]
 
 
-def _tell_sized(one: SizedCell, words: Words) -> str:
+def _print_sizes(one: SizedCell, words: Words) -> str:
     place = {"row": show_text(one.row_id), "member": show_member(words, one.column)}
     if not one.cell:
         return words("what_if.no_cell", **place)

@@ -9,7 +9,7 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.words.message import Message, say
 
 

@@ -47,7 +47,7 @@ class Product:
     assumed: frozenset[str]
     sources: tuple[Message, ...]
 
-    def tell_status(self, quantity: str) -> str:
+    def describe_status(self, quantity: str) -> str:
         """Status of a quantity, "secondary" or "assumed", as in the limit profiles."""
         return "assumed" if quantity in self.assumed else "secondary"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.guards import require_within
+from netdesign.outcome import require_within
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

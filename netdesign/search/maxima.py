@@ -14,9 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.errors import ModelError
-from netdesign.guards import require_count, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError, require_count, require_within
 from netdesign.search.questions import Question, choose_questions, list_first_design
 from netdesign.search.surrogate import (
     Point,

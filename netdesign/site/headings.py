@@ -425,7 +425,7 @@ def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
     for unit in field.units:
         value = convert_unit(number, unit, field.unit)
         if field.bounds[0] <= value <= field.bounds[1]:
-            readings.append(_tell_reading((number, unit), (value, field.unit)))
+            readings.append(_describe_reading((number, unit), (value, field.unit)))
     if len(readings) < 2:
         return say("heading.no_unit")
     return say(
@@ -433,7 +433,7 @@ def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
     )
 
 
-def _tell_reading(typed: tuple[float, str], own: tuple[float, str]) -> Message:
+def _describe_reading(typed: tuple[float, str], own: tuple[float, str]) -> Message:
     """A number with the unit that it may have, and what it is in the field's unit."""
     (number, unit), (other, other_unit) = typed, own
     if unit == other_unit:

@@ -19,7 +19,7 @@ from netdesign.edge.given_files import (
     parse_toml,
     read_bounded,
 )
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.site.cells.cells import UNASKED, Answers, Sheet, Workbook
 from netdesign.site.cells.findings import (
     Finding,

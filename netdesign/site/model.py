@@ -11,7 +11,7 @@ from typing import get_args
 from netdesign.checks import Declaration
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
-from netdesign.guards import require_positive, require_within
+from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.pull_out import PullOutTests

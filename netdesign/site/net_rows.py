@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.headings import Table

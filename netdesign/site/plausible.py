@@ -44,7 +44,11 @@ def ask(
             continue
         if reading.place not in asked:
             refuse(
-                reading, rule, _tell_how(reading.cell), findings, severity="question"
+                reading,
+                rule,
+                _describe_how(reading.cell),
+                findings,
+                severity="question",
             )
             asked[reading.place] = _name_question(reading, rule)
         for row in rows:
@@ -63,7 +67,7 @@ def _name_question(reading: Reading, rule: Message) -> Message:
     )
 
 
-def _tell_how(cell: Cell) -> Message:
+def _describe_how(cell: Cell) -> Message:
     """The way to settle a question."""
     sheet, value = say("sheet.Declared"), show_value(cell)
     return say("plausible.settle", sheet=sheet, place=cell.place, value=value)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from netdesign.edge.given_files import make_printable
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook

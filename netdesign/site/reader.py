@@ -8,7 +8,7 @@ from functools import lru_cache, partial
 from pathlib import Path
 from types import MappingProxyType
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, Answers, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
@@ -54,7 +54,7 @@ from netdesign.site.ranges import (
     refuse_large_grid,
 )
 from netdesign.site.readings import Row, refuse
-from netdesign.site.replaced import replace_cells, tell_replaced
+from netdesign.site.replaced import mark_replaced, replace_cells
 from netdesign.site.snow_layers import check_layers, read_layers
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.tables import (
@@ -123,7 +123,7 @@ def read_site(
     questions = ask(lines, confirmed, findings)
     rows = tuple(
         replace(
-            tell_replaced(row, replaced),
+            mark_replaced(row, replaced),
             unsaid=row.unsaid + ranges.unsaid,
             questions=questions.get(row.id, ()),
         )

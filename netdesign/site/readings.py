@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, Severity, add_nearest
 from netdesign.site.cells.numbers import (

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import Cell, Sheet, Workbook, group_by_row
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import InputEcho, NetRow, ReplacedCell
@@ -115,7 +115,7 @@ def _refuse_same(cell: Cell) -> Finding:
     )
 
 
-def tell_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
+def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
     """Net row whose inputs say what the workbook has in the place of a what-if."""
     was = {one.cell: one.was for one in replaced}
     if not was:
@@ -124,11 +124,11 @@ def tell_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
     def tell(echo: InputEcho) -> InputEcho:
         if echo.cell not in was or echo.derivation is not None:
             return echo
-        return replace(echo, derivation=tell_instead(was[echo.cell]))
+        return replace(echo, derivation=describe_replaced(was[echo.cell]))
 
     return replace(row, inputs=tuple(map(tell, row.inputs)))
 
 
-def tell_instead(was: str) -> Message:
+def describe_replaced(was: str) -> Message:
     """Text that a cell of the workbook holds, which a what-if replaced."""
     return say("what_if.instead", was=was) if was else say("what_if.instead_of_nothing")

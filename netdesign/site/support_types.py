@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import RoundSection
 from netdesign.site.lines import Types

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import (
     Datum,
     find_bond_stress,
@@ -140,7 +140,7 @@ def _word(row: Row, key: str, default: str) -> str:
     return row[key].word or default
 
 
-def _tell_origin(datum: Datum) -> Message:
+def _describe_origin(datum: Datum) -> Message:
     """Status and source of a number of the catalogue."""
     status = name("status", datum.status)
     return say("derivation.origin", status=status, source=datum.source)
@@ -179,7 +179,7 @@ def _bond(row: Row) -> tuple[float, Message]:
         stress=bond.value,
         ground=ground_name,
         grouting=grouting,
-        origin=_tell_origin(bond),
+        origin=_describe_origin(bond),
     )
 
 
@@ -201,9 +201,9 @@ def _rope(row: Row) -> tuple[float, Message]:
         grade=grade.number,
         loss=loss.value,
         construction=construction,
-        origin=_tell_origin(factor),
+        origin=_describe_origin(factor),
         termination=row["termination"].field.name_word(kind),
-        loss_origin=_tell_origin(loss),
+        loss_origin=_describe_origin(loss),
     )
 
 
@@ -235,7 +235,7 @@ def _buckling(row: Row) -> tuple[float, Message]:
         modulus=load_catalogue()["buckling"]["E_MPa"],
         second_moment=row["second_moment"].number,
         length=row["buckling_length"].number,
-        origin=_tell_origin(imperfection),
+        origin=_describe_origin(imperfection),
     )
 
 

@@ -13,9 +13,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.creep_law import DENSEST_SNOW, CreepLaw, compute_factors
 from netdesign.snow.law import FlowProblem, Material, sample_material
 from netdesign.snow.mesh import NET_FOLLOWED, MeshTemplate, place_nodes

@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.errors import ModelError
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError, require_positive, require_within
 from netdesign.units import fluidity_from_mpa_year, kelvin_from_celsius
 from netdesign.words.message import say
 

@@ -12,9 +12,8 @@ from typing import Literal
 
 import numpy as np
 
-from netdesign.errors import ModelError
-from netdesign.guards import require_one_of, require_within
 from netdesign.numerics.arrays import Number
+from netdesign.outcome import ModelError, require_one_of, require_within
 from netdesign.words.message import say
 
 GroundKind = Literal["free", "no-slip", "sliding"]

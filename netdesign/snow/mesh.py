@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.outcome import require_positive, require_within
 from netdesign.snow.triangulation import (
     Triangulation,
     connect_points,

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from netdesign.errors import ModelError
-from netdesign.guards import (
+from netdesign.outcome import (
+    ModelError,
     name_quantity,
     require_one_of,
     require_positive,

@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.numerics.scipy_start import importing_parts_of
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
 
 # Vertices of each edge of a triangle; reference coordinates of its six nodes.

@@ -21,7 +21,7 @@ from netdesign.edge.given_files import find_resource
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _SOLVER_PARTS = (
-    *("guards.py", "outcome.py", "units.py"),
+    *("outcome.py", "units.py"),
     *("numerics", "core", "snow", "cable", "coupling", "solving"),
 )
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing

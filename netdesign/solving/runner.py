@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from netdesign.coupling.solution import FailedSolution
-from netdesign.fault import Fault
+from netdesign.outcome import Fault
 from netdesign.search.known_search import KnownSearch
 from netdesign.solving.state import CaseEnd, is_stuck
 from netdesign.solving.store import FORGOTTEN, CaseStore, name_case, name_search
@@ -49,7 +49,7 @@ class Runner:
         Of all calls so far.
     faults : dict of Fault to set of str
         Faults of the program so far, and the net rows that they befell as far as these
-        are known. A run with any of them ends with ``fault.EXIT_CODE``.
+        are known. A run with any of them ends with ``outcome.EXIT_CODE``.
     """
 
     workers: Workers = field(default_factory=OwnProcess)

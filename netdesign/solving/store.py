@@ -24,8 +24,7 @@ from typing import Any
 
 from netdesign.edge.causes import explain
 from netdesign.edge.json_text import MAX_JSON_BYTES
-from netdesign.errors import NetDesignError
-from netdesign.outcome import Outcome
+from netdesign.outcome import NetDesignError, Outcome
 from netdesign.search.known_search import KnownSearch, decode_search, encode_search
 from netdesign.solving.identity import identify_program, identify_solver
 from netdesign.solving.state import CaseEnd, decode_end, encode_end
@@ -239,13 +238,13 @@ class CaseStore:
             for name, numbers, shape, seal in self._base.execute(query, part):
                 end = _unseal(name, numbers, shape, seal)
                 if end is None:
-                    self._tell_damaged("store.case_damaged", name)
+                    self._describe_damaged("store.case_damaged", name)
                     self._base.execute("DELETE FROM cases WHERE name = ?", (name,))
                 else:
                     found[name] = end
         return found
 
-    def _tell_damaged(self, key: str, name: str) -> None:
+    def _describe_damaged(self, key: str, name: str) -> None:
         self._tell(say(key, path=str(self.path), name=name[:12]))
 
     def keep(self, name: str, end: CaseEnd) -> None:
@@ -265,7 +264,7 @@ class CaseStore:
             with suppress(ValueError, KeyError, TypeError):
                 if seal_entry(name, text) == seal:
                     return decode_search(text)
-            self._tell_damaged("store.search_damaged", name)
+            self._describe_damaged("store.search_damaged", name)
         return None
 
     def keep_search(self, name: str, known: KnownSearch) -> None:
@@ -283,7 +282,7 @@ class CaseStore:
             texts = _unpack(name, packed, seal)
             if texts is not None:
                 return texts
-            self._tell_damaged("store.row_damaged", name)
+            self._describe_damaged("store.row_damaged", name)
         return None
 
     def keep_row(self, name: str, texts: Sequence[str]) -> None:

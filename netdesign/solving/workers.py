@@ -26,9 +26,15 @@ from typing import Any, Protocol, TypeVar
 
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, WallSolution
-from netdesign.errors import ModelError, NetDesignError, SolveError
-from netdesign.fault import SENTENCE, Fault, catch_fault
-from netdesign.outcome import Outcome
+from netdesign.outcome import (
+    SENTENCE,
+    Fault,
+    ModelError,
+    NetDesignError,
+    Outcome,
+    SolveError,
+    catch_fault,
+)
 from netdesign.snow.triangulation import load_delaunay
 from netdesign.solving.describe import describe_case
 from netdesign.solving.solve import Settings, solve_scene

@@ -6,10 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from netdesign.guards import require_positive
 from netdesign.numerics.arrays import Floats, Mask, Number
 from netdesign.numerics.either import as_mask, measure_length, take_larger
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, require_positive
 from netdesign.structure.axis import measure_pull
 from netdesign.structure.head import (
     FailedSupport,

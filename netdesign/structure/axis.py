@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from netdesign.guards import require_within
 from netdesign.numerics.arrays import Number
 from netdesign.numerics.either import measure_turn
+from netdesign.outcome import require_within
 from netdesign.structure.members import Member
 
 LEAST_AXIS, MOST_AXIS = math.radians(-30.0), math.radians(90.0)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import ClassVar, Generic, TypeAlias
 
-from netdesign.guards import require_within
 from netdesign.numerics.arrays import Number
 from netdesign.numerics.either import (
     Truth,
@@ -17,7 +16,7 @@ from netdesign.numerics.either import (
     measure_length,
     take_larger,
 )
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, require_within
 from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import Message, say
 
@@ -107,7 +106,7 @@ def compute_head_forces(
         post_compression=held.post_compression,
         uphill_guy_tension=held.uphill_guy_tension,
         downhill_guy_tension=held.downhill_guy_tension,
-        reason=say(_tell_carriers(held)),
+        reason=say(_describe_carriers(held)),
     )
 
 
@@ -247,7 +246,7 @@ def _resolve(
     )
 
 
-def _tell_carriers(held: HeldHead[float]) -> str:
+def _describe_carriers(held: HeldHead[float]) -> str:
     if held.is_alone:
         return "support.post_alone"
     by_up = held.uphill.holds

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Number
+from netdesign.outcome import require_positive, require_within
 from netdesign.structure.members import Member
 
 # Defaults of this program, chosen for a sensible geometry; from no standard.

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from netdesign.guards import require_positive, require_within
+from netdesign.outcome import require_positive, require_within
 
 Position = Literal["intermediate", "edge"]
 

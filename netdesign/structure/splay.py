@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.guards import require_within
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, require_within
 from netdesign.structure.head import FailedSupport, compute_head_forces
 from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import say

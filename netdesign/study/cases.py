@@ -17,7 +17,7 @@ from netdesign.envelope.ranges import Case, Ranges, build_cases
 from netdesign.envelope.rows import RowEnvelope, RowGrid, RowTask, refine_settings
 from netdesign.envelope.run import CaseTask, build_task, run_cases
 from netdesign.envelope.search import Wave, search_rows
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
 from netdesign.search.questions import list_first_design
 from netdesign.site.model import NetRow, Site

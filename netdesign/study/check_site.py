@@ -29,7 +29,7 @@ class Watch(Protocol):
     def enter(self, key: str, words: Message | None = None) -> None:
         """Tell that a phase of ``cases.list_phases`` begins, by words of its own."""
 
-    def tell_wave(self, wave: Wave) -> None:
+    def report_wave(self, wave: Wave) -> None:
         """Tell that a wave of the search is over."""
 
     def count_piece(self) -> None:
@@ -40,7 +40,7 @@ class _Nobody:
     """Watch of a check whose progress nobody asks for."""
 
     def enter(self, key: str, words: Message | None = None) -> None: ...
-    def tell_wave(self, wave: Wave) -> None: ...
+    def report_wave(self, wave: Wave) -> None: ...
     def count_piece(self) -> None: ...
 
 
@@ -140,7 +140,7 @@ def solve_rows(
     if todo and site.ranges.is_grid:
         found = solve_site(part, run, runner)
     elif todo:
-        found = search_site(part, run, runner, watch.tell_wave)
+        found = search_site(part, run, runner, watch.report_wave)
     by_id = dict(zip((row.id for row in todo), found, strict=True))
     if known is not None:
         old = zip(known.site.rows, known.rows, strict=True)

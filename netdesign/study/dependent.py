@@ -19,7 +19,6 @@ from netdesign.checks.check import (
 from netdesign.checks.forces import resist_by_friction
 from netdesign.checks.schema import ACTION_FACTOR, POST_EFFICIENCY
 from netdesign.envelope.ranges import Ranges
-from netdesign.errors import ModelError
 from netdesign.guideline.load_model import (
     LoadModel,
     SnowLoad,
@@ -27,6 +26,7 @@ from netdesign.guideline.load_model import (
     compute_snow_load,
     read_load_model,
 )
+from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,
@@ -124,7 +124,9 @@ def _settle_bending(
         ),
         key=lambda one: one.value,
     )
-    return replace(given, value=worst.value, derivation=_tell_bending(section, worst))
+    return replace(
+        given, value=worst.value, derivation=_describe_bending(section, worst)
+    )
 
 
 def _find_weakest(section: RoundSection, lever: float, largest: float) -> float:
@@ -133,7 +135,7 @@ def _find_weakest(section: RoundSection, lever: float, largest: float) -> float:
     return min(math.atan(bending), largest)
 
 
-def _tell_bending(section: RoundSection, bent: BentBar) -> Message:
+def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
     is_sheared = bent.shear_ratio > 0.5
     return say(
         "bending.with_shear" if is_sheared else "bending.without_shear",

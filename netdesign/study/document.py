@@ -20,7 +20,7 @@ from netdesign.edge.json_text import (
     read_json,
     write_part,
 )
-from netdesign.errors import ContentError, StudyError
+from netdesign.outcome import ContentError, StudyError
 from netdesign.study.records import SCHEMA, RowStudy, Study
 from netdesign.words.message import say
 

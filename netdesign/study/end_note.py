@@ -7,9 +7,9 @@ from itertools import product
 
 from netdesign.checks import Standard
 from netdesign.envelope.ranges import Ranges
-from netdesign.errors import ModelError
 from netdesign.guideline.load_model import read_end_effect
 from netdesign.haefeli.slab import Slab
+from netdesign.outcome import ModelError
 from netdesign.planview.end_effect import EndEffect, compute_end_effect
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw

@@ -23,11 +23,11 @@ from netdesign.study.member_force import (
     MemberForce,
     RowForces,
     find_force,
-    tell_governing,
+    name_governing,
 )
 from netdesign.study.pulls import AnchorPull, check_directions, find_pull
 from netdesign.study.records import CheckRecord
-from netdesign.study.row_end import find_lack, find_other_panel, tell_unsaid
+from netdesign.study.row_end import find_lack, find_other_panel, name_unsaid
 from netdesign.study.settle import (
     judge_force,
     list_checked,
@@ -215,7 +215,7 @@ def _find_unsaid(
 ) -> Message | None:
     """Lack of what a force depends on, so that nothing is known of it."""
     if row.unsaid:
-        return tell_unsaid(row)
+        return name_unsaid(row)
     if known.panel_gap is not None:
         return known.panel_gap
     return find_lack(row, given) if width.position == "edge" else None
@@ -281,7 +281,7 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     What is not known of the row's end alone leaves no other check open.
     """
     if row.unsaid:
-        return tell_unsaid(row)
+        return name_unsaid(row)
     members = [one for one in judged if not one.is_of_end]
     found = (find_lack(row, one.given) or row.panel_lack for one in members)
     of_end = [one for one in found if one is not None]
@@ -304,7 +304,7 @@ def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
         check,
         load_case=least.load_case if least else "",
         load_inclination_deg=least.inclination_deg if least else None,
-        reason=tell_governing(
+        reason=name_governing(
             settled.reason, one.force, least.load_case if least else ""
         ),
     )

@@ -291,7 +291,7 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
     return [given("γ", degree_from_radian(angle), "deg", cell)]
 
 
-def tell_governing(reason: Message, force: MemberForce, load_case: str) -> Message:
+def name_governing(reason: Message, force: MemberForce, load_case: str) -> Message:
     """A verdict's reason with the load that governs; of no demand at all, none does."""
     loads = (force.on.coupled, force.on.by_panel, force.on.guideline)
     is_alone = loads[1] is None and loads[2] is None
@@ -302,7 +302,7 @@ def tell_governing(reason: Message, force: MemberForce, load_case: str) -> Messa
 
 
 def leave_out_governing(reason: Message) -> Message:
-    """The reason alone of what `tell_governing` gives."""
+    """The reason alone of what `name_governing` gives."""
     alone = reason.arguments.get("reason")
     is_told = reason.key == "load.reason" and isinstance(alone, Message)
     return alone if is_told and isinstance(alone, Message) else reason

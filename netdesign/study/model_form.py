@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
@@ -231,7 +231,7 @@ def _record(
         creep_law=one.law.name,
         exponent=one.law.exponent,
         slip_length_m=one.ground.slip_length or None,
-        stated=_tell_stated(one.stated, densities),
+        stated=_describe_stated(one.stated, densities),
         is_calibrated=is_calibrated(one.law, row, case.density),
         foot_anchor_kN=kilonewton_if_known(values.get(Member.FOOT_ANCHOR)),
         uphill_guy_kN=kilonewton_if_known(values.get(Member.UPHILL_GUY)),
@@ -241,7 +241,7 @@ def _record(
     )
 
 
-def _tell_stated(stated: StatedExponent | None, densities: Sequence[float]) -> str:
+def _describe_stated(stated: StatedExponent | None, densities: Sequence[float]) -> str:
     if stated is None:
         return ""
     return "yes" if all(map(stated.is_stated_for, densities)) else "no"

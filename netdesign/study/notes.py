@@ -73,10 +73,10 @@ def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
     accepted = site.project.accepted_law == law.name
     cell = site.project_cells.get("accepted_law", "-")
     consent = [say("note.law_accepted", law=law.name, cell=cell)] if accepted else []
-    return [*outside, tell_evidence(law.name), *consent]
+    return [*outside, describe_evidence(law.name), *consent]
 
 
-def tell_evidence(law: str) -> Message:
+def describe_evidence(law: str) -> Message:
     """What is known of a creep law outside the densities it is given for."""
     key = f"evidence.{law}"
     return say(key if key in load_texts("en") else "evidence.none", law=law)

@@ -19,10 +19,10 @@ def record_monitoring(site: Site, row: NetRow) -> list[MonitoringRecord]:
         One of its rows.
     """
     of_row = (one for one in site.monitoring if one.row_id == row.id)
-    return [_record(one, _tell_model(one, site)) for one in of_row]
+    return [_record(one, _describe_model(one, site)) for one in of_row]
 
 
-def _tell_model(series: MonitoringSeries, site: Site) -> Message:
+def _describe_model(series: MonitoringSeries, site: Site) -> Message:
     """Place where the model's forces stand, or what they need."""
     if site.winter is None:
         return say("monitoring.needs_winter")

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.errors import ModelError
 from netdesign.guideline.comparison import NetGeometry, place_head
 from netdesign.guideline.net_pull import compute_net_pull
 from netdesign.haefeli.pressure import SlabForce, compute_slab_force
 from netdesign.haefeli.slab import Slab, find_linear_slip
+from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.ground import DEFAULT_CREEP_LAW, load_glide_tables

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.errors import StudyError
+from netdesign.outcome import StudyError
 from netdesign.study.check_run import CheckRun, read_method
 from netdesign.study.record_provenance import name_law
 from netdesign.study.records import Study

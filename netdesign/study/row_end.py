@@ -18,7 +18,7 @@ def compute_end_factor(width: LoadedWidth, spacing: float) -> float:
     return 1.0 + width.end_factor * (share if share <= 0.5 else 1.0)
 
 
-def tell_unsaid(row: NetRow) -> Message:
+def name_unsaid(row: NetRow) -> Message:
     """The columns that a row leaves empty, and that every force depends on."""
     return say("check.unsaid", names=row.unsaid)
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from netdesign.checks import Standard
 from netdesign.envelope.rows import RowEnvelope, RowGrid
-from netdesign.fault import Fault, catch_fault
+from netdesign.outcome import Fault, catch_fault
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from netdesign.envelope.ranges import Case
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site, StationWinter
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.study.case_solver import build_scene

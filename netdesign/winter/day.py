@@ -12,8 +12,7 @@ from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
-from netdesign.errors import ModelError
-from netdesign.guards import require_within
+from netdesign.outcome import ModelError, require_within
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snowpack.pack import DayPack

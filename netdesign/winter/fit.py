@@ -14,8 +14,8 @@ import numpy as np
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.errors import ModelError
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError
 from netdesign.structure.members import Member
 from netdesign.winter.day import DaySolver, RowDay, WinterRow, build_day_scene
 from netdesign.winter.fit_parameters import list_parameters, vary_day, vary_row

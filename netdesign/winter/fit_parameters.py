@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from netdesign.cable.net import LARGEST_FRICTION_ANGLE, LARGEST_SLACK, Net
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.winter.day import HEIGHT_FACTORS, RowDay, WinterRow
 from netdesign.winter.gauss_newton import Parameter
 from netdesign.winter.layers import LEAST_DENSITY

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import require_positive, require_within
 from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.day import RowDay
 from netdesign.winter.measured import MeasuredPulls

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from netdesign.cable.closed_form import compute_capstan_ratio, compute_parabola_sag
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 
 
 def test_sag_of_a_taut_cable():

@@ -18,8 +18,7 @@ from netdesign.cable.tension import (
     compute_segment_lengths,
     compute_turning_angles,
 )
-from netdesign.errors import ModelError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 
 STIFFNESS = 2e7
 FRICTION = math.tan(math.radians(15.0))

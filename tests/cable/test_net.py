@@ -11,7 +11,7 @@ from netdesign.cable.net import (
     LARGEST_SLACK,
     Net,
 )
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 
 SOUND = {
     "height_normal": 3.0,

@@ -8,8 +8,7 @@ import pytest
 from netdesign.cable import response
 from netdesign.cable.response import hold_net, measure_arcs, respond
 from netdesign.cable.sliding import NetState
-from netdesign.errors import ModelError, SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 
 STIFFNESS = 50.0
 

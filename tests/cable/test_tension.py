@@ -13,7 +13,7 @@ from netdesign.cable.tension import (
     compute_tensions,
     compute_turning_angles,
 )
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 
 BULGED = np.array([[0.0, 0.4, 0.7, 0.5, 0.6], [0.0, 0.6, 1.3, 2.1, 3.0]])
 STRAIGHT = np.array([[0.0, 0.5, 1.5], [0.0, 1.0, 3.0]])

@@ -11,8 +11,7 @@ from netdesign.cable.response import measure_arcs, respond
 from netdesign.cable.sliding import NetState
 from netdesign.cable.tension import compute_ratio_bounds, compute_turning_angles
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 
 STIFFNESS = 300.0
 HEAD = np.array([0.4, 1.0])

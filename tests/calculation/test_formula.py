@@ -18,7 +18,7 @@ from netdesign.calculation.formula import (
 )
 from netdesign.calculation.quantity import at_value, cos, given, largest
 from netdesign.calculation.steps import list_named
-from netdesign.errors import ContentError, ModelError
+from netdesign.outcome import ContentError, ModelError
 from tests.calculation.drawn import draw_calculation, find_size
 from tests.report.reading import recalculate
 

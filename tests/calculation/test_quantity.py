@@ -23,7 +23,7 @@ from netdesign.calculation.quantity import (
     sqrt,
 )
 from netdesign.calculation.steps import list_named
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.words.message import say
 from tests.calculation.drawn import (
     PLAIN,

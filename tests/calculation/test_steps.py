@@ -20,7 +20,7 @@ from netdesign.calculation.steps import (
     list_steps,
 )
 from netdesign.edge.json_text import read_json, write_json
-from netdesign.errors import ContentError, ModelError
+from netdesign.outcome import ContentError, ModelError
 from tests.calculation.drawn import draw_calculation, find_size
 
 SEEDS = st.integers(0, 2**40)

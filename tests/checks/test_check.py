@@ -16,8 +16,7 @@ from netdesign.checks import (
     load_standard,
 )
 from netdesign.checks.check import find_resistance
-from netdesign.errors import ModelError
-from netdesign.outcome import Verdict
+from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render

@@ -10,7 +10,7 @@ import pytest
 
 from netdesign.checks.loader import CONFIRM, list_standards, load_standard
 from netdesign.edge.given_files import find_resource
-from netdesign.errors import StandardError
+from netdesign.outcome import StandardError
 
 NF_STYLE = "nf-p-95-304-style"
 

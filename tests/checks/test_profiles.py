@@ -9,8 +9,7 @@ import pytest
 from netdesign.checks import list_standards, load_standard
 from netdesign.edge.given_files import find_resource
 from netdesign.edge.json_text import write_json
-from netdesign.errors import StandardError
-from netdesign.outcome import Verdict
+from netdesign.outcome import StandardError, Verdict
 from tests.checks.given_pulls import judge_row, study_row
 
 NAMES = ("eurocode", "nf-p-95-304-style", "onr-24805-style", "swiss-guideline-2007")

@@ -13,7 +13,7 @@ from netdesign.checks.schema import (
     TablesFile,
     check_table,
 )
-from netdesign.errors import StandardError
+from netdesign.outcome import StandardError
 from netdesign.site.model import MEMBER_MODES
 
 

@@ -6,10 +6,10 @@ import pytest
 from click.testing import CliRunner
 
 from netdesign.commands.bench import bench
-from netdesign.errors import ModelError, OutputError
 from netdesign.evidence.benchmark import envelope, panel_cost, precision, stress
 from netdesign.evidence.benchmark.precision import Effort
 from netdesign.evidence.benchmark.stress import Attempt
+from netdesign.outcome import ModelError, OutputError
 
 
 def run(*arguments):

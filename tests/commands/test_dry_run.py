@@ -46,10 +46,10 @@ def test_histories_and_profiles_are_promised_too(call):
 def test_a_search_is_told_as_about_so_many_cases(call):
     ended = call("check", "--example", "--dry-run", "--jobs", 1)
     assert (
-        "7 net rows, about 385 cases and about 630 further solves, about 509 s"
+        "7 net rows, about 385 cases and about 805 further solves, about 596 s"
     ) in ended.out
     assert "385 (up to 1855) largest forces" in ended.out
-    assert "630 (up to 1400) other creep laws" in ended.out
+    assert "805 (up to 1750) other creep laws" in ended.out
     assert announce(call)["is_searched"]
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.commands.running import list_next_steps, tell_next_steps
+from netdesign.commands.running import list_next_steps, print_next_steps
 from netdesign.outcome import Verdict
 from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.report.build_study import build_study
@@ -31,11 +31,11 @@ def test_the_command_can_be_copied():
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_they_are_told_in_the_language_of_the_run(language, capsys):
     verdicts = {row.verdict for row in build_study().rows}
-    tell_next_steps(verdicts, "site.xlsx", language, is_sized=False)
+    print_next_steps(verdicts, "site.xlsx", language, is_sized=False)
     told = capsys.readouterr()
     assert told.out == ""
     texts = load_texts(language)
     for key in ("next.inputs", "next.again"):
         assert texts[key] in told.err
-    tell_next_steps({Verdict.PASS}, "site.xlsx", language, is_sized=False)
+    print_next_steps({Verdict.PASS}, "site.xlsx", language, is_sized=False)
     assert capsys.readouterr().err == ""

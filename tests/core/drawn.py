@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
+from netdesign.outcome import ModelError
 from netdesign.snow.contact import Contact, FlowState, may_lift, start_contact
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh

@@ -18,8 +18,8 @@ from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.compiled import prepare_rounds
 from netdesign.coupling.steady.net import find_contact_curve, start_net
 from netdesign.coupling.steady.solve import _build_problem, solve_steady
-from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
+from netdesign.outcome import ModelError, SolveError
 from netdesign.panel.equations import build_problem, guess_point
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solve import _solve_compiled, solve_panel

@@ -6,7 +6,7 @@ import pytest
 from netdesign.core.library import find_core
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.panel.solution import FailedPanel
 from netdesign.panel.solve import solve_panel
 from tests.panel.test_robustness import draw_panel, draw_scene

@@ -18,8 +18,8 @@ from netdesign.coupling.steady.net import (
     start_net,
 )
 from netdesign.coupling.steady.round import flow_along, place_along
-from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
+from netdesign.outcome import ModelError, SolveError
 from netdesign.snow import compiled_mesh
 from netdesign.snow.shared_mesh import share_template
 

@@ -10,8 +10,8 @@ from netdesign.core.library import find_core
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene, load_scenes
+from netdesign.outcome import ModelError
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
 

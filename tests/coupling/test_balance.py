@@ -16,8 +16,7 @@ from netdesign.coupling.balance import (
 )
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 
 TOLERANCE = 1e-8
 

@@ -16,11 +16,10 @@ from netdesign.coupling.steady import correction, round
 from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.compiled import CompiledRounds
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
 from netdesign.evidence.benchmark.scenes import build_tables
 from netdesign.evidence.benchmark.scenes import draw_scene as draw_any_scene
 from netdesign.files.solution import write_solution_document
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.coupling.drawn_scenes import draw_layered_site

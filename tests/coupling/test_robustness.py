@@ -17,7 +17,7 @@ from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError, SolveError
+from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.creep_law import PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 
 
 def test_scales(a_scene):

@@ -14,7 +14,7 @@ from netdesign.coupling.scene import (
 )
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import compute_fluidity, compute_shear_factor
 from netdesign.snow.law import linearise_sliding
 from netdesign.snow.mesh import build_template, place_nodes

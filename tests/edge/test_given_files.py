@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from netdesign.edge.given_files import decode_utf8, parse_toml
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.words.catalogue import render
 
 INVALID = "kein gültiges TOML (Zahlen mit Dezimalpunkt, Texte in Anführungszeichen)"

@@ -9,7 +9,7 @@ import pytest
 
 from netdesign import cli
 from netdesign.edge.output import require_free, write_files
-from netdesign.errors import OutputError
+from netdesign.outcome import OutputError
 from tests.small_scene import SMALL_SCENE
 from tests.tiny_site import write_site
 

@@ -60,7 +60,7 @@ def run_made_up(drawn, clock, show):
                 clock.now += 0.37 * cost
                 progress.count_case()
             if not pieces:
-                progress.tell_wave(Wave(1, 0, 0.5))
+                progress.report_wave(Wave(1, 0, 0.5))
         for _ in range(pieces):
             progress.count_piece()
     progress.enter("reports")
@@ -121,11 +121,11 @@ def test_a_wave_gives_gap_and_rows_and_corrects_the_count():
         Phase(key="b", words="", cases=40),
     ]
     progress = RunProgress(phases, shown.append, Clock())
-    progress.tell_wave(Wave(2, 9, math.inf))
+    progress.report_wave(Wave(2, 9, math.inf))
     assert "no bound yet, 2 rows open" in str(shown[-1])
-    progress.tell_wave(Wave(1, 3, 0.0234))
+    progress.report_wave(Wave(1, 3, 0.0234))
     assert str(shown[-1]) == "search: 0 solved, about 49 to go; gap 2.3 %, 1 row open"
-    progress.tell_wave(Wave(0, 0, 0.0))
+    progress.report_wave(Wave(0, 0, 0.0))
     assert str(shown[-1]) == "search: 0 solved, about 40 to go"
 
 

@@ -1,7 +1,7 @@
 import pytest
 
 from netdesign.edge.given_files import find_resource
-from netdesign.errors import NetDesignError
+from netdesign.outcome import NetDesignError
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,7 @@ from netdesign.checks.result import Band
 from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.errors import ModelError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 
 
 def solved(density, **forces):

@@ -5,7 +5,7 @@ import pytest
 
 from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS, place_scene
 from netdesign.envelope.ranges import Case, Interval, Ranges, build_case, require_valid
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.ground import GROUND_KINDS, GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall

@@ -3,7 +3,7 @@ import math
 import pytest
 
 from netdesign.envelope.ranges import Case, Interval, Ranges, build_cases
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 
 
 def test_samples_are_equally_spaced_and_hold_both_ends_exactly():

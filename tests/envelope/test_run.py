@@ -8,8 +8,7 @@ import pytest
 
 from netdesign.coupling.scene import Scene
 from netdesign.envelope.run import run_cases
-from netdesign.fault import SENTENCE
-from netdesign.outcome import Outcome
+from netdesign.outcome import SENTENCE, Outcome
 from netdesign.solving import workers
 from netdesign.solving.runner import Runner
 from netdesign.structure.anchors import compute_anchor_forces

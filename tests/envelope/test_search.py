@@ -12,8 +12,7 @@ from netdesign.envelope import rows
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
-from netdesign.errors import ModelError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import ProcessPool

@@ -12,10 +12,9 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError, SceneFileError
 from netdesign.files.scene import SceneFile, build_scene, read_scene
 from netdesign.files.solution import write_solution_document
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SceneFileError
 from netdesign.snow.creep_law import PAPER_FLUIDITY, compute_fluidity
 from netdesign.snow.ground import build_ground_from_glide_factor
 from tests.full_scene import FULL_SCENE

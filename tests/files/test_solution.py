@@ -8,9 +8,9 @@ from netdesign.coupling.history.settings import StaggeredSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import bound_by_less_slack
-from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene, load_scenes
 from netdesign.files.solution import write_solution_document
+from netdesign.outcome import ModelError
 from netdesign.solving.solve import solve_scene
 
 ROUGH = SolverSettings(accuracy=0.05)

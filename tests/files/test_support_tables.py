@@ -5,8 +5,8 @@ import tomllib
 
 import pytest
 
-from netdesign.errors import SceneFileError
 from netdesign.files.scene import SceneFile, build_given, read_scene, read_scene_file
+from netdesign.outcome import SceneFileError
 from netdesign.panel.inputs import Rope
 
 SCENE = """

@@ -35,9 +35,8 @@ from netdesign import cli
 from netdesign.checks import load_standard
 from netdesign.coupling.solution import FailedSolution
 from netdesign.edge.given_files import find_resource
-from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.files.scene import read_scene
-from netdesign.outcome import Outcome
+from netdesign.outcome import NetDesignError, Outcome, SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook

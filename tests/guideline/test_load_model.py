@@ -5,7 +5,6 @@ import math
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.errors import ModelError, StandardError
 from netdesign.guideline.load_model import (
     compute_altitude_factor,
     compute_creep_factor,
@@ -13,6 +12,7 @@ from netdesign.guideline.load_model import (
     read_end_effect,
     read_load_model,
 )
+from netdesign.outcome import ModelError, StandardError
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
 STEEP = math.radians(45.0)

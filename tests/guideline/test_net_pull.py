@@ -5,8 +5,8 @@ import math
 import pytest
 
 from netdesign.cable.closed_form import compute_parabola_sag
-from netdesign.errors import ModelError
 from netdesign.guideline.net_pull import compute_net_pull
+from netdesign.outcome import ModelError
 
 
 def a_pull(resultant=(40e3, 0.0), **changes):

@@ -11,7 +11,6 @@ import pytest
 import netdesign.haefeli
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.errors import ModelError
 from netdesign.haefeli.pressure import compute_slab_force
 from netdesign.haefeli.slab import (
     Slab,
@@ -19,6 +18,7 @@ from netdesign.haefeli.slab import (
     find_linear_slip,
     scale_slip_length,
 )
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import GRAVITY, Snowpack

@@ -17,6 +17,7 @@ import netdesign
 from netdesign.site.template.workbook import write_site_workbook
 from tests.hostile.hostile_files import write_all
 
+pytestmark = pytest.mark.long
 ROOT = Path(netdesign.__file__).parent.parent
 MOST_MEGABYTES = 550  # above the idle program, for any file
 MOST_SECONDS = 20.0  # of one file; on an idle machine none needs more than three
@@ -78,7 +79,6 @@ def ends(tmp_path_factory):
     return found
 
 
-@pytest.mark.long
 def test_every_hostile_file_is_refused_as_input_with_a_message(ends):
     wrong = {
         name: (code, message[:200])

@@ -14,8 +14,7 @@ import pytest
 from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope import support_bands
-from netdesign.errors import ModelError
-from netdesign.fault import SENTENCE
+from netdesign.outcome import SENTENCE, ModelError
 from netdesign.solving import solve as solve_module
 from netdesign.solving import workers as workers_module
 from netdesign.solving.solve import solve_scene

@@ -82,7 +82,12 @@ def spoilt_study(text):
     return dataclasses.replace(study, rows=rows)
 
 
-@pytest.fixture(params=ATTACKS, ids=range(len(ATTACKS)))
+@pytest.fixture(
+    params=[
+        pytest.param(one, id=str(k), marks=() if k % 4 == 0 else pytest.mark.long)
+        for k, one in enumerate(ATTACKS)
+    ]
+)
 def text(request):
     return request.param
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.unit_names import convert_unit
 from netdesign.site.reader import read_site

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.panel.inputs import LARGEST_SAG, Panel, Rope
 
 ROPE = Rope(stiffness=17.3e6, sag=0.047)

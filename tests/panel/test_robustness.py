@@ -13,7 +13,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solution import FailedPanel
 from netdesign.panel.solve import solve_panel

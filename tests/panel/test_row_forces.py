@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.row_forces import compute_end_forces, compute_interior_forces
 from netdesign.panel.solve import solve_panel

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.errors import ModelError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 from netdesign.panel import solve as solving
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solution import FailedPanel, PanelSolution

@@ -11,8 +11,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import EndPull
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError, SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.stations import build_stations
 from netdesign.panel.strips import (

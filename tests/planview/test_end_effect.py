@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import pytest
 
-from netdesign.errors import ModelError
 from netdesign.haefeli.slab import Slab, find_linear_slip
+from netdesign.outcome import ModelError
 from netdesign.planview.end_effect import compute_end_effect
 from netdesign.planview.scales import compute_scales
 from netdesign.planview.waves import WIDEST_HALF

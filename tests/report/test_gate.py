@@ -4,8 +4,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.calculation.quantity import Kind
-from netdesign.errors import NetDesignError
-from netdesign.outcome import Verdict
+from netdesign.outcome import NetDesignError, Verdict
 from netdesign.report.gate import require_consistent, require_sections
 from netdesign.study.records import IndependentRecord
 from netdesign.words.catalogue import render

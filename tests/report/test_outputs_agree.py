@@ -11,7 +11,7 @@ from rich.console import Console
 from netdesign.outcome import Verdict
 from netdesign.report.governing import find_governing
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.checks import list_lines, tell_resistance
+from netdesign.report.sections.checks import describe_resistance, list_lines
 from netdesign.report.sections.quality import build_extremes
 from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
@@ -66,7 +66,7 @@ def test_checks_agree(page, book):
         for check in row.checks:
             line = next(sheet)
             assert line["Clause"] == (check.clause or "-")
-            assert line["Resistance from"] == tell_resistance(check, ENGLISH)
+            assert line["Resistance from"] == describe_resistance(check, ENGLISH)
             assert line["Verdict"] == ENGLISH(f"verdict.{check.verdict}")
             title = show_check(ENGLISH, check)
             if title not in places:

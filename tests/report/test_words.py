@@ -4,8 +4,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.commands.running import EXIT_CODES
-from netdesign.errors import SolveError
-from netdesign.outcome import Verdict
+from netdesign.outcome import SolveError, Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report import words
 from netdesign.snow.creep_law import CREEP_LAWS

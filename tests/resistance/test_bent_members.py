@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import (
     find_bond_stress,
     find_imperfection,

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import find_imperfection
 from netdesign.resistance.post import (
     compute_bearing_resistance,

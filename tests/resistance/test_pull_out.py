@@ -4,7 +4,7 @@ import pytest
 
 from netdesign.calculation.quantity import given
 from netdesign.checks.forces import resist_by_friction, resist_by_tests
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import find_bond_stress
 from netdesign.resistance.pull_out import (
     PullOutTests,

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
     PostSection,
     compute_bearing_resistance,

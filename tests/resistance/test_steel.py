@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import (
     compute_bar_resistance,

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.search.maxima import (
     RESOLVED_SHARE,
     MaximaSearch,

@@ -9,7 +9,7 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.findings import Finding
 from netdesign.site.reader import read_site
 

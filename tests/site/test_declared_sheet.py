@@ -6,7 +6,7 @@ from datetime import datetime
 import pytest
 
 from netdesign.checks import Declaration
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.declared_sheet import DECLARABLE
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site

@@ -5,7 +5,7 @@ import string
 
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import PROJECT, PROJECT_ITEMS, RANGE_QUANTITIES
 from netdesign.site.columns.fields import find_item
 from netdesign.site.reader import read_site

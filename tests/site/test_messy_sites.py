@@ -6,7 +6,7 @@ import re
 import openpyxl
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.columns.fields import normalise
 from netdesign.site.mapping import name_map
 from netdesign.site.questions import write_questions

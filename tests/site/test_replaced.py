@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.site.replaced import split_replacement, write_replacement
 from tests.short_example import write_short_example

@@ -6,7 +6,7 @@ import subprocess
 import openpyxl
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.model import MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook

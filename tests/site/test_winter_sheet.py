@@ -4,7 +4,7 @@ from datetime import date, datetime
 
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import TextFormat
 from netdesign.site.reader import read_site
 from netdesign.site.winter_sheet import read_height_file

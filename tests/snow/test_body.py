@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow import body as body_module
 from netdesign.snow.body import (
     build_body,

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,

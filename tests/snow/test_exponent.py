@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.steady.rigid import measure_glide_factor
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,

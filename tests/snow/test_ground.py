@@ -5,7 +5,7 @@ import math
 import pytest
 
 from netdesign.coupling.steady.rigid import measure_glide_factor
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,

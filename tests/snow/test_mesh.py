@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.errors import ModelError, SolveError
+from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 
 COARSE = MESH_LEVELS[1]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.body import Settling, build_body, build_material, largest_density
 from netdesign.snow.creep_law import (
     CREEP_LAWS,

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow import shared_mesh
 from netdesign.snow.element import list_dofs
 from netdesign.snow.mesh import BESIDE, build_template, place_nodes

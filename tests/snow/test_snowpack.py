@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.snowpack import (
     GRAVITY,
     STEEPEST_SLOPE,

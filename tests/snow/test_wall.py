@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.wall import Wall
 
 STEEPEST, ROUGHEST = math.radians(80.0), math.radians(60.0)

@@ -14,8 +14,7 @@ import pytest
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.ranges import Case
-from netdesign.fault import SENTENCE
-from netdesign.outcome import Outcome
+from netdesign.outcome import SENTENCE, Outcome
 from netdesign.solving.state import encode_end
 from netdesign.solving.workers import (
     DIED,

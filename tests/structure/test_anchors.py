@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 from netdesign.structure.anchors import (
     AnchorForces,
     FailedSupport,

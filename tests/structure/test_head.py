@@ -5,8 +5,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 from netdesign.structure.head import (
     MIN_GUY_ANGLE,
     FailedSupport,

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.structure.layout import SupportLayout, place_support
 
 ABOVE_45_DEG = math.nextafter(math.radians(45), 2)

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.structure.row_position import (
     EndEffectRule,
     compute_edge_width,

@@ -5,8 +5,7 @@ import random
 
 import pytest
 
-from netdesign.errors import ModelError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 from netdesign.structure.head import FailedSupport, compute_head_forces
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.splay import compute_splayed_head, weigh_splay

@@ -7,8 +7,7 @@ from dataclasses import fields, replace
 import pytest
 
 from netdesign.edge.json_text import write_json
-from netdesign.errors import StudyError
-from netdesign.outcome import Outcome, Verdict
+from netdesign.outcome import Outcome, StudyError, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.document import (

@@ -12,9 +12,7 @@ from datetime import date, timedelta
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.errors import SiteDataError
-from netdesign.fault import Fault
-from netdesign.outcome import Outcome
+from netdesign.outcome import Fault, Outcome, SiteDataError
 from netdesign.site.model import Project
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Counts, Runner

@@ -25,7 +25,7 @@ from netdesign.study.member_force import (
     RowForces,
     find_force,
     leave_out_governing,
-    tell_governing,
+    name_governing,
 )
 from netdesign.study.record_cases import record_point
 from netdesign.study.record_provenance import record_profile
@@ -252,7 +252,7 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     forced = find_member_force(Member.FOOT_ANCHOR, none, width)
     case = a_floor().find(Member.FOOT_ANCHOR).case.name
     reason = say("check.passes")
-    told = tell_governing(reason, forced, case)
+    told = name_governing(reason, forced, case)
     assert str(told).endswith(
         "; the guideline's load (load case 2) governs the demand."
     )
@@ -260,7 +260,7 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     assert leave_out_governing(reason) == reason
     slack = find_member_force(Member.DOWNHILL_GUY, none, width)
     assert slack.action.high == 0.0
-    assert tell_governing(reason, slack, case) == reason
+    assert name_governing(reason, slack, case) == reason
 
 
 def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):

@@ -9,7 +9,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.fault import Fault, describe_fault
+from netdesign.outcome import Fault, describe_fault
 from netdesign.snow.ground import GroundLaw
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
@@ -147,4 +147,4 @@ class Counting:
     def enter(self, key, words=None):
         """No phase is told."""
 
-    tell_wave = enter
+    report_wave = enter

@@ -23,7 +23,7 @@ class Nobody:
     def enter(self, key, words=None):
         """No phase is told."""
 
-    tell_wave = enter
+    report_wave = enter
 
     def count_piece(self):
         """Nor a check."""

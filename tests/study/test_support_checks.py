@@ -6,8 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.errors import SiteDataError
-from netdesign.outcome import Verdict
+from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.reader import read_site
 from netdesign.study.stronger_types import find_type_change
 from tests.checks.given_pulls import POST, judge_row, study_row, write_row

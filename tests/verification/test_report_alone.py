@@ -127,9 +127,9 @@ def twelve(studies):
     ("detail", "language", "most"),
     [
         ("full", "en", 37),
-        ("full", "fr", 38),
+        pytest.param("full", "fr", 38, marks=pytest.mark.long),
         ("summary", "en", 6),
-        ("summary", "de", 6),
+        pytest.param("summary", "de", 6, marks=pytest.mark.long),
     ],
 )
 def test_twelve_rows_have_few_pages(twelve, tmp_path, detail, language, most):

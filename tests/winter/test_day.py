@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.snowpack import Layer
 from netdesign.snowpack.pack import BARE, DayPack

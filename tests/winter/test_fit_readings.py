@@ -5,7 +5,7 @@ from datetime import date, datetime, timedelta
 import numpy as np
 import pytest
 
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.day import RowDay
 from netdesign.winter.fit_readings import (

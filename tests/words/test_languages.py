@@ -80,7 +80,7 @@ def list_guarded():
 
 
 def test_every_guarded_quantity_has_a_name():
-    from netdesign.guards import name_quantity
+    from netdesign.outcome import name_quantity
 
     names = set(list_guarded())
     assert len(names) > 50

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.errors import ModelError
-from netdesign.guards import require_positive
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError, require_positive
 from netdesign.snow.creep_law import compute_fluidity
 from netdesign.words.message import say
 

@@ -14,10 +14,9 @@ from netdesign.coupling.history.state import (
     TransientProblem,
     TransientState,
 )
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Signs
 from netdesign.numerics.curve import interpolate_curve
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.body import move_body
 from netdesign.words.message import say
 

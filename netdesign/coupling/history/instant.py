@@ -27,9 +27,8 @@ from netdesign.coupling.history.step import (
     measure_change,
     solve_linear,
 )
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.law import squared_invariant
 from netdesign.snow.straight_mesh import unfold_velocity
 from netdesign.words.message import say

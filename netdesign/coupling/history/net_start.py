@@ -12,10 +12,9 @@ from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.net import guess_pressure, locate_nodes
 from netdesign.coupling.steady.solve import find_net_equilibrium
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshSize, MeshTemplate
 from netdesign.words.message import say

@@ -8,8 +8,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from netdesign.errors import ModelError
-from netdesign.guards import require_count, require_positive, require_within
+from netdesign.outcome import (
+    ModelError,
+    require_count,
+    require_positive,
+    require_within,
+)
 from netdesign.snow.mesh import MeshSize
 from netdesign.words.message import say
 

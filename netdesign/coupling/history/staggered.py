@@ -47,9 +47,8 @@ from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
-from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.body import move_body
 from netdesign.snow.mesh import build_template
 from netdesign.words.message import say

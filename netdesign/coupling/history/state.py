@@ -12,8 +12,8 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
-from netdesign.errors import ModelError
 from netdesign.numerics.arrays import Floats, Ints, Signs
+from netdesign.outcome import ModelError
 from netdesign.snow.body import Settling, SnowBody
 from netdesign.snow.law import FlowProblem
 from netdesign.words.message import say

@@ -12,9 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from netdesign.coupling.history.state import TransientProblem, TransientState
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints, Mask, gather
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.body import SnowBody, build_material
 from netdesign.snow.element import reference_element
 from netdesign.snow.kernel import (

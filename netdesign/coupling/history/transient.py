@@ -41,9 +41,8 @@ from netdesign.coupling.moments import (
 from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template
 from netdesign.words.message import say
 

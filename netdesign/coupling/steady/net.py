@@ -14,9 +14,8 @@ import numpy as np
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
 from netdesign.cable.parted import CableParts, find_part_lengths
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.shared_mesh import find_once

@@ -25,8 +25,7 @@ from netdesign.coupling.solution import (
     list_skipped,
     triangle_density,
 )
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.contact import FlowState
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.flow import solve_flow

@@ -21,9 +21,8 @@ from netdesign.coupling.steady.net import (
     find_contact_curve,
     hang_net,
 )
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.contact import FlowState
 from netdesign.snow.flow import FlowResult, solve_flow
 from netdesign.snow.mesh import place_nodes

@@ -30,11 +30,10 @@ from netdesign.coupling.steady.net import (
     start_net,
 )
 from netdesign.coupling.steady.round import RoundResult, explain_failure, take_round
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.contact import FlowState
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.transfer import transfer_state

@@ -42,8 +42,7 @@ from netdesign.coupling.solution import (
 )
 from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, hang_net
 from netdesign.coupling.steady.rounds import CoupledState, couple
-from netdesign.errors import ModelError, SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.contact import FlowState
 from netdesign.snow.mesh import MeshSize, MeshTemplate
 from netdesign.snow.shared_mesh import share_template

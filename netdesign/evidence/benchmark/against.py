@@ -25,7 +25,6 @@ import numpy as np
 
 from netdesign.core.library import name_core
 from netdesign.core.sources import SWITCH, SWITCHED_OFF
-from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.scenes import (
     NAMES,
     ROW,
@@ -42,6 +41,7 @@ from netdesign.evidence.runner import (
     run_in_turns,
 )
 from netdesign.evidence.table import print_lines, print_rows
+from netdesign.outcome import ModelError
 from netdesign.report.words import Words
 from netdesign.words.message import say
 
@@ -225,7 +225,7 @@ def _time_command(
 ) -> Time:
     time, done = bench.start([python, "-I", "-m", "netdesign", *words], store)
     if done.returncode not in accepted:
-        raise RunFailure(_tell_last(done))
+        raise RunFailure(_describe_last(done))
     return time
 
 
@@ -235,11 +235,11 @@ def _ask_probe(bench: Bench, words: Sequence[Any]) -> dict[str, Any]:
     try:
         found: dict[str, Any] = json.loads(done.stdout)
     except ValueError:
-        raise RunFailure(_tell_last(done)) from None
+        raise RunFailure(_describe_last(done)) from None
     return found
 
 
-def _tell_last(done: subprocess.CompletedProcess[str]) -> str:
+def _describe_last(done: subprocess.CompletedProcess[str]) -> str:
     """Last words of a process that failed, and its exit code."""
     lines = done.stderr.strip().splitlines() or [""]
     return f"{lines[-1][:200]} ({done.returncode})"

@@ -25,12 +25,12 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
-from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.against import Bench, Size, time_site
 from netdesign.evidence.benchmark.scenes import write_site
 from netdesign.evidence.runner import Clock
 from netdesign.evidence.scene import build_scene
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError
 from netdesign.search.maxima import RESOLVED_SHARE, Maxima, MaximaSearch, SearchSettings
 from netdesign.search.surrogate import Point
 from netdesign.snow.ground import GroundLaw

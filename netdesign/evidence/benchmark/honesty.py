@@ -17,7 +17,6 @@ from typing import Any
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import (
     find_level,
@@ -30,7 +29,7 @@ from netdesign.evidence.runner import (
     spread,
     summarise_times,
 )
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 

@@ -20,7 +20,6 @@ import numpy as np
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.scenes import (
     DENSITY_KG_M3,
     FRICTION_DEG,
@@ -39,6 +38,7 @@ from netdesign.evidence.benchmark.truth import solve_fine
 from netdesign.evidence.runner import share, spread
 from netdesign.evidence.scene import solve
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message

@@ -26,7 +26,6 @@ from netdesign.coupling.history.transient import solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import reference_path
 from netdesign.evidence.benchmark.truth import (
     Truth,
@@ -37,6 +36,7 @@ from netdesign.evidence.benchmark.truth import (
 )
 from netdesign.evidence.runner import fit_order, measure, run_in_turns
 from netdesign.evidence.table import print_document, print_rows
+from netdesign.outcome import SolveError
 from netdesign.report.drawing.figures import (
     ACCENT,
     GREY,

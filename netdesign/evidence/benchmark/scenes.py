@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from netdesign.coupling.scene import Scene
-from netdesign.errors import ModelError
 from netdesign.files.scene import SceneFile, build_scene
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import GROUND_KINDS
 from netdesign.words.message import say

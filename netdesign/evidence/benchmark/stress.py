@@ -18,12 +18,11 @@ from typing import Any, Literal
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.scenes import Tables, draw_scene
 from netdesign.evidence.benchmark.truth import state_error
 from netdesign.evidence.runner import Clock, spread, summarise_times
 from netdesign.files.scene import SceneFile, build_scene
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 

@@ -12,8 +12,7 @@ from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.shared_mesh import share_template
 

@@ -135,7 +135,7 @@ def _render_page(study: PaperStudy, plates: list[Plate], words: Words) -> str:
         section(
             "tables", words("paper.tables"), *_show_tables(study, words), look="page"
         ),
-        section("how", words("paper.how"), *_tell_method(scene, words)),
+        section("how", words("paper.how"), *_describe_method(scene, words)),
     )
     return render_page(blocks, words("paper.title"), words.language)
 
@@ -175,7 +175,7 @@ def _show_tables(study: PaperStudy, words: Words) -> Iterator[Block]:
         )
 
 
-def _tell_method(scene: dict[str, str], words: Words) -> list[Paragraph]:
+def _describe_method(scene: dict[str, str], words: Words) -> list[Paragraph]:
     histories = words(
         "paper.how_histories",
         days=scene["days"],

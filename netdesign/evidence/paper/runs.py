@@ -17,7 +17,6 @@ from netdesign.coupling.moments import History
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
 from netdesign.evidence.paper.cases import (
     PaperCase,
     PaperSettings,
@@ -26,6 +25,7 @@ from netdesign.evidence.paper.cases import (
 )
 from netdesign.evidence.runner import spread
 from netdesign.numerics.arrays import Floats, Ints
+from netdesign.outcome import SolveError
 from netdesign.words.message import Message, say
 
 # Heights of the two nodes that are followed, over the net's. The paper's nodes 3 and 8

@@ -255,7 +255,7 @@ def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
                 *(case.inclination_deg, case.friction_deg, case.gravity),
                 *(start, _name_switch(case)),
                 float(0 if track is None else len(track.times)),
-                _tell_result(run, words),
+                _describe_result(run, words),
             )
         )
     return _list("runs", words("paper_table.runs"), fields, rows, words)
@@ -288,7 +288,7 @@ def _name_method(case: PaperCase, words: Words) -> str:
     return words("paper_value.coarse", method=method) if case.is_coarse else method
 
 
-def _tell_result(run: PaperRun, words: Words) -> str:
+def _describe_result(run: PaperRun, words: Words) -> str:
     if run.failure:
         return words.show(run.failure)
     if run.track is not None and run.track.ended:

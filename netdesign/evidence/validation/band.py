@@ -14,7 +14,6 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
-from netdesign.errors import ModelError
 from netdesign.evidence.scene import build_scene
 from netdesign.evidence.validation.structure import (
     ALONG_SLOPE,
@@ -23,6 +22,7 @@ from netdesign.evidence.validation.structure import (
     Structure,
 )
 from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack

@@ -9,7 +9,6 @@ from pathlib import Path
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import MAX_TOML_BYTES, read_bounded
 from netdesign.edge.output import write_files
-from netdesign.errors import ModelError
 from netdesign.evidence.validation.band import validate_structure
 from netdesign.evidence.validation.page import (
     DOCUMENT_FILE,
@@ -26,6 +25,7 @@ from netdesign.evidence.verification.exported import (
     write_scenes,
 )
 from netdesign.evidence.verification.pack import GROUPS, run_pack
+from netdesign.outcome import ModelError
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 

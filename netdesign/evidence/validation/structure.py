@@ -15,7 +15,7 @@ from pydantic import AliasChoices, Field, TypeAdapter, ValidationError
 
 from netdesign.edge.causes import explain_shape
 from netdesign.edge.given_files import list_faults, parse_toml
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.words.message import Message, say
 
 SCHEMA = "netdesign.measured/1"

@@ -15,7 +15,6 @@ from netdesign.cable.tension import (
     compute_segment_lengths,
     compute_turning_angles,
 )
-from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.manufactured import (
     PrescribedFlow,
@@ -23,7 +22,7 @@ from netdesign.evidence.verification.manufactured import (
     solve_prescribed,
 )
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.creep_law import (
     ZWINGER_2007,
     compute_bulk_factor,

@@ -11,7 +11,6 @@ from netdesign.coupling.interface import compute_support_forces
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.errors import SolveError
 from netdesign.evidence.scene import build_scene, solve
 from netdesign.evidence.verification.case import (
     VerificationCase,
@@ -19,6 +18,7 @@ from netdesign.evidence.verification.case import (
     largest_difference,
     observe_order,
 )
+from netdesign.outcome import SolveError
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.ground import GroundKind, GroundLaw
 from netdesign.snow.kernel import assemble_stress

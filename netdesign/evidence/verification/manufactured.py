@@ -14,10 +14,9 @@ from typing import Any
 import numpy as np
 from scipy.sparse.linalg import splu
 
-from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.element import Element
 from netdesign.snow.kernel import (
     assemble_body_force,

@@ -20,11 +20,10 @@ from scipy.sparse.linalg import spsolve
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.errors import SolveError
 from netdesign.evidence.scene import build_scene, solve
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Cut, Panel, Rope
 from netdesign.panel.solution import FailedPanel, PanelSolution
 from netdesign.panel.solve import solve_panel

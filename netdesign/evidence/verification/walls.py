@@ -8,10 +8,10 @@ from dataclasses import replace
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.haefeli.pressure import compute_slab_force
 from netdesign.haefeli.slab import Slab, scale_slip_length
+from netdesign.outcome import SolveError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import GRAVITY, Snowpack

@@ -66,7 +66,7 @@ def render_comparison(studies: Sequence[Study], language: Language = "en") -> by
                 Items(items=profiles),
                 Paragraph(text=words("compare.lead"), look="text"),
                 _build_verdicts(studies, words).shown("profiles"),
-                Paragraph(text=_tell_differences(studies, words), look="text"),
+                Paragraph(text=_report_differences(studies, words), look="text"),
             ),
         ),
         section(
@@ -170,7 +170,7 @@ def _show_checks(checks: Sequence[CheckRecord], words: Words) -> Cell:
     return text_cell(words.join(parts))
 
 
-def _tell_differences(studies: Sequence[Study], words: Words) -> str:
+def _report_differences(studies: Sequence[Study], words: Words) -> str:
     """Members whose verdict depends on the profile."""
     found = []
     for place, row in enumerate(studies[0].rows):

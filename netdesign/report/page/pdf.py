@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-from netdesign.errors import OutputError
+from netdesign.outcome import OutputError
 from netdesign.words.message import say
 
 

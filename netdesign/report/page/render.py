@@ -101,7 +101,7 @@ def build_environment(language: Language = "en") -> jinja2.Environment:
         # every row has the same headings
         "heading": lru_cache(maxsize=512)(partial(_write_heading, points)),
         "line": write_line,
-        "empty": partial(_tell_empty, words),
+        "empty": partial(_describe_empty, words),
     }
     return environment
 
@@ -200,7 +200,7 @@ def _write_heading(points: tuple[str, ...], heading: str, has_symbols: bool) -> 
     return Markup(shown)
 
 
-def _tell_empty(words: Words, table: Table) -> Markup:
+def _describe_empty(words: Words, table: Table) -> Markup:
     """Line that stands for a table without rows; one of figures is named."""
     if not table.symbols:
         return escape(table.empty)

@@ -60,9 +60,9 @@ def view_support(support: Mapping[str, Any], words: Words) -> SupportView:
     return SupportView(
         tables=tuple(tables) if support["plain"] else (),
         sentences=(
-            *_tell_lack(support, words),
-            *_tell_panel(support, words),
-            *_tell_end(support["row_end"], words),
+            *_describe_lack(support, words),
+            *_describe_panel(support, words),
+            *_describe_end(support["row_end"], words),
         ),
     )
 
@@ -151,13 +151,13 @@ def _build_ropes(panel: Mapping[str, Any], words: Words) -> Table:
     )
 
 
-def _tell_lack(support: Mapping[str, Any], words: Words) -> list[str]:
+def _describe_lack(support: Mapping[str, Any], words: Words) -> list[str]:
     if "reason" not in support:
         return []
     return [words("support_view.lack", reason=support["reason"])]
 
 
-def _tell_panel(support: Mapping[str, Any], words: Words) -> list[str]:
+def _describe_panel(support: Mapping[str, Any], words: Words) -> list[str]:
     """Reason of the larger guy, heights in mid-panel, worth of the ropes."""
     plain, panel = support["plain"], support["panel"]
     if not plain or not panel:
@@ -181,7 +181,7 @@ def _tell_panel(support: Mapping[str, Any], words: Words) -> list[str]:
     ]
 
 
-def _tell_end(end: Mapping[str, Any] | None, words: Words) -> list[str]:
+def _describe_end(end: Mapping[str, Any] | None, words: Words) -> list[str]:
     if not end:
         return []
     told = words(

@@ -114,7 +114,7 @@ def _tabulate_parameters(fit: Mapping[str, Any], words: Words) -> Table:
                 text_cell(show_unit(one["unit"])),
                 _value_cell(one, "prior", words),
                 _value_cell(one, "posterior", words),
-                text_cell(_tell_worth(one, fit["outcome"], words)),
+                text_cell(_describe_worth(one, fit["outcome"], words)),
             )
             for one in fit["parameters"]
         ),
@@ -136,7 +136,7 @@ def _value_cell(one: Mapping[str, Any], key: str, words: Words) -> Cell:
     return Cell(text=f"{shown} ± {around}", number=value)
 
 
-def _tell_worth(one: Mapping[str, Any], outcome: str, words: Words) -> str:
+def _describe_worth(one: Mapping[str, Any], outcome: str, words: Words) -> str:
     if outcome != "fitted":
         return MISSING
     if one["is_at_end"]:

@@ -89,9 +89,9 @@ def _show_profile(study: Study, words: Words) -> Iterator[Block]:
         "profile_version": profile.version,
         "profile_choice": profile.choice,
         "unconfirmed": words("show.assumed_counted", assumed=assumed, count=count),
-        "floor": tell_floor(study, words),
+        "floor": describe_floor(study, words),
     }
-    law = tell_accepted_law(study, words)
+    law = describe_accepted_law(study, words)
     if law:
         told["accepted_law"] = law
     pairs = tuple(
@@ -110,7 +110,7 @@ def has_other_floor(study: Study) -> bool:
     return study.profile.floor == "none" or study.profile.is_floor_overruled
 
 
-def tell_floor(study: Study, words: Words) -> str:
+def describe_floor(study: Study, words: Words) -> str:
     """Least load of the design forces, and how often it governs."""
     told = _count_by_floor(study, words)
     if not study.profile.is_floor_overruled:
@@ -134,7 +134,7 @@ def name_law(study: Study) -> str:
     return study.provenance.settings.get("creep_law", "").partition(" ")[0]
 
 
-def tell_accepted_law(study: Study, words: Words) -> str:
+def describe_accepted_law(study: Study, words: Words) -> str:
     """Creep law whose extrapolation is accepted, and whether it is the study's."""
     given, own = study.project.accepted_law, name_law(study)
     if given in ("", own):

@@ -32,7 +32,7 @@ def badge_cell(verdict: Verdict, words: Words) -> Cell:
     return rich_cell((Badge(show_verdict(verdict, words)),))
 
 
-def tell_resistance(check: CheckRecord, words: Words) -> str:
+def describe_resistance(check: CheckRecord, words: Words) -> str:
     """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
     basis = check.resistance_basis
     parts = (
@@ -88,7 +88,7 @@ def _measure_bar(ratio: float) -> float:
     return _BAR_UNIT + _BAR_BEYOND * (1.0 - 1.0 / ratio)
 
 
-def tell_loads(check: CheckRecord, words: Words) -> str:
+def describe_loads(check: CheckRecord, words: Words) -> str:
     """Characteristic force by each load, the one that governs first; "" of one alone.
 
     Solved ones at most: with their error and what may hide between cases.
@@ -106,7 +106,7 @@ def tell_loads(check: CheckRecord, words: Words) -> str:
     return words.join(found[load] for load in order)
 
 
-def tell_briefly(row: RowStudy, words: Words) -> str:
+def describe_briefly(row: RowStudy, words: Words) -> str:
     """Reason of a row's verdict in some ten words; "" of a pass."""
     check = find_governing(row.checks)
     if row.verdict is Verdict.PASS:
@@ -118,7 +118,7 @@ def tell_briefly(row: RowStudy, words: Words) -> str:
     gaps = [_leave_out_cell(one) for one in find_gaps(check.reason)]
     if gaps:
         return words.join(words.show(one) for one in gaps)
-    return tell_cause(check, words)
+    return describe_cause(check, words)
 
 
 def _leave_out_cell(told: Message) -> Message:
@@ -132,7 +132,7 @@ def _leave_out_cell(told: Message) -> Message:
     return say(told.key, **inner)
 
 
-def tell_cause(check: CheckRecord, words: Words) -> str:
+def describe_cause(check: CheckRecord, words: Words) -> str:
     """Cause that keeps a check from passing, without what its numbers say already."""
     gaps = find_gaps(check.reason)
     if gaps:

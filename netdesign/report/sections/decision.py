@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterator
 from dataclasses import asdict
 
-from netdesign.checks.result import tell_proof
+from netdesign.checks.result import describe_proof
 from netdesign.outcome import Verdict
 from netdesign.report.blocks.block import (
     Block,
@@ -30,18 +30,18 @@ from netdesign.report.blocks.text import HIDDEN, Badge, Content, Piece, strong
 from netdesign.report.governing import SEVERITY, find_governing
 from netdesign.report.sections.basis import (
     count_defaults,
+    describe_floor,
     has_other_floor,
     name_rows,
-    tell_floor,
 )
 from netdesign.report.sections.changes import list_flips
 from netdesign.report.sections.checks import (
     badge_cell,
+    describe_briefly,
+    describe_cause,
     name_checks,
     name_few,
     show_used,
-    tell_briefly,
-    tell_cause,
 )
 from netdesign.report.sections.profile import count_assumed, name_profile
 from netdesign.report.what_if import build_what_if, mark_verdict, name_study
@@ -141,7 +141,7 @@ def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
         badge_cell(row.verdict, words),
         text_cell(named),
         used,
-        text_cell(tell_briefly(row, words)),
+        text_cell(describe_briefly(row, words)),
     )
 
 
@@ -191,7 +191,7 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     yield from _list_declared(study, words)
     if has_other_floor(study):
         floor = words("heading.floor")
-        yield words("show.label", label=floor, text=tell_floor(study, words))
+        yield words("show.label", label=floor, text=describe_floor(study, words))
     assumed, count = count_assumed(study)
     if assumed:
         yield words("todo.unconfirmed", assumed=assumed, count=count)
@@ -210,13 +210,15 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
         for check in row.checks:
             if check.verdict is verdict:
                 is_by_force = check.is_of_force and verdict is Verdict.FAIL
-                told = words("todo.fail") if is_by_force else tell_cause(check, words)
+                told = (
+                    words("todo.fail") if is_by_force else describe_cause(check, words)
+                )
                 causes.setdefault(told, []).append(check)
         for cause, checks in causes.items():
-            yield _tell_point(row, checks, cause, words)
+            yield _describe_point(row, checks, cause, words)
 
 
-def _tell_point(
+def _describe_point(
     row: RowStudy, checks: list[CheckRecord], cause: str, words: Words
 ) -> str:
     place = f"{show_text(row.id)}, {name_few(checks, words)}"
@@ -243,7 +245,7 @@ def _list_declared(study: Study, words: Words) -> Iterator[str]:
     for row in study.rows:
         for check in row.checks:
             if check.declared and check.verdict is Verdict.DECLARED:
-                proof = words.show(tell_proof(**asdict(check.declared)))
+                proof = words.show(describe_proof(**asdict(check.declared)))
                 found.setdefault((show_text(row.id), proof), []).append(check)
     for (row_id, proof), checks in found.items():
         place = f"{row_id}, {name_checks(checks, words)}"

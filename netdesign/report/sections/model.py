@@ -6,7 +6,7 @@ from netdesign.report.blocks.block import Items, Part, section
 from netdesign.report.blocks.table import Table, text_cell, text_column
 from netdesign.report.sections.basis import name_law
 from netdesign.report.words import Words, show_unit
-from netdesign.study.notes import tell_evidence
+from netdesign.study.notes import describe_evidence
 from netdesign.study.records import Study
 
 _MODEL = (
@@ -68,7 +68,7 @@ def show_model(study: Study, words: Words) -> Part:
     law = name_law(study)
     model = [words(key) for key in _MODEL]
     if law:
-        model.append(words.show(tell_evidence(law)))
+        model.append(words.show(describe_evidence(law)))
     return section(
         "annex-model",
         words("heading.annex_model"),

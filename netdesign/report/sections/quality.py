@@ -406,11 +406,11 @@ def _opinion_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
         number_cell(words, "foot_anchor_kN", by_case.get("load_case_1")),
         number_cell(words, "foot_anchor_kN", by_case.get("load_case_2")),
         number_cell(words, "foot_anchor_kN", max(known, default=None)),
-        text_cell(_tell_model_form(row.model_form, words)),
+        text_cell(_describe_model_form(row.model_form, words)),
     )
 
 
-def _tell_model_form(record: ModelFormRecord | None, words: Words) -> str:
+def _describe_model_form(record: ModelFormRecord | None, words: Words) -> str:
     """Spread of the governing force over other models of the snow; "-" without."""
     if record is None:
         return MISSING

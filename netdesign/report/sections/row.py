@@ -29,10 +29,10 @@ from netdesign.report.governing import find_shown
 from netdesign.report.sections.changes import show_changes
 from netdesign.report.sections.checks import (
     CheckLine,
+    describe_loads,
     list_lines,
     name_few,
     show_used,
-    tell_loads,
 )
 from netdesign.report.sections.inputs import show_value
 from netdesign.report.sections.worked import work_out
@@ -212,7 +212,7 @@ class RowSections:
             yield self._none("heading.no_utilisation")
             return
         yield work_out(check, t)
-        loads = tell_loads(check, t)
+        loads = describe_loads(check, t)
         if loads:
             yield Paragraph(text=loads, look="small")
 

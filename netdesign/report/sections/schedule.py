@@ -75,7 +75,7 @@ def _list_lines(row: RowStudy, words: Words) -> Iterator[tuple[Cell, ...]]:
             text_cell(_show_pulls(row, member, words)),
             *_show_forces([one for one in checks if one.position != _END], words),
             *_show_forces([one for one in checks if one.position == _END], words),
-            text_cell(_tell_needed(checks, words)),
+            text_cell(_describe_needed(checks, words)),
         )
 
 
@@ -107,7 +107,7 @@ def _show_forces(checks: Sequence[CheckRecord], words: Words) -> Iterator[Cell]:
         yield number_cell(words, "demand_kN", largest)
 
 
-def _tell_needed(checks: Sequence[CheckRecord], words: Words) -> str:
+def _describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
     """Least characteristic resistance that carries the design forces, by modes [kN].
 
     One number where all modes need the same.

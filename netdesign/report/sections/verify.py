@@ -138,7 +138,7 @@ def _describe_independent(study: Study, words: Words) -> str:
     return words("show.laws_counted", met=met, count=len(laws))
 
 
-def tell_cases(study: Study, words: Words) -> str:
+def describe_cases(study: Study, words: Words) -> str:
     """Cases with and without a result."""
     cases = [case for row in study.rows for case in row.cases]
     failed = sum(case.outcome is not Outcome.CONVERGED for case in cases)
@@ -195,7 +195,7 @@ _QUESTIONS: tuple[tuple[str, Callable[[Study, Words], str], str], ...] = (
         "heading.ranges",
     ),
     ("question.profile", _describe_profile, "heading.annex_profile"),
-    ("question.cases", tell_cases, "heading.annex_quality"),
+    ("question.cases", describe_cases, "heading.annex_quality"),
     ("question.snow_of_law", _describe_snow, "heading.annex_model"),
     ("question.quality", _describe_quality, "heading.annex_quality"),
     ("question.independent", _describe_independent, "heading.annex_quality"),

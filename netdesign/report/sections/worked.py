@@ -21,7 +21,7 @@ from netdesign.report.blocks.table import (
     text_cell,
 )
 from netdesign.report.blocks.text import Piece, strong, symbols
-from netdesign.report.sections.checks import name_case, tell_resistance
+from netdesign.report.sections.checks import describe_resistance, name_case
 from netdesign.report.words import (
     MISSING,
     UNBOUNDED,
@@ -55,7 +55,7 @@ def work_out(check: CheckRecord, words: Words) -> Table:
 def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
     """Every quantity that is worked out, from the solved force to the utilisation."""
     for one in evaluate(check.steps).values():
-        told = _tell_given(one, check, words)
+        told = _describe_given(one, check, words)
         if told:
             yield rich_cell(symbols(one.symbol)), text_cell(told[0]), text_cell(told[1])
         elif one.operation:
@@ -71,7 +71,7 @@ def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
             )
 
 
-def _tell_given(
+def _describe_given(
     one: Quantity, check: CheckRecord, words: Words
 ) -> tuple[str, str] | None:
     """Text in the place of numbers and result of a quantity without a formula."""
@@ -119,7 +119,7 @@ def _show_row(row: RowStudy, number: int, words: Words) -> Iterator[Block]:
     groups = _group(row.checks)
     shared = _find_shared(groups)
     name = words("show.label", label=words("heading.net_row"), text=show_text(row.id))
-    told = words.join(_tell_leaf(one, words) for one in shared)
+    told = words.join(_describe_leaf(one, words) for one in shared)
     table = Table(
         caption=f"{name}. {told}",
         columns=name_columns([words("heading.calculation")], numbers=()),
@@ -131,12 +131,12 @@ def _show_row(row: RowStudy, number: int, words: Words) -> Iterator[Block]:
     further = [one for one in row.checks if not one.is_of_force]
     shown: tuple[Block, ...] = (table,)
     if further:
-        text = words.join(_tell_further(further, words))
+        text = words.join(_describe_further(further, words))
         shown += (Paragraph(text=text, look="small"),)
     yield Part(kind="section", id=f"row-{number}-calculation", blocks=shown)
 
 
-def _tell_further(checks: Sequence[CheckRecord], words: Words) -> Iterator[str]:
+def _describe_further(checks: Sequence[CheckRecord], words: Words) -> Iterator[str]:
     """Checks that compare no force, each with its verdict, clause and reason."""
     for check in checks:
         sign = show_verdict(check.verdict, words).symbol
@@ -188,7 +188,7 @@ def _list_groups(
         action = [one for one in whole if one.symbol not in above]
         known = {one.id: evaluate(one.steps) for one in group}
         first = known[group[0].id]
-        steps = [_tell_step(one, first, words) for one in _set_leaves_first(action)]
+        steps = [_describe_step(one, first, words) for one in _set_leaves_first(action)]
         name = words("show.label", label=_name_group(group, words), text="")
         parts = [
             Piece(name, "name"),
@@ -198,7 +198,9 @@ def _list_groups(
             own = [one for one in check.steps[len(whole) :] if one.symbol not in above]
             resistance = (check.resistance_cell, check.mode, check.read("R_k"))
             is_told = resistance in told
-            parts += _tell_check(check, own, known[check.id], words, is_told=is_told)
+            parts += _describe_check(
+                check, own, known[check.id], words, is_told=is_told
+            )
             told.add(resistance)
         yield (rich_cell(tuple(parts)),)
 
@@ -215,17 +217,17 @@ def _set_leaves_first(steps: Sequence[Step]) -> list[Step]:
     return sorted(steps, key=lambda one: bool(one.formula))
 
 
-def _tell_step(step: Step, known: dict[str, Quantity], words: Words) -> str:
+def _describe_step(step: Step, known: dict[str, Quantity], words: Words) -> str:
     """Symbol, formula, value; what the heading says of all checks is left out."""
     if not step.formula:
-        return _tell_leaf(step, words)
+        return _describe_leaf(step, words)
     if step.symbol in _BY_HEADING:
         return f"{step.symbol} = {_show_step(step, words)}"
     formula = _write(known[step.symbol], lambda leaf: leaf.symbol, words)
     return f"{step.symbol} = {formula} = {_show_digits(step.value, words)}"
 
 
-def _tell_leaf(step: Step, words: Words) -> str:
+def _describe_leaf(step: Step, words: Words) -> str:
     return f"{step.symbol} = {_show_step(step, words)}"
 
 
@@ -243,7 +245,7 @@ def _show_digits(value: float | None, words: Words) -> str:
     return words.write(f"{value:.4g}")
 
 
-def _tell_check(
+def _describe_check(
     check: CheckRecord,
     steps: Sequence[Step],
     known: dict[str, Quantity],
@@ -254,14 +256,14 @@ def _tell_check(
     """Line of one check: where its resistance comes from, and what follows."""
     told = []
     for step in steps:
-        given = _tell_given(known[step.symbol], check, words)
+        given = _describe_given(known[step.symbol], check, words)
         if given and is_told and step.symbol == "R_k":
-            told.append(_tell_leaf(step, words))
+            told.append(_describe_leaf(step, words))
         elif given:
             told.append(f"{step.symbol} {' '.join(given)}")
         else:
-            told.append(_tell_step(step, known, words))
-    source = tell_resistance(check, words)
+            told.append(_describe_step(step, known, words))
+    source = describe_resistance(check, words)
     mode = words.show(name_mode(check.mode))
     label = mode if source == MISSING else f"{mode} ({source})"
     case = name_case(check, words, is_short=True)

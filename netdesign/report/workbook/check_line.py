@@ -11,7 +11,11 @@ from typing import Any
 from netdesign.outcome import Verdict
 from netdesign.report.blocks.table import Cell
 from netdesign.report.governing import find_case
-from netdesign.report.sections.checks import name_case, tell_loads, tell_resistance
+from netdesign.report.sections.checks import (
+    describe_loads,
+    describe_resistance,
+    name_case,
+)
 from netdesign.report.words import (
     MISSING,
     UNBOUNDED,
@@ -98,7 +102,7 @@ class CheckLine:
     def sentences(self) -> tuple[str, str]:
         """Source of the resistance, and the reason of the verdict."""
         words = self.book.words
-        return tell_resistance(self.check, words), words.show(self.check.reason)
+        return describe_resistance(self.check, words), words.show(self.check.reason)
 
     @cached_property
     def conditions(self) -> list[tuple[str, str]]:
@@ -295,7 +299,7 @@ def _list_reasons(words: Words) -> ChangedReasons:
 
 def show_load(check: CheckRecord, words: Words) -> str:
     """Load that governs; that of the guideline with its case."""
-    if not tell_loads(check, words):
+    if not describe_loads(check, words):
         return MISSING
     named = words(f"load_name.{check.governs}")
     return named if find_case(check) else f"{named}, {name_case(check, words)}"

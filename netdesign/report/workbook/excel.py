@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 
-from netdesign.errors import NetDesignError
+from netdesign.outcome import NetDesignError
 from netdesign.report.blocks.table import Table, text_cell, text_column
 from netdesign.report.gate import require_consistent
 from netdesign.report.sections.basis import (

@@ -227,11 +227,11 @@ def _write_governing(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
         _CASE,
         f'=IFERROR(IF({is_there},{case},"{MISSING}"),{load})',
         form,
-        _tell_case(book, row),
+        _describe_case(book, row),
     )
 
 
-def _tell_case(book: Book, row: RowStudy) -> str:
+def _describe_case(book: Book, row: RowStudy) -> str:
     """Case that brings the governing demand, or the guideline's load case."""
     check = find_governing(row.checks)
     if check is None:

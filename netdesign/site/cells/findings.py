@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from netdesign.edge.given_files import make_printable
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.words.message import Message, say
 
 Severity = Literal["error", "question", "note"]
@@ -112,10 +112,10 @@ def fold_findings(findings: Sequence[Finding]) -> tuple[Message, ...]:
         group.append(finding)
     asked = [one for one in findings if one.is_asked]
     offers = [say("finding.ask_map", file=one.file) for one in asked[:1]]
-    return (*map(_tell_alike, alike.values()), *offers)
+    return (*map(_describe_alike, alike.values()), *offers)
 
 
-def _tell_alike(findings: list[Finding]) -> Message:
+def _describe_alike(findings: list[Finding]) -> Message:
     first, *others = findings
     if not others:
         return first.message

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 from io import BytesIO
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import Cell, name_column
 from netdesign.site.cells.findings import refuse_file
 from netdesign.words.message import say

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from io import BytesIO
 from typing import Any
 
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, group_by_row
 from netdesign.site.cells.limits import (
     MAX_COLUMNS,

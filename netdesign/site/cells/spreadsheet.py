@@ -11,7 +11,7 @@ from pathlib import Path
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import make_printable, read_bounded
 from netdesign.edge.locks import is_held
-from netdesign.errors import ContentError
+from netdesign.outcome import ContentError
 from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.cells.delimited import read_delimited
 from netdesign.site.cells.findings import Finding, note_file, refuse_file
@@ -130,14 +130,14 @@ def _read_archive(
             file, content, is_wanted, text_format.decimal_mark
         )
     except DAMAGE as error:
-        rule = say("book.unreadable", detail=_tell_damage(error))
+        rule = say("book.unreadable", detail=_describe_damage(error))
         raise refuse_file(file, rule, _ACCEPTED_FILE) from error
     has_macros = any(part.startswith(_MACRO_PARTS) for part in parts)
     note = note_file(file, say("book.macros"))
     return *read, (note,) if has_macros else ()
 
 
-def _tell_damage(error: BaseException) -> Message:
+def _describe_damage(error: BaseException) -> Message:
     """Words of ours for what is wrong with a file."""
     cause = error.__cause__ or error  # openpyxl wraps what the parser says
     if isinstance(cause, ContentError):
@@ -171,7 +171,7 @@ def _read_file(path: Path, most: int) -> bytes:
         return read_bounded(path, most)
     except OSError as error:
         if is_held(error, path):
-            rule = say("book.open_elsewhere")
+            rule = say("book.open_in_program")
             raise refuse_file(path.name, rule, say("book.close_it")) from error
         rule = say("book.not_opened", cause=explain(error))
         raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error

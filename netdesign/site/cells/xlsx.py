@@ -10,7 +10,7 @@ from pathlib import Path
 from string import ascii_uppercase
 from typing import TYPE_CHECKING, Any
 
-from netdesign.errors import ContentError, NetDesignError
+from netdesign.outcome import ContentError, NetDesignError
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, group_by_row
 from netdesign.site.cells.findings import refuse_file
 from netdesign.site.cells.limits import (

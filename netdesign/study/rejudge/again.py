@@ -43,8 +43,8 @@ from netdesign.study.rejudge.compare import (
     guard,
     is_of_steady_states,
     is_same,
-    tell_differences,
-    tell_value,
+    report_differences,
+    report_value,
 )
 from netdesign.study.sideways import find_lack
 from netdesign.study.support_records import PanelRecord
@@ -82,7 +82,9 @@ def judge_again(
         ("what_if", study.what_if, list(site.what_if)),
     )
     for name, one, other in parts:
-        yield from tell_differences("audit.site_otherwise", {name: one}, {name: other})
+        yield from report_differences(
+            "audit.site_otherwise", {name: one}, {name: other}
+        )
     rows = {row.id: row for row in site.rows}
     is_known = standard is not None and standard.sha256 == study.profile.sha256
     for row in study.rows:
@@ -123,7 +125,7 @@ def _compare_inputs(
         "questions": list(given.questions),
         "panel": record_panel(given),
     }
-    yield from tell_differences("audit.row_otherwise", stored, again, place=place)
+    yield from report_differences("audit.row_otherwise", stored, again, place=place)
     if site.ranges.is_grid:
         points = [record_point(case) for case in build_cases(site.ranges)]
         if [case.case for case in row.cases] != points:
@@ -132,7 +134,7 @@ def _compare_inputs(
         known = is_calibrated(law, given, case.case.density_kg_m3)
         if case.is_calibrated is not known:
             where = say("audit.case", place=place, number=number)
-            yield tell_value(where, "is_calibrated", case.is_calibrated, known)
+            yield report_value(where, "is_calibrated", case.is_calibrated, known)
     yield from _compare_section(place, row, given)
 
 
@@ -197,7 +199,7 @@ def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Mess
         ("audit.other_floor", row.floor, floor),
         *_list_opinions(row, given, basis.law),
     ):
-        yield from tell_differences(key, one, other, place=place)
+        yield from report_differences(key, one, other, place=place)
     yield from _look_at_guideline(place, row)
 
 

@@ -19,7 +19,7 @@ from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import BoundRecord, EnvelopeRecord
 from netdesign.study.force_records import ForceRecord
 from netdesign.study.records import RowStudy
-from netdesign.study.rejudge.compare import SAME, is_same, tell_unequal
+from netdesign.study.rejudge.compare import SAME, is_same, report_unequal
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
@@ -134,7 +134,7 @@ def _rejudge_extreme(
     place: Message, extreme: ExtremeRecord, largest: CaseRecord
 ) -> Iterator[Message]:
     others = [member for member in REPORTED_MEMBERS if member != extreme.quantity]
-    yield from tell_unequal(
+    yield from report_unequal(
         place,
         [
             ("max_kN", extreme.max_kN, read_force(largest, extreme.quantity)),
@@ -200,7 +200,7 @@ def _rejudge_force(
     elif force.high_kN < largest.high_kN * (1.0 - SAME):
         high = show_value(force.high_kN)
         yield say("audit.too_low_end", place=place, high=high, least=largest.high_kN)
-    yield from tell_unequal(place, pairs)
+    yield from report_unequal(place, pairs)
     if not same_point(force.case, largest.case):
         yield say("audit.other_case", place=place)
 
@@ -225,7 +225,7 @@ def _rejudge_record(
 ) -> Iterator[Message]:
     failed = len(row.cases) - len(list_solved(row))
     where = say("audit.envelope", place=place)
-    yield from tell_unequal(
+    yield from report_unequal(
         where,
         [("cases", record.cases, len(row.cases)), ("failed", record.failed, failed)],
     )
@@ -233,7 +233,7 @@ def _rejudge_record(
     for key, (low, high) in spans.items():
         given = axes.get(key, (None, None))
         pairs = ((f"{key}.low", given[0], low), (f"{key}.high", given[1], high))
-        yield from tell_unequal(where, pairs)
+        yield from report_unequal(where, pairs)
     extremes = {extreme.quantity: extreme for extreme in row.extremes}
     if [bound.quantity for bound in record.bounds] != list(extremes):
         yield say("audit.bounds_of_others", place=place)
@@ -262,7 +262,7 @@ def _rejudge_bound(
             yield say("audit.other_confirmation", place=place, change=change)
         if again.confirmed_kN > extreme.high_kN * (1.0 + SAME):
             yield say("audit.confirmed_above", place=place)
-    yield from tell_unequal(place, pairs)
+    yield from report_unequal(place, pairs)
     gap = bound.upper_bound_kN - bound.max_kN
     known = max(bound.max_kN, *extreme.coincident_kN.values())
     if record.is_closed and gap > record.gap_asked_percent / 100.0 * known * 1.001:

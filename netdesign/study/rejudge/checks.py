@@ -37,10 +37,10 @@ from netdesign.study.rejudge.compare import (
     SAME,
     Pair,
     guard,
-    tell_differences,
-    tell_unequal,
-    tell_value,
-    tell_verdict,
+    report_differences,
+    report_unequal,
+    report_value,
+    report_verdict,
 )
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say
@@ -151,7 +151,7 @@ def _rejudge_itself(place: Message, check: CheckRecord) -> Iterator[Message]:
         what = name_check(check.member, check.mode, check.position)
         yield say("audit.check_of_other", place=place, what=what)
     if check.id in _NEVER_MET and check.verdict is not Verdict.NOT_PROVEN:
-        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+        yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     if check.is_unbounded is not _is_used_up(check):
         yield say("audit.unbounded", place=place)
 
@@ -175,7 +175,7 @@ def _rejudge_factors(
     general = f"resistance.{check.mode}"
     named = f"{general}.{check.resistance_basis}"
     key = next((one for one in (named, general) if one in values), "")
-    yield from tell_unequal(
+    yield from report_unequal(
         place,
         [
             ("γ_E", check.read("γ_E"), values.get(ACTION_FACTOR)),
@@ -214,7 +214,7 @@ def _rejudge_steps(
 ) -> Iterator[Message]:
     """Every step from the leaves, and these from forces and profile."""
     again = list_steps(_calculate(evaluate(check.steps)))
-    yield from tell_differences(
+    yield from report_differences(
         "audit.other_steps",
         {one.symbol: one for one in check.steps},
         {one.symbol: one for one in again},
@@ -223,7 +223,7 @@ def _rejudge_steps(
     )
     for step in check.steps:
         yield from _rejudge_leaf(place, step, known, values)
-    yield from tell_unequal(
+    yield from report_unequal(
         place,
         [
             ("demand_kN", check.demand_kN, check.read("E_d")),
@@ -251,11 +251,13 @@ def _rejudge_leaf(
     if step.kind is Kind.SOLVED and step.value is not None:
         expected: Ends = known.get(step.source, (None, None, None))
         names = (f"{step.symbol}.low", step.symbol, f"{step.symbol}.high")
-        yield from tell_unequal(
+        yield from report_unequal(
             place, list(zip(names, step.ends, expected, strict=True))
         )
     if step.kind is Kind.PROFILE and step.source in values and step.source != _RULES:
-        yield from tell_unequal(place, [(step.symbol, step.value, values[step.source])])
+        yield from report_unequal(
+            place, [(step.symbol, step.value, values[step.source])]
+        )
 
 
 def _rejudge_sources(
@@ -278,7 +280,7 @@ def _rejudge_sources(
         step, follows = check.known.get(symbol), expected.get(symbol, "")
         stored = step.source if step else ""
         if stored != follows:
-            yield tell_value(place, f"{symbol}.source", stored, follows)
+            yield report_value(place, f"{symbol}.source", stored, follows)
 
 
 def _name_sources(
@@ -337,7 +339,7 @@ def _rejudge_force(
     if is_left_open(check, row):
         return
     if row.unsaid:
-        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+        yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     has_force = any(one.quantity == _name_force(check) for one in row.forces)
     if check.is_of_force is not has_force:
         yield say("audit.action_or_force", place=place)
@@ -397,7 +399,7 @@ def _rejudge_verdict(
     if is_declared and verdict is not Verdict.FAIL:
         is_open = True
     if check.verdict is not verdict and not is_open:
-        yield tell_verdict(place, check.verdict, verdict)
+        yield report_verdict(place, check.verdict, verdict)
     if leave_out_governing(check.reason).key not in _REASONS[check.verdict]:
         told = say(f"verdict.{check.verdict}")
         yield say("audit.other_reason", place=place, verdict=told)
@@ -438,7 +440,7 @@ def _rejudge_spreads(place: Message, check: CheckRecord) -> Iterator[Message]:
     low = min(used, *(one or 0.0 for one, _ in ends))
     high = used + sum((one or 0.0) - used for _, one in ends)
     pairs: list[Pair] = [("spreads.low", low, band[0]), ("spreads.high", high, band[1])]
-    yield from tell_unequal(place, pairs)
+    yield from report_unequal(place, pairs)
 
 
 def _rejudge_snow(
@@ -460,7 +462,7 @@ def _rejudge_direction(
 ) -> Iterator[Message]:
     """Directions against the limits of the profile; where they pass, all is solved."""
     if check.verdict is Verdict.PASS and not is_complete(row):
-        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+        yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     if check.mode != "direction":
         return
     own = [one for one in row.pulls if one.anchor == check.member]
@@ -473,13 +475,13 @@ def _rejudge_direction(
     beyond = Verdict.FAIL if most is not None else Verdict.NOT_PROVEN
     is_kept = most is not None and pull.angle_deg <= most * (1.0 + SAME)
     if not pull.is_axis_known and check.verdict is Verdict.PASS:
-        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+        yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
     if _is_information(check, row) or (
         is_declared and (is_kept or beyond is not Verdict.FAIL)
     ):
         return
     if is_kept and check.verdict is Verdict.FAIL:
-        yield tell_verdict(place, check.verdict, Verdict.PASS)
+        yield report_verdict(place, check.verdict, Verdict.PASS)
     if not is_kept and check.verdict is not beyond:
-        yield tell_verdict(place, check.verdict, beyond)
+        yield report_verdict(place, check.verdict, beyond)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from netdesign.errors import NetDesignError
-from netdesign.outcome import Verdict
+from netdesign.outcome import NetDesignError, Verdict
 from netdesign.study.records import Study
 from netdesign.study.values import compare_values, show_value
 from netdesign.words.message import Message, say
@@ -31,7 +30,7 @@ def is_of_steady_states(study: Study) -> bool:
     return study.provenance.settings.get("method") == _STEADY
 
 
-def tell_unequal(place: Message, pairs: Iterable[Pair]) -> Iterator[Message]:
+def report_unequal(place: Message, pairs: Iterable[Pair]) -> Iterator[Message]:
     """A sentence for each name whose stored value is not what follows.
 
     ``pairs`` are the name in the document, stored value, value that follows from
@@ -39,7 +38,7 @@ def tell_unequal(place: Message, pairs: Iterable[Pair]) -> Iterator[Message]:
     """
     for name, stored, expected in pairs:
         if not is_same(stored, expected):
-            yield tell_value(place, name, stored, expected)
+            yield report_value(place, name, stored, expected)
 
 
 def guard(place: Message, sentences: Iterator[Message]) -> Iterator[Message]:
@@ -50,7 +49,7 @@ def guard(place: Message, sentences: Iterator[Message]) -> Iterator[Message]:
         yield say("audit.no_calculation", place=place)
 
 
-def tell_differences(
+def report_differences(
     key: str, stored: object, again: object, *, is_exact: bool = False, **given: Message
 ) -> Iterator[Message]:
     """Sentences on the first places at which a stored part is not what follows."""
@@ -58,13 +57,13 @@ def tell_differences(
         yield say(key, **given, value=found.message)
 
 
-def tell_value(place: Message, name: str, stored: object, follows: object) -> Message:
+def report_value(place: Message, name: str, stored: object, follows: object) -> Message:
     """A sentence on a value, by its name in the document, that is not what follows."""
     one, other = show_value(stored), show_value(follows)
     return say("audit.unequal", place=place, name=name, stored=one, follows=other)
 
 
-def tell_verdict(place: Message, stored: Verdict, follows: Verdict) -> Message:
+def report_verdict(place: Message, stored: Verdict, follows: Verdict) -> Message:
     """A sentence on a verdict that is not that of its parts."""
     verdict, merged = say(f"verdict.{stored}"), say(f"verdict.{follows}")
     return say("audit.verdict", place=place, verdict=verdict, merged=merged)

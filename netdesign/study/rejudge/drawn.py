@@ -20,7 +20,7 @@ from netdesign.study.rejudge.cases import (
     read_force,
     same_point,
 )
-from netdesign.study.rejudge.compare import Pair, tell_unequal, tell_value
+from netdesign.study.rejudge.compare import Pair, report_unequal, report_value
 from netdesign.study.support_records import AnchorRecord, Drawing, HeadForce
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
@@ -95,7 +95,7 @@ def _rejudge_anchors(
         if arrow.member != _name_arrow(one.anchor):
             drawn_as = name_member(arrow.member)
             yield say("audit.drawn_as", place=where, member=drawn_as)
-        yield from tell_unequal(
+        yield from report_unequal(
             where,
             [
                 ("size_kN", one.size_kN, size),
@@ -122,7 +122,7 @@ def _rejudge_sizes(
     foot, uphill, downhill, post = (one.size_kN for one in anchors)
     is_shared = drawing.uphill_anchor_m == (0.0, 0.0)
     sizes = (foot + uphill if is_shared else foot, uphill, downhill, post)
-    yield from tell_unequal(
+    yield from report_unequal(
         say("audit.drawn_case", place=place),
         [
             (m, s, read_force(drawn, m))
@@ -158,7 +158,7 @@ def _rejudge_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[M
     for member, anchor, force in sizes:
         if abs(anchor.size_kN - force) > within:
             where = say("audit.part", place=place, part=name_member(member))
-            yield tell_value(where, "size_kN", anchor.size_kN, force)
+            yield report_value(where, "size_kN", anchor.size_kN, force)
     expected = [(m, -a.force_x_kN, -a.force_y_kN) for m, a, _ in sizes if a.size_kN > 0]
     yield from _compare_head(place, others, expected)
 
@@ -199,7 +199,7 @@ def _compare_head(
     for one, (member, x, y) in zip(others, expected, strict=True):
         pairs = [("x_kN", one.x_kN, x), ("y_kN", one.y_kN, y)]
         where = say("audit.at_head", place=place, member=name_member(member))
-        yield from tell_unequal(where, pairs)
+        yield from report_unequal(where, pairs)
 
 
 def _rejudge_laws(
@@ -218,8 +218,8 @@ def _rejudge_laws(
     for law in row.independent:
         where = say("audit.law", place=place, law=law.name)
         if law.is_met is not is_law_met(law.name, law.value, law.limit):
-            yield tell_value(where, "is_met", law.is_met, not law.is_met)
-        yield from tell_unequal(where, _list_law_pairs(law, row, drawn))
+            yield report_value(where, "is_met", law.is_met, not law.is_met)
+        yield from report_unequal(where, _list_law_pairs(law, row, drawn))
 
 
 def _list_law_pairs(

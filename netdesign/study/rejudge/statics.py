@@ -9,7 +9,7 @@ from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member, RopeForce, name_in_panel
 from netdesign.study.records import RowStudy
-from netdesign.study.rejudge.compare import Pair, tell_unequal
+from netdesign.study.rejudge.compare import Pair, report_unequal
 from netdesign.study.support_records import StaticsRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
@@ -26,7 +26,7 @@ def rejudge_statics(row: RowStudy) -> Iterator[Message]:
     place = say("audit.row", row=row.id)
     for number, state in enumerate(row.statics):
         where = say("audit.statics", place=place, number=number)
-        yield from tell_unequal(where, _follow(state, spacing))
+        yield from report_unequal(where, _follow(state, spacing))
     yield from _rejudge_largest(place, row)
     yield from _rejudge_sideways(place, row, spacing)
 
@@ -110,7 +110,7 @@ def _rejudge_largest(place: Message, row: RowStudy) -> Iterator[Message]:
                 continue
             found = [read_state(one, member) for one in states if member in one.brings]
             where = say("audit.part", place=place, part=name_member(member))
-            yield from tell_unequal(
+            yield from report_unequal(
                 where, [(key, force, found[0] if len(found) == 1 else None)]
             )
 
@@ -139,7 +139,7 @@ def _rejudge_sideways(
     is_assumed = row.panel is not None and bool(row.panel.assumed)
     if is_assumed or (held.floor_tension_kN is not None and _lacks_altitude(row)):
         least = 0.0
-    yield from tell_unequal(
+    yield from report_unequal(
         place,
         [
             ("held_sideways.pull_kN", held.pull_kN, max(pulls, default=None)),

@@ -14,7 +14,7 @@ from netdesign.study.notes import list_reasons
 from netdesign.study.records import RowStudy, Study, list_verdicts
 from netdesign.study.rejudge.cases import Spans, rejudge_cases
 from netdesign.study.rejudge.checks import rejudge_checks
-from netdesign.study.rejudge.compare import guard, is_of_steady_states, tell_verdict
+from netdesign.study.rejudge.compare import guard, is_of_steady_states, report_verdict
 from netdesign.study.rejudge.drawn import rejudge_drawn
 from netdesign.study.rejudge.statics import rejudge_statics
 from netdesign.words.message import Message, say
@@ -68,7 +68,7 @@ def rejudge(
         found += judge_again(study, site, standard)
     verdict = merge_verdicts(row.verdict for row in study.rows)
     if study.verdict is not verdict:
-        found.append(tell_verdict(say("audit.study"), study.verdict, verdict))
+        found.append(report_verdict(say("audit.study"), study.verdict, verdict))
     return found
 
 
@@ -97,7 +97,7 @@ def _rejudge_verdict(row: RowStudy) -> Iterator[Message]:
     place = say("audit.row", row=row.id)
     verdict = merge_verdicts(list_verdicts(row.checks, row.independent))
     if row.verdict is not verdict:
-        yield tell_verdict(place, row.verdict, verdict)
+        yield report_verdict(place, row.verdict, verdict)
     reasons = list_reasons(row.checks, row.independent)
     if row.reasons != reasons:
         yield say("audit.other_reasons", place=place)

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from netdesign.coupling.history.clock import Clock
-from netdesign.errors import ModelError
+from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import PAPER_FLUIDITY, compute_fluidity
 
 DAY = 86400.0

@@ -15,8 +15,7 @@ from netdesign.coupling.history.net_start import build_start
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.history.transient import run_history
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
 
 STEP = 1e-4

@@ -12,9 +12,8 @@ from netdesign.coupling.history.net_start import (
 )
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.history.state import build_problem
-from netdesign.errors import SolveError
 from netdesign.numerics.curve import interpolate_curve
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
 

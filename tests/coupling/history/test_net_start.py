@@ -10,8 +10,7 @@ from netdesign.coupling.history.net_start import build_start
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.steady.net import guess_pressure
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template
 
 SLACKS = [0.0, 0.02, 0.15]

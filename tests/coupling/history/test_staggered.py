@@ -16,8 +16,7 @@ from netdesign.coupling.history.settings import (
 from netdesign.coupling.history.staggered import run_exchange, solve_staggered
 from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.errors import ModelError, SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 
 SETTINGS = StaggeredSettings(base_drag=0.1, horizon=0.02)
 

@@ -12,8 +12,7 @@ from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSetti
 from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.moments import select_counted
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.errors import ModelError, SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.creep_law import compute_fluidity
 
 COARSE = TRANSIENT_LEVELS[0]

@@ -13,8 +13,7 @@ from netdesign.coupling.steady.net import (
     locate_nodes,
     start_net,
 )
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
 
 

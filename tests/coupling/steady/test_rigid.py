@@ -11,8 +11,7 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, WallSolution
 from netdesign.coupling.steady import rigid
 from netdesign.coupling.steady.rigid import measure_glide_factor, solve_rigid
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall

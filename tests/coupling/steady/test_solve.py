@@ -12,8 +12,7 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import net, round, rounds
 from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow import flow
 from netdesign.snow.placed_mesh import PlacedMesh
 

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from netdesign import __version__
-from netdesign.errors import ModelError
 from netdesign.evidence.benchmark import probe
 from netdesign.evidence.benchmark.against import (
     Bench,
@@ -20,6 +19,7 @@ from netdesign.evidence.benchmark.against import (
 )
 from netdesign.evidence.benchmark.scenes import NAMES, SHORT, write_scene, write_site
 from netdesign.files.scene import read_scene
+from netdesign.outcome import ModelError
 from netdesign.site.reader import read_site
 
 THIS = Path(sys.executable)

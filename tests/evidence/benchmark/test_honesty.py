@@ -7,7 +7,6 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark import honesty
 from netdesign.evidence.benchmark.honesty import (
     Finding,
@@ -18,7 +17,7 @@ from netdesign.evidence.benchmark.honesty import (
 )
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import Truth
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import lines
 from netdesign.evidence.benchmark.lines import (
     PARAMETERS,
@@ -21,7 +20,7 @@ from netdesign.evidence.benchmark.lines import (
     write_lines,
 )
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 
 ACCURACY = SolverSettings(accuracy=0.005)
 

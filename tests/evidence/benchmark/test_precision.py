@@ -6,7 +6,6 @@ from dataclasses import replace
 import pytest
 
 from netdesign.coupling.solution import FailedSolution
-from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark import precision
 from netdesign.evidence.benchmark.precision import (
     Effort,
@@ -18,7 +17,7 @@ from netdesign.evidence.benchmark.precision import (
 )
 from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, SCENES, load_scenes
 from netdesign.evidence.runner import fit_order, share, summarise_times
-from netdesign.outcome import Outcome
+from netdesign.outcome import ModelError, Outcome, SolveError
 
 LEAST = Effort(finest=2, repeats=1)
 # Keys that scripts rely on.

@@ -9,7 +9,6 @@ from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import truth as truths
 from netdesign.evidence.benchmark.truth import (
     HALVINGS,
@@ -21,7 +20,7 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
-from netdesign.outcome import Outcome
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template
 
 

@@ -61,9 +61,8 @@ def test_exchange_stops_at_its_creep_time():
 
 
 def test_a_failure_is_a_result_with_its_reason(monkeypatch):
-    from netdesign.errors import SolveError
     from netdesign.evidence.paper import runs
-    from netdesign.outcome import Outcome
+    from netdesign.outcome import Outcome, SolveError
 
     def fail(*_, **__):
         raise SolveError(Outcome.DIVERGED, "made to fail")

@@ -8,7 +8,6 @@ from importlib.resources import files
 import pytest
 
 from netdesign.cli import main
-from netdesign.errors import ModelError
 from netdesign.evidence.validation.band import SAMPLES, validate_structure
 from netdesign.evidence.validation.gather import read_all
 from netdesign.evidence.validation.page import (
@@ -22,6 +21,7 @@ from netdesign.evidence.validation.structure import Span, read_structures
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, Contrast, list_places
 from netdesign.evidence.verification.exported import load_results
+from netdesign.outcome import ModelError
 from netdesign.report.words import Words, show_own
 from tests.commands.every_command import read_page
 from tests.words.english import list_vocabulary, list_words

@@ -8,7 +8,7 @@ import pytest
 
 docx = pytest.importorskip("docx")
 
-from netdesign.errors import OutputError  # noqa: E402
+from netdesign.outcome import OutputError  # noqa: E402
 from netdesign.report.document import template  # noqa: E402
 from netdesign.report.document.template import read_template, require_docx  # noqa: E402
 from netdesign.report.document.word import render_document  # noqa: E402

@@ -4,8 +4,7 @@ from html import escape
 
 import pytest
 
-from netdesign.errors import NetDesignError
-from netdesign.outcome import Verdict
+from netdesign.outcome import NetDesignError, Verdict
 from netdesign.report.page import html
 from netdesign.report.page.render import write_subscripts
 from netdesign.report.sections.whole import list_sections

@@ -2,7 +2,7 @@ from importlib.util import find_spec
 
 import pytest
 
-from netdesign.errors import NetDesignError
+from netdesign.outcome import NetDesignError
 from netdesign.report.page import pdf
 from netdesign.report.page.html import render_html
 from tests.report.build_study import build_study

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 
 from netdesign.report.sections.basis import (
+    describe_accepted_law,
     list_defaults,
     name_rows,
-    tell_accepted_law,
 )
 from netdesign.report.words import Words
 from netdesign.site.model import InputEcho
@@ -80,7 +80,7 @@ def test_an_accepted_law_that_is_not_the_study_s_is_told_as_such(given, told):
     settings = study.provenance.settings | {"creep_law": "boutillier-2004 n=3"}
     made = replace(study.provenance, settings=settings)
     project = replace(study.project, accepted_law=given)
-    found = tell_accepted_law(
+    found = describe_accepted_law(
         replace(study, provenance=made, project=project), Words("en")
     )
     assert found.endswith(told)

@@ -12,8 +12,8 @@ from netdesign.report.sections.changes import (
     show_changes,
 )
 from netdesign.report.words import Words, show_check
-from netdesign.study.remedies import CLOSE
 from netdesign.study.records import ChangeRecord
+from netdesign.study.remedies import CLOSE
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 

@@ -7,10 +7,10 @@ import pytest
 from netdesign.outcome import Verdict
 from netdesign.report.governing import find_governing, find_highest
 from netdesign.report.sections.checks import (
+    describe_briefly,
+    describe_cause,
+    describe_resistance,
     list_lines,
-    tell_briefly,
-    tell_cause,
-    tell_resistance,
 )
 from netdesign.report.words import Words, show_check
 from netdesign.words.catalogue import LANGUAGES
@@ -95,7 +95,7 @@ def test_the_worse_of_both_places_is_the_line_s(worst, is_end):
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("row", STUDY.rows, ids=lambda row: f"row {row.verdict}")
 def test_a_row_that_does_not_pass_says_why_in_few_words(row, language):
-    told = tell_briefly(row, Words(language))
+    told = describe_briefly(row, Words(language))
     assert bool(told) is (row.verdict is not Verdict.PASS)
     assert len(told.split()) <= 14
 
@@ -108,16 +108,16 @@ def test_a_cause_is_the_gap_alone_or_both_design_values():
     reason = say("check.not_proven", gaps=(gap,))
     told = say("load.reason", reason=reason, load=say("load.coupled"))
     lacking = replace(check, verdict=Verdict.NOT_PROVEN, reason=told)
-    assert tell_cause(lacking, ENGLISH) == ENGLISH.show(gap)
+    assert describe_cause(lacking, ENGLISH) == ENGLISH.show(gap)
     row = replace(STUDY.rows[2], checks=[lacking], verdict=Verdict.NOT_PROVEN)
-    assert "Anchors!C6" not in tell_briefly(row, ENGLISH)
+    assert "Anchors!C6" not in describe_briefly(row, ENGLISH)
     failing = replace(check, verdict=Verdict.FAIL, reason=say("check.fails"))
     shown = [f"{x:.1f} kN" for x in (check.demand_kN, check.resistance_kN)]
-    assert all(one in tell_cause(failing, ENGLISH) for one in shown)
+    assert all(one in describe_cause(failing, ENGLISH) for one in shown)
 
 
 def test_a_resistance_names_type_basis_and_cell():
     check = next(one for one in STUDY.rows[0].checks if one.resistance_cell)
-    told = tell_resistance(check, ENGLISH)
+    told = describe_resistance(check, ENGLISH)
     assert check.resistance_cell in told
     assert check.resistance_type in told

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.errors import NetDesignError
-from netdesign.outcome import Verdict
+from netdesign.outcome import NetDesignError, Verdict
 from netdesign.report.governing import SEVERITY
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.decision import (

@@ -1,6 +1,6 @@
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import TextFormat
 from netdesign.site.reader import read_site
 

@@ -1,4 +1,4 @@
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.findings import Finding, add_nearest, quote
 from netdesign.words.message import say
 

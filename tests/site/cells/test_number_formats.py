@@ -5,7 +5,7 @@ import random
 import openpyxl
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.numbers import (
     find_format_unit,
     find_text_unit,

@@ -3,7 +3,7 @@ import zipfile
 
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.cells.spreadsheet import read_workbook
 from tests.site.cells.ods_files import write_ods
 

@@ -6,7 +6,7 @@ import openpyxl
 import pytest
 import xlsxwriter
 
-from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.outcome import NetDesignError, SiteDataError
 from netdesign.site.cells import limits, spreadsheet
 from netdesign.site.cells.cells import name_column
 from netdesign.site.cells.spreadsheet import read_workbook

@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
 from tests.site.columns.empty_cells import (

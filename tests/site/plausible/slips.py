@@ -7,7 +7,7 @@ for the number beside or below it, the heading's unit taken for the next one.
 import re
 from dataclasses import dataclass
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import (
     ANCHORS,
     ENDS,

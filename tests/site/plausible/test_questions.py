@@ -3,7 +3,7 @@
 import openpyxl
 import pytest
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
 from netdesign.site.template.annotate import annotate_workbook

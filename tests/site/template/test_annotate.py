@@ -5,7 +5,7 @@ import openpyxl
 import pytest
 from openpyxl.comments import Comment
 
-from netdesign.errors import SiteDataError
+from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from netdesign.checks import list_standards
-from netdesign.errors import OutputError, SiteDataError
+from netdesign.outcome import OutputError, SiteDataError
 from netdesign.site.columns.all_tables import NETS, SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template

@@ -7,8 +7,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.errors import SiteDataError
-from netdesign.outcome import Verdict
+from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import solve_site
