@@ -21,11 +21,14 @@ from netdesign.report.words import (
     append_unit,
     show_member,
 )
+from netdesign.structure.members import EndMember
 from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.words.message import Message
 from netdesign.words.names import name_mode
 
 _PUSHED = ("post", "post_base")
 _END = "edge"
+_SIDES = ("uphill", "downhill")
 
 
 def show_schedule(study: Study, words: Words) -> Part:
@@ -44,7 +47,7 @@ def build_schedule(study: Study, words: Words) -> Table:
         for place in ("inside", "at_end")
         for symbol in ("E_k", "E_d")
     ]
-    headings = ("member", "type", "schedule_force", "directions")
+    headings = ("member", "type", "schedule_place", "schedule_force", "directions")
     return Table(
         caption=words("caption.schedule"),
         columns=(
@@ -71,12 +74,42 @@ def _list_lines(row: RowStudy, words: Words) -> Iterator[tuple[Cell, ...]]:
             text_cell(row.id),
             text_cell(show_member(words, member)),
             text_cell(kind),
+            text_cell(_describe_place(row, member, words)),
             text_cell(words(f"schedule.{force}")),
             text_cell(_show_pulls(row, member, words)),
             *_show_forces([one for one in checks if one.position != _END], words),
             *_show_forces([one for one in checks if one.position == _END], words),
             text_cell(_describe_needed(checks, words)),
         )
+
+
+def _describe_place(row: RowStudy, member: str, words: Words) -> str:
+    """Number of a part for each post or row end, and where it stands."""
+    if member in (*EndMember,):
+        return words("schedule.per_end")
+    side = next((one for one in _SIDES if member.startswith(one)), None)
+    if side is None:
+        return words("schedule.per_post", count=1)
+    count = _find_input(row, "guy_count")
+    if "guy" in member:
+        return words(
+            "schedule.per_post", count=MISSING if count is None else f"{count:.0f}"
+        )
+    distance = _find_input(row, f"{side}_anchor_distance")
+    return words(
+        f"schedule.per_post_{side}",
+        count=MISSING if count is None else f"{count:.0f}",
+        distance=MISSING if distance is None else words.write(f"{distance:.2f}"),
+    )
+
+
+def _find_input(row: RowStudy, column: str) -> float | None:
+    """Number of a column of sheet Nets, as understood; None where it is empty."""
+    for echo in row.inputs:
+        label = echo.label
+        if isinstance(label, Message) and label.key == f"column.Nets.{column}":
+            return echo.value if isinstance(echo.value, float | int) else None
+    return None
 
 
 def _name_force(check: CheckRecord) -> str:

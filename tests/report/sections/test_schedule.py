@@ -1,13 +1,18 @@
 """The anchor schedule: what is built and the forces that it is built for."""
 
+from dataclasses import replace
+
 import pytest
 
 from netdesign.report.sections.schedule import build_schedule
 from netdesign.report.words import ENGLISH, Words, show_member
+from netdesign.site.model import InputEcho
 from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.message import say
 from tests.report.build_study import build_study
 
 STUDY = build_study()
+MEMBERS = ("uphill_anchor", "uphill_guy", "downhill_anchor", "post")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -34,7 +39,7 @@ def test_forces_are_the_upper_ends_of_their_checks():
                 and show_member(ENGLISH, one.member) == line[1].text
             ]
             known = [end for end in ends if end is not None]
-            assert line[6].number == (max(known) if known else None)
+            assert line[7].number == (max(known) if known else None)
 
 
 def test_the_least_resistance_passes_and_anything_below_does_not():
@@ -50,3 +55,27 @@ def test_the_least_resistance_passes_and_anything_below_does_not():
                 if demand and factor:
                     shown = f"{demand * factor:.1f}"
                     assert shown in line[-1].text
+
+
+def echo(column, value):
+    label = say(f"column.Nets.{column}")
+    return InputEcho(label=label, unit="", text=f"{value}", value=value, cell="Nets!A2")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_part_has_its_number_and_place(language):
+    words = Words(language)
+    inputs = [echo("guy_count", 2.0), echo("uphill_anchor_distance", 3.27)]
+    of_force = next(one for one in STUDY.rows[0].checks if one.is_of_force)
+    checks = [replace(of_force, member=one) for one in MEMBERS]
+    row = replace(STUDY.rows[0], inputs=inputs, checks=checks)
+    lines = build_schedule(replace(STUDY, rows=[row]), words).rows
+    places = {line[1].text: line[3].text for line in lines}
+    at = {one: places[show_member(words, one)] for one in MEMBERS}
+    assert at["uphill_anchor"].startswith("2 ")
+    assert words.write("3.27 m") in at["uphill_anchor"]
+    assert at["uphill_guy"].startswith("2 ")
+    assert "3" not in at["uphill_guy"]
+    assert at["post"].startswith("1 ")
+    # nobody gave the other distance
+    assert " - m" in at["downhill_anchor"]
