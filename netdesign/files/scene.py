@@ -16,6 +16,7 @@ from netdesign.coupling.history.settings import (
     TransientSettings,
 )
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import Method
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_toml
 from netdesign.files.support_tables import (
@@ -52,7 +53,6 @@ from netdesign.units import (
 )
 from netdesign.words.message import Message, say
 
-Method = Literal["steady", "transient", "staggered"]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Pair = Annotated[list[Finite], Field(min_length=2, max_length=2)]

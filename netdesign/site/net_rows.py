@@ -29,7 +29,7 @@ from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
     build_layers,
     echo_layers,
-    settle_thickness,
+    resolve_thickness,
 )
 from netdesign.site.statements import (
     check_statements,
@@ -231,7 +231,7 @@ def _understand_thickness(
     if lines and not layers:  # a line of sheet Snow is faulty: a finding already
         return None
     if lines and not is_ranged:
-        return settle_thickness(layers, given, slope_angle, findings)
+        return resolve_thickness(layers, given, slope_angle, findings)
     if is_normal:
         return thickness.si
     if height.state == "blank":

@@ -71,7 +71,7 @@ def build_layers(
     return tuple(layers)
 
 
-def settle_thickness(
+def resolve_thickness(
     layers: tuple[Layer, ...],
     given: Reading,
     slope_angle: Reading,

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
+from netdesign.coupling.solution import FailedSolution, Method, Solution, WallSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.wall import Wall
 
@@ -46,7 +46,7 @@ def solve_scene(
     return solve_steady(scene, settings)
 
 
-def method_of(settings: Settings) -> Literal["steady", "transient", "staggered"]:
+def method_of(settings: Settings) -> Method:
     """Name of the method that the settings choose."""
     if isinstance(settings, TransientSettings):
         return "transient"

@@ -69,13 +69,13 @@ class Circumstances:
     pull: AnchorPull | None
 
 
-def settle_resistance(given: Resistance, known: Circumstances) -> Resistance:
+def find_resistance_for_force(given: Resistance, known: Circumstances) -> Resistance:
     """Resistance with the value that its circumstances give it; others as they are."""
     match given.dimensions:
         case AnchorType():
-            return _settle_bending(given, given.dimensions, known.pull)
+            return _find_bent_resistance(given, given.dimensions, known.pull)
         case PostSection():
-            return _settle_post(given, given.dimensions, known)
+            return _find_post_resistance(given, given.dimensions, known)
         case _:
             return given
 
@@ -104,7 +104,7 @@ def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message |
     )
 
 
-def _settle_bending(
+def _find_bent_resistance(
     given: Resistance, anchor: AnchorType, pull: AnchorPull | None
 ) -> Resistance:
     section, lever = anchor.section, anchor.lever
@@ -150,7 +150,7 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
     )
 
 
-def _settle_post(
+def _find_post_resistance(
     given: Resistance, section: PostSection, known: Circumstances
 ) -> Resistance:
     efficiency = known.standard.find(POST_EFFICIENCY)

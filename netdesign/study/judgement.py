@@ -16,7 +16,19 @@ from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
-from netdesign.study.dependent import Circumstances, find_short_post, settle_resistance
+from netdesign.study.check_to_record import (
+    apply_declaration,
+    judge_force,
+    list_checked,
+    place_check,
+    record_geometry,
+    record_result,
+)
+from netdesign.study.dependent import (
+    Circumstances,
+    find_resistance_for_force,
+    find_short_post,
+)
 from netdesign.study.force_records import ForceRecord
 from netdesign.study.guideline_records import FloorForceRecord
 from netdesign.study.member_force import (
@@ -28,14 +40,6 @@ from netdesign.study.member_force import (
 from netdesign.study.pulls import AnchorPull, check_directions, find_pull
 from netdesign.study.records import CheckRecord
 from netdesign.study.row_end import find_lack, find_other_panel, name_unsaid
-from netdesign.study.settle import (
-    judge_force,
-    list_checked,
-    place_check,
-    record_geometry,
-    record_result,
-    settle_check,
-)
 from netdesign.study.sideways import check_sideways
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say
@@ -145,7 +149,7 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
 
 
 def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCheck:
-    """Check beside whose cases the program failed: it passes no more."""
+    """Check that is NOT PROVEN, since the program failed in a solve near its cases."""
     if one.gap is not None or one.force is None:
         return one
     result = judge_force(
@@ -170,7 +174,7 @@ def _judge_member(
             standard=basis.standard,
             pull=find_pull(known.pulls, given.member, width.position),
         )
-        given = settle_resistance(given, surroundings)
+        given = find_resistance_for_force(given, surroundings)
         doubt = _find_doubt(basis, list_bringing(forces, given.member, force))
     found = [forces.largest.get(given.member), *_list_panel(forces, given.member)]
     gap = known.gap or known.floor_gap or _find_unseen(found)
@@ -292,7 +296,7 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
     """Check of a force as the study has it, without what a solve adds to it."""
     position = one.width.position
-    settled = settle_check(basis.site, basis.row, one.result, position)
+    settled = apply_declaration(basis.site, basis.row, one.result, position)
     check = place_check(record_result(settled, one.given, one.force), position)
     if one.force is None:
         return check
@@ -321,7 +325,9 @@ def record_others(
     site, row, standard = basis.site, basis.row, basis.standard
     gap = find_open(row, judged)
     lateral = check_sideways(row, known.held, standard, gap)
-    yield record_result(settle_check(site, row, lateral))
+    yield record_result(apply_declaration(site, row, lateral))
     for place, one in check_directions(known.pulls, standard, gap):
-        yield place_check(record_result(settle_check(site, row, one, place)), place)
+        yield place_check(
+            record_result(apply_declaration(site, row, one, place)), place
+        )
     yield from record_geometry(site, row, standard)

@@ -62,7 +62,9 @@ def test_a_study_comes_out_again_from_its_site_file(home):
     assert "results, SHA-256: equal" in ended.stdout
     assert "9 cases solved again" in ended.stdout
     assert "\nsame bytes\n" in ended.stdout
-    assert ended.stdout.splitlines()[-1].startswith("as stated, known to nobody else")
+    assert ended.stdout.splitlines()[-1].startswith(
+        "not checked, as only the run knows it"
+    )
     assert not (home / "none.sqlite").exists()  # no stored case was believed
 
 

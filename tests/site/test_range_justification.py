@@ -3,7 +3,7 @@
 from netdesign.site.reader import read_site
 
 REASON = (
-    "R1: equivalent density at the highest snow 303 to 331 kg/m3; Davos, winters: 4"
+    "R1: equivalent density at the highest snow 303 to 331 kg/m³; Davos, winters: 4"
 )
 
 

@@ -159,7 +159,7 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
         )
     study = judge_site(site, results, load_standard("nf-p-95-304-style"), run)
     (note,) = [str(note) for note in study.notes if "layers" in str(note)]
-    assert note.startswith("net row R1: its 3 layers of mean density 333.3 kg/m3")
+    assert note.startswith("net row R1: its 3 layers of mean density 333.3 kg/m³")
     del layered["Snow"]
     uniform = solve_site(read_site(save(layered)), run)
     heads = [

@@ -107,7 +107,7 @@ def test_spikes_and_a_start_in_snow_are_told(sheets, save):
     site = read_site(save(with_lines(sheets, *days(30, 92, 40))))
     told = " ".join(map(str, site.notes))
     assert "2003-02-02: the snow rises by more than 0.6 m" in told
-    assert "300 kg/m3 (assumed)" in told
+    assert "300 kg/m³ (assumed)" in told
     assert len(site.winter.notes) == 2
 
 

@@ -131,7 +131,7 @@ def test_both_fall_with_density():
 @pytest.mark.parametrize("compute", [compute_shear_factor, compute_bulk_factor])
 def test_density_that_is_not_snow(compute, density):
     with pytest.raises(
-        ModelError, match=r"relative density = .* at most 0\.99, that is 908 kg/m3"
+        ModelError, match=r"relative density = .* at most 0\.99, that is 908 kg/m³"
     ):
         compute(LAW, density)
 

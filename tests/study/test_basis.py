@@ -66,7 +66,7 @@ def test_light_governing_snow_is_not_proven_until_its_law_is_accepted(judge):
         is_loaded = check.read_band("E_d")[1] != 0.0  # that of no force rests on all
         assert (check.verdict is Verdict.NOT_PROVEN) is is_loaded
         if is_loaded:
-            assert "287 kg/m3 lies outside the 367 to 917" in str(check.reason)
+            assert "287 kg/m³ lies outside the 367 to 917" in str(check.reason)
             assert LAW in str(check.reason)
     assert any("within a factor of 7" in str(note) for note in open_.notes)
     project = Project(accepted_law=LAW)
@@ -88,7 +88,7 @@ def test_another_law_accepted_is_not_this_one(judge):
 
 
 def test_only_the_governing_snow_counts(judge):
-    """The lightest of 270 to 400 kg/m3 lies outside too, and decides nothing."""
+    """The lightest of 270 to 400 kg/m³ lies outside too, and decides nothing."""
     study = judge(build_row("R1"))
     assert {case.is_calibrated for case in study.rows[0].cases} == {False, True}
     assert study.verdict is Verdict.PASS

@@ -76,7 +76,7 @@ def checks_of(study):
 
 
 def test_short_light_snow_fails_by_the_guideline_where_the_coupled_force_passed(solved):
-    """psi 45, D 4 m, N 2.4, 200 to 270 kg/m3, L 5 m: passed until 0.1.0."""
+    """psi 45, D 4 m, N 2.4, 200 to 270 kg/m³, L 5 m: passed until 0.1.0."""
     resistances = resist(foot_anchor__tendon=400e3)
     _, study = judge(solved, resistances=resistances)
     check = checks_of(study)["foot_anchor.tendon"]
@@ -254,7 +254,7 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     reason = say("check.passes")
     told = name_governing(reason, forced, case)
     assert str(told).endswith(
-        "; the guideline's load (load case 2) governs the demand."
+        "; the guideline's load (load case 2) governs the design force."
     )
     assert leave_out_governing(told) == reason
     assert leave_out_governing(reason) == reason
@@ -317,7 +317,7 @@ def test_comparison_ends_in_a_sentence_with_size_and_cause(solved):
     larger = cases["load_case_2"].foot_anchor_kN
     assert f"load case 2 is larger: {larger:.0f} kN against {foot:.0f} kN" in told
     assert f"{100.0 * (larger / foot - 1.0):.0f} % more" in told
-    assert "Density: the guideline's snow has 400 kg/m3" in told
+    assert "Density: the guideline's snow has 400 kg/m³" in told
     assert "over 5 m, as it knows no length" in told
 
 

@@ -92,7 +92,7 @@ def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
     before, after = plain["uphill_guy.rope"], panel["uphill_guy.rope"]
     assert after.governs == "panel"
     assert after.demand_kN > 1.1 * before.demand_kN
-    assert "the panel between posts governs the demand" in str(after.reason)
+    assert "the panel between posts governs the design force" in str(after.reason)
     assert after.read("E_s") == before.read("E_s")
     foot = panel["foot_anchor.tendon"]
     assert foot.governs in ("coupled", "guideline")

@@ -1,11 +1,14 @@
 """How a language is written: signs, one term for one thing, no term of the odd list."""
 
 import re
+import tomllib
+from pathlib import Path
 
 import pytest
 
+from netdesign import words
 from netdesign.commands.help_texts import load_help
-from netdesign.words.catalogue import load_texts, render
+from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import say
 
 NO_BREAK = "\u00a0"
@@ -19,7 +22,8 @@ AS_TYPED = re.compile(
 
 def list_texts(language):
     """Texts by their key, and those of help by the English ones."""
-    return {**load_texts(language), **load_help(language).texts}
+    of_help = load_help(language)  # None of English, where it stands
+    return {**load_texts(language), **(of_help.texts if of_help else {})}
 
 
 def strip(text):
@@ -57,58 +61,28 @@ def test_a_share_that_is_rounded_has_the_space_too(language):
 
 
 # What readers of the language stumbled over, or a second term for the same thing.
-ODD = {
-    "fr": {
-        r"\bbandes?\b(?! (?:plane|de filet|entre))": "intervalle",
-        r"[Nn]ulle part au-dessus": "majorant",
-        r"[Ss]ortant du sol": "normal à la pente",
-        r"\bessayés?\b": "justifié par essais",
-        r"inverserait": "ce qui changerait le verdict",
-        r"ils se ferment": "équilibre vérifié",
-        r"\bla pied\b|\bune ouvrage\b": "au pied, un ouvrage",
-        r"\bscènes?\b": "situation",
-        r"\bsupports?\b": "appui",
-        r"[Hh]istorique": "évolution",
-        r"\bmurs?\b|\bparois?\b": "écran",
-        r"échange alterné": "échange décalé",
-        r"simulation couplée": "calcul couplé",
-        r"(?<!directive )\bclauses?\b": "article",
-        r"[Cc]âbles? de bord": "câble de rive",
-        r"\btravées?\b": "panneau",
-        r"\bdensités?\b": "masse volumique",
-        r"[Ff]acteurs? partiels?": "coefficient partiel",
-        r"\bfeuille (?:Monitoring|Ranges|Nets)\b": "nom de la feuille en français",
-        r"’": "'",
-    },
-    "de": {
-        r"(?<!Standort)(?<!Arbeits)[Mm]appe\b": "Arbeitsmappe",
-        r"Abstützung": "Stütze",
-        r"\bUrteil": "Ergebnis",
-        r"\bKlausel\b": "Ziffer",
-        r"[Uu]ntere Schranke": "Untergrenze",
-        r"Korrelationsbeiwert": "Streuungsfaktor",
-        r"Randwirkung|Randeinfluss": "Randeffekt",
-        r"Querlast": "Last längs der Reihe",
-        r"Herausziehwiderstand": "Ausziehwiderstand",
-        r"gestaffelte": "versetzter Austausch",
-        r"\bGeschichte\b": "Verlauf",
-        r"\bGelände\b": "Standort",
-        r"Elementnetz|Netz der Elemente": "Rechennetz",
-        r"\bStich\b": "Durchhang",
-        r"\bkippen\b|\bwendet\b": "das Ergebnis ändern",
-        r"Blatt (?:Monitoring|Ranges|Nets)\b": "Name des Blatts auf Deutsch",
-        r"[«»]": "„ “",
-    },
-}
+TERMS = tomllib.loads(Path(words.__file__).with_name("terms.toml").read_text("utf-8"))
+# Words of standards that are quoted.
+QUOTING = ("profile_source.", "profile_about.", "resistance_source.")
+AVOIDED = [
+    (language, name, pattern)
+    for name, term in TERMS.items()
+    for language, patterns in term.get("not", {}).items()
+    for pattern in patterns
+]
 
 
-@pytest.mark.parametrize(
-    ("language", "term"), [(one, term) for one in ODD for term in ODD[one]]
-)
-def test_one_term_stands_for_one_thing(language, term):
-    better = ODD[language][term]
-    quoting = ("profile_source.",) if term.startswith("[«") else ()
-    assert (better, find(language, term, but=quoting)) == (better, {})
+def test_every_term_is_defined_in_three_languages_with_its_source():
+    assert len(TERMS) > 30
+    for term in TERMS.values():
+        assert term.keys() - {"not"} == {"definition", "source", *LANGUAGES}
+        assert all(term[key] for key in term)
+
+
+@pytest.mark.parametrize(("language", "name", "pattern"), AVOIDED)
+def test_one_term_stands_for_one_thing(language, name, pattern):
+    better = TERMS[name][language]
+    assert (better, find(language, pattern, but=QUOTING)) == (better, {})
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""Settings of histories, apart from what follows them: scene files name both methods.
+"""Settings of the transient and the staggered method.
+
+They stand apart from the solvers, so that a scene file is read without loading these.
 
 Theory: coupling/THEORY.md, sections 6 and 7.
 """

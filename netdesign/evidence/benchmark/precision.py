@@ -37,7 +37,7 @@ from netdesign.evidence.benchmark.truth import (
 from netdesign.evidence.runner import fit_order, measure, run_in_turns
 from netdesign.evidence.table import print_document, print_rows
 from netdesign.outcome import SolveError
-from netdesign.report.drawing.figures import (
+from netdesign.report.drawing.style import (
     ACCENT,
     GREY,
     INK,

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Literal
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, Start
 from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import Method
 from netdesign.evidence.scene import build_scene
 from netdesign.snow.creep_law import ICE_DENSITY, PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import GravityMode
 from netdesign.units import second_from_day
-
-Method = Literal["steady", "transient", "staggered"]
 
 # The paper's: 20 m long, 4 m high, relative density 0.4. Slope and stiffness are not
 # in it; these are assumed.

@@ -10,7 +10,7 @@ from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, STRESSES, Place
 from netdesign.evidence.verification.pack import name_kind
 from netdesign.report.drawing.charts import SHADES
-from netdesign.report.drawing.figures import (
+from netdesign.report.drawing.style import (
     ACCENT,
     GREY,
     INK,

@@ -103,7 +103,7 @@ def _halve_force() -> VerificationCase:
         id="haefeli-half-the-force",
         kind="published",
         reference="Höller et al. 2009: stagnation depth from 10 to about 1.5 m; "
-        "2 m of 350 kg/m3 assumed, 1 to 3 m of 250 to 450 give 1.1 to 2.1",
+        "2 m of 350 kg/m³ assumed, 1 to 3 m of 250 to 450 give 1.1 to 2.1",
         expected=1.5,
         got=scale_slip_length(slab, 10.0, 0.5),
         tolerance=_WITHIN_A_THIRD,

@@ -82,7 +82,7 @@ def list_winters() -> list[VerificationCase]:
         VerificationCase(
             id="winter-equivalent-density",
             kind="cross model",
-            reference=f"{_PROTOTYPE}: equivalent density [kg/m3]",
+            reference=f"{_PROTOTYPE}: equivalent density [kg/m³]",
             expected=263.0,
             got=season.equivalent_density or math.nan,
             tolerance=0.03,
@@ -213,7 +213,7 @@ def _compare_with_pits(
         VerificationCase(
             id=f"{name}-density-{figure}",
             kind="published",
-            reference=f"{_SOURCE}: {pits.sum()} snow pits, mean density [kg/m3]",
+            reference=f"{_SOURCE}: {pits.sum()} snow pits, mean density [kg/m³]",
             expected=0.0,
             got=got,
             tolerance=tolerance,

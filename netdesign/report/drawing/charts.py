@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from netdesign.report.drawing.figures import (
+from netdesign.report.drawing.style import (
     ACCENT,
     GREY,
     INK,

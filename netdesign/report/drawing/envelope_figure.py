@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from netdesign.outcome import Outcome
-from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame, list_ticks
 from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.governing import list_loaded
 from netdesign.report.words import (
     ENGLISH,

@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 from netdesign.quantities import QUANTITIES
-from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.letters import measure_words, wrap_words
 from netdesign.report.drawing.plain_svg import (
@@ -20,6 +19,7 @@ from netdesign.report.drawing.plain_svg import (
     list_ticks,
     shade,
 )
+from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.words import (
     ENGLISH,
     Words,

@@ -11,9 +11,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from netdesign.report.drawing.figures import GREY, INK, TEXT_PT
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.drawing.style import GREY, INK, TEXT_PT
 
 LINE_PT = 1.3 * TEXT_PT  # from one line of a label to the next
 _AIR = 1.5  # between two labels [pt]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from netdesign.report.drawing.charts import Line, Panel
-from netdesign.report.drawing.figures import GREY, INK, SOFT, TEXT_PT
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import (
     WIDTH,
@@ -14,6 +13,7 @@ from netdesign.report.drawing.plain_svg import (
     bounds_of,
     drop_straight,
 )
+from netdesign.report.drawing.style import GREY, INK, SOFT, TEXT_PT
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.records import MonitoringRecord
 

@@ -12,7 +12,7 @@ from netdesign.coupling.face import Face
 from netdesign.coupling.solution import Solution, WallSolution
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.report.drawing.charts import dress
-from netdesign.report.drawing.figures import (
+from netdesign.report.drawing.style import (
     ACCENT,
     GREY,
     INK,

@@ -10,7 +10,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.label_board import (
     LINE_PT,
     Box,
@@ -20,6 +19,7 @@ from netdesign.report.drawing.label_board import (
 from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord, RopeRecord
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from html import escape
 from itertools import pairwise
 
-from netdesign.report.drawing.figures import GREY, INK, TEXT_PT, WIDTH_IN
 from netdesign.report.drawing.letters import measure_words
+from netdesign.report.drawing.style import GREY, INK, TEXT_PT, WIDTH_IN
 from netdesign.words.numerals import Language, set_marks
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from datetime import date
 from typing import Any
 
-from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame
+from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import Words, show_member
 
 _LEFT, _RIGHT = 36.0, 116.0  # beside the panel [pt]

@@ -6,7 +6,6 @@ import math
 from itertools import pairwise
 
 from netdesign.numerics.curve import trace_curve
-from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, SNOW
 from netdesign.report.drawing.label_board import Label, LabelBoard
 from netdesign.report.drawing.plain_svg import WIDTH, drop_straight
 from netdesign.report.drawing.section_frame import (
@@ -32,6 +31,7 @@ from netdesign.report.drawing.section_pressure import (
     list_pressures,
 )
 from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, SNOW
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.support_records import Arrow, Drawing
 

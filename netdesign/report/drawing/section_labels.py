@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from netdesign.report.drawing.figures import ACCENT, INK, TEXT_PT
 from netdesign.report.drawing.label_board import Box, LabelBoard
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.section_frame import Paper
 from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.drawing.style import ACCENT, INK, TEXT_PT
 from netdesign.report.words import Words
 
 SLIP_DASH = "2.2 1.5"  # of the net where the snow slips on it

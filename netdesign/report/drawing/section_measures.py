@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from netdesign.report.drawing.figures import GREY
 from netdesign.report.drawing.label_board import Label, LabelBoard, write_label
 from netdesign.report.drawing.section_frame import Paper, Point
 from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.drawing.style import GREY
 from netdesign.report.words import Words
 
 # All in heights of the head.

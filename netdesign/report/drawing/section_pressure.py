@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from netdesign.report.drawing.figures import ACCENT, TEXT_PT
 from netdesign.report.drawing.label_board import Box, LabelBoard
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.section_labels import LEGEND_BOTTOM
 from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.drawing.style import ACCENT, TEXT_PT
 from netdesign.report.words import Words
 from netdesign.study.support_records import Drawing
 

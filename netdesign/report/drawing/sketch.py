@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from netdesign.report.drawing.figures import ACCENT, INK
 from netdesign.report.drawing.plain_svg import Chart, show_place
+from netdesign.report.drawing.style import ACCENT, INK
 
 Point = tuple[float, float]
 

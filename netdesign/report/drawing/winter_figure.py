@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from datetime import date, timedelta
 from typing import Any
 
-from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, shade
+from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import Words, show_member
 from netdesign.words.numerals import set_marks
 

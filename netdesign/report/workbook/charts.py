@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE
+from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE
 from netdesign.report.words import name_heading
 from netdesign.report.workbook.writer import Book
 

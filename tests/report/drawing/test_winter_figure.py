@@ -5,8 +5,8 @@ import re
 
 import pytest
 
-from netdesign.report.drawing.figures import ACCENT
 from netdesign.report.drawing.plain_svg import WIDTH
+from netdesign.report.drawing.style import ACCENT
 from netdesign.report.drawing.winter_figure import _LEFT, _RIGHT, draw_winter
 from netdesign.report.words import Words
 from tests.report.drawing.drawn import build_winter

@@ -11,11 +11,11 @@ def test_a_finding_names_place_text_rule_quantity_and_what_is_accepted():
         field="snow density [kg/m3]",
         text="0,45O",
         rule=say("number.not_a_number"),
-        accepted="100 to 900 kg/m3",
+        accepted="100 to 900 kg/m³",
     )
     assert str(finding) == (
         'site.xlsx › Nets › C14: "0,45O" is not a number (snow density [kg/m3]); '
-        "accepted: 100 to 900 kg/m3"
+        "accepted: 100 to 900 kg/m³"
     )
 
 

@@ -1,4 +1,4 @@
-"""Common style of the drawings, and matplotlib figure -> SVG text.
+"""Common style of the drawings, and the SVG text of a matplotlib figure.
 
 Text stays text: it is laid out with the font that matplotlib brings along, so
 that bytes do not depend on the machine, and the page sets it in its own font.

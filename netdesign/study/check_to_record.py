@@ -1,4 +1,4 @@
-"""Results of checks as records: gap, declaration, support, engineer's units."""
+"""Result of a check -> its record in the study, in kN and degrees."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRe
         *([ends] if ends else []),
         *_list_open(row, standard),
     ]
-    return [record_result(settle_check(site, row, one)) for one in results]
+    return [record_result(apply_declaration(site, row, one)) for one in results]
 
 
 def _leave_default_open(row: NetRow, result: CheckResult) -> CheckResult:
@@ -98,7 +98,7 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def settle_check(
+def apply_declaration(
     site: Site, row: NetRow, result: CheckResult, position: Position | None = None
 ) -> CheckResult:
     """Check on a support, if it has one, with what the workbook says of it.
