@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
@@ -54,13 +55,15 @@ class Writer:
     words: Words
     headings: list[tuple[str, str]] = field(default_factory=list)  # mark and text
     pictures: int = 0
+    is_wide: bool = False  # on pages that stand across
     place_of_contents: Any = None
 
-    @cached_property
+    @property
     def width_pt(self) -> float:
         """Width between the margins [pt]."""
         page: Any = self.document.sections[-1]
-        return float(page.page_width - page.left_margin - page.right_margin) / _EMU
+        across = page.page_height if self.is_wide else page.page_width
+        return float(across - page.left_margin - page.right_margin) / _EMU
 
     @cached_property
     def height_pt(self) -> float:
@@ -94,13 +97,24 @@ class Writer:
         writers[type(block)](block)
 
     def _write_part(self, block: Part) -> None:
-        if not block.fold:
-            for one in block.blocks:
-                self._write_block(one)
+        if block.fold:
+            return
+        if block.look == "wide":
+            self._end_section()
+            self.is_wide = True
+        for one in block.blocks:
+            self._write_block(one)
+        if block.look == "wide":
+            self._end_section()
+            self.is_wide = False
 
     def _write_items(self, block: Items) -> None:
-        for item in block.items:
-            self._add_paragraph(list_runs(item), styles.ITEM)
+        for number, item in enumerate(block.items, 1):
+            runs = list_runs(item)
+            if block.look == "numbered":
+                self._add_paragraph((Run(f"{number}. "), *runs), styles.TEXT)
+            else:
+                self._add_paragraph(runs, styles.ITEM)
 
     def _open_contents(self, block: Contents) -> None:
         """Heading of the contents, and a line in whose place they come."""
@@ -151,6 +165,21 @@ class Writer:
     def _add(self, markup: str) -> None:
         """Put a paragraph or table at the end of the text."""
         self.document.element.body.sectPr.addprevious(parse(markup))
+
+    def _end_section(self) -> None:
+        """End of pages that stand upright, or across."""
+        from docx.oxml.ns import qn
+
+        page = deepcopy(self.document.element.body.sectPr)
+        size = page.find(qn("w:pgSz"))
+        if self.is_wide and size is not None:
+            width, height = (size.get(qn(f"w:{one}")) for one in ("w", "h"))
+            size.set(qn("w:w"), height)
+            size.set(qn("w:h"), width)
+            size.set(qn("w:orient"), "landscape")
+        last = parse(write_paragraph("", self._ids[styles.SMALL]))
+        last.get_or_add_pPr().append(page)
+        self.document.element.body.sectPr.addprevious(last)
 
     def _add_paragraph(self, runs: Runs, style: str) -> None:
         self._add(write_paragraph(write_runs(runs), self._ids[style]))

@@ -97,7 +97,12 @@ def show_decision(study: Study, words: Words, *, has_rows: bool) -> Part:
             Pairs(pairs=pairs, look="pairs"),
             _tabulate_rows(study, words, has_rows=has_rows),
             *matrix,
-            section("todo", words("heading.todo"), Items(items=todo), level=3),
+            section(
+                "todo",
+                words("heading.todo"),
+                Items(items=todo, look="numbered"),
+                level=3,
+            ),
             _sign(study, words),
         ),
     )

@@ -230,8 +230,10 @@ def test_a_template_keeps_its_look_and_loses_its_text():
         for table in document.tables
     ]
     section = document.sections[0]
-    room = section.page_width - section.left_margin - section.right_margin
-    assert max(widths) <= room / 635 + 20
+    margins = section.left_margin + section.right_margin
+    *upright, across = sorted(widths)  # the widest one: inputs of all rows
+    assert upright[-1] <= (section.page_width - margins) / 635 + 20
+    assert across <= (section.page_height - margins) / 635 + 20
 
 
 def test_libreoffice_opens_it(tmp_path):
@@ -269,3 +271,22 @@ def test_measured_forces_stand_in_the_document_as_a_picture():
     assert picture.startswith(Words("fr")("drawing.monitoring"))
     kinds = {name.rpartition(".")[2] for name in parts if "/media/" in name}
     assert kinds == {"svg", "png"}
+
+
+def test_inputs_of_all_rows_stand_on_pages_across(content):
+    """Upright pages, those across, upright pages again: each with its own size."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        xml = archive.read("word/document.xml").decode()
+    sizes = re.findall(r"<w:pgSz [^>]*>", xml)
+    assert ["landscape" in one for one in sizes] == [False, True, False]
+    upright, across = (
+        {name: re.search(rf'w:{name}="(\d+)"', one)[1] for name in "wh"}
+        for one in sizes[:2]
+    )
+    assert (across["w"], across["h"]) == (upright["h"], upright["w"])
+
+
+def test_open_points_are_numbered(content):
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        xml = archive.read("word/document.xml").decode()
+    assert re.search(r">1\. <", xml)
