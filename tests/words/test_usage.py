@@ -116,3 +116,25 @@ def test_days_in_sentences_are_written_as_the_language_has_them(language, told):
 def test_what_is_no_day_stays():
     days = say("winter_sheet.days", days=("2017-13-45", "-"))
     assert render(days, "de") == "2017-13-45, -"
+
+
+# Formulas in words and numbers, quotations, and a list of syllables.
+NO_SENTENCES = (
+    *("derivation.", "post_bending.", "bending.", "formula.", "column.slip_of_table"),
+    *("profile_", "resistance_source", "reference.", "page.breaks"),
+)
+WORD = re.compile(r"[^\W\d_]{2,}")
+MOST_WORDS = 25
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_sentence_is_longer_than_one_breath(language):
+    """Words of a sentence, or of a part between colons and semicolons."""
+    found = {
+        key: part
+        for key, text in load_texts(language).items()
+        if not key.startswith(NO_SENTENCES)
+        for part in re.split(r"(?<=[.;:?!])\s", GAP.sub("0", text))
+        if len(WORD.findall(part)) > MOST_WORDS
+    }
+    assert found == {}
