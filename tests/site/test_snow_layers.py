@@ -95,7 +95,7 @@ def test_a_range_that_makes_a_layer_denser_than_snow_is_refused(layered, save, r
     (finding,) = refused(save(layered))
     assert finding.cell == "D2"
     # the densest layer at the top of the range: 450 / 333 x 700
-    assert str(finding.rule).endswith(f"as dense as {450 / MEAN * 700:.4g} kg/m3")
+    assert str(finding.rule).endswith(f"as dense as {450 / MEAN * 700:.4g} kg/m³")
 
 
 def test_a_change_of_height_or_density_keeps_the_proportions(layered, save):
@@ -132,7 +132,7 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
         return
     (note,) = notes
     least, largest = 300 * 400 / mean, 500 * 480 / mean
-    told = f"net row R1: layer densities of {least:g} to {largest:g} kg/m3 lie"
+    told = f"net row R1: layer densities of {least:g} to {largest:g} kg/m³ lie"
     assert note.startswith(told)
 
 
