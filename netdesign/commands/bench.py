@@ -34,7 +34,6 @@ Show = Callable[[dict[str, Any], "Console", "Words"], None]
 Kind = Literal["stress", "errors", "lines"]
 
 _EXIT_FAIL = 1
-_MESSAGES = ("what", "reach")  # of a figure; in JSON they are English
 _RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
 
 
@@ -87,11 +86,6 @@ class _Output:
     help="Measure envelopes instead: cases, time, misses, store, workers.",
 )
 @click.option(
-    "--panel",
-    is_flag=True,
-    help="Measure what a panel adds to the searches of the example's rows instead.",
-)
-@click.option(
     "--against",
     type=click.Path(path_type=Path),
     metavar="WHEEL_OR_VENV",
@@ -130,7 +124,6 @@ def bench(
     errors: int | None,
     lines: int | None,
     envelope: bool,
-    panel: bool,
     against: Path | None,
     missed: int,
     seed: int,
@@ -152,7 +145,6 @@ def bench(
     netdesign bench --lines 60 --jobs 2
     netdesign bench --envelope --json
     netdesign bench --envelope --missed 200
-    netdesign bench --panel
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
     wanted = {
@@ -160,7 +152,6 @@ def bench(
         "--errors": errors,
         "--lines": lines,
         "--envelope": envelope or None,
-        "--panel": panel or None,
         "--against": against,
     }
     given = [name for name, value in wanted.items() if value is not None]
@@ -173,8 +164,6 @@ def bench(
             sys.exit(_run_random(kind, count, seed, accuracy, jobs, output))
     if envelope:
         sys.exit(_run_envelope(missed, output, quick=quick))
-    if panel:
-        sys.exit(_run_panel(output, quick=quick))
     if against is not None:
         sys.exit(_run_against(against, output, quick=quick))
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
@@ -243,19 +232,6 @@ def _run_envelope(missed: int, output: _Output, *, quick: bool) -> int:
     if output.as_json:
         output.write(document)
     return 0 if quick or document["pass"] else _EXIT_FAIL
-
-
-def _run_panel(output: _Output, *, quick: bool) -> int:
-    """Exit code: a quick look reaches nothing and so fails at nothing."""
-    from netdesign.evidence.benchmark.panel_cost import ROWS, measure_panel_cost
-    from netdesign.evidence.table import print_figure
-
-    found = measure_panel_cost(repeats=1 if quick else 7, rows=1 if quick else ROWS)
-    if output.as_json:
-        output.write({**found, **{name: str(found[name]) for name in _MESSAGES}})
-    else:
-        output.show(found, print_figure)
-    return 0 if quick or found["reached"] else _EXIT_FAIL
 
 
 def _run_against(path: Path, output: _Output, *, quick: bool) -> int:

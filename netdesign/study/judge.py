@@ -48,8 +48,8 @@ from netdesign.study.records import (
     Study,
     list_verdicts,
 )
-from netdesign.study.row_check import RowCheck
 from netdesign.study.row_checks import check_row, distrust
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.solved_forces import know_row
 from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message
@@ -123,7 +123,7 @@ def judge_row(
     on_check: Callable[[], None] = lambda: None,
 ) -> RowStudy:
     """Study of one row of a site, as ``judge_site`` makes it."""
-    task = RowCheck(
+    task = RowToCheck(
         basis=Basis(site=site, row=row, standard=standard, law=run.creep_law),
         solved=solved,
         find_floor=_remember(find_row_floor, row, standard),
@@ -141,7 +141,7 @@ def _remember(
     return cache(lambda ranges: find(row, ranges, standard))
 
 
-def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
+def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     site, row, standard = task.basis.site, task.basis.row, task.basis.standard
     solved, extremes = task.solved, task.solved.extremes
     floor = task.find_floor(site.ranges)
@@ -185,7 +185,7 @@ def _record_row(task: RowCheck, run: CheckRun) -> RowStudy:
 
 
 def _check_row(
-    task: RowCheck, extremes: Mapping[str, Extreme], known: Known
+    task: RowToCheck, extremes: Mapping[str, Extreme], known: Known
 ) -> tuple[list[CheckRecord], ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
@@ -201,7 +201,7 @@ def _check_row(
 
 
 def _list_notes(
-    task: RowCheck,
+    task: RowToCheck,
     known: Known,
     checks: Sequence[CheckRecord],
     cases: Sequence[CaseRecord],
@@ -285,7 +285,7 @@ def _governing_result(
 
 
 def _find_model_form(
-    task: RowCheck, worst: CheckRecord | None, governing: CaseResult | None
+    task: RowToCheck, worst: CheckRecord | None, governing: CaseResult | None
 ) -> ModelFormRecord | None:
     if task.solver is None or worst is None or governing is None:
         return None

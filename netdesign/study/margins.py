@@ -18,8 +18,8 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.study.case_check import TRIED_DENSITIES, CaseCheck, list_near
 from netdesign.study.case_solver import CaseSolver
+from netdesign.study.check_by_case import TRIED_DENSITIES, CheckByCase, list_near
 from netdesign.study.records import HoldRecord
 from netdesign.study.turning import CheckLine, NoResultError, Point
 from netdesign.words.message import say
@@ -51,7 +51,7 @@ class Span:
 
 
 def find_margins(
-    checks: Mapping[str, CaseCheck],
+    checks: Mapping[str, CheckByCase],
     solver: CaseSolver,
     known: Mapping[str, Mapping[str, float]] | None = None,
 ) -> dict[str, list[HoldRecord]]:
@@ -59,7 +59,7 @@ def find_margins(
 
     Parameters
     ----------
-    checks : mapping of str to CaseCheck
+    checks : mapping of str to CheckByCase
         Checks of one row that have a force and a resistance.
     solver : CaseSolver
         Solves what is asked for, each once.
@@ -78,7 +78,7 @@ def find_margins(
     }
 
 
-def solve_ends(checks: Sequence[CaseCheck], solver: CaseSolver) -> list[CaseResult]:
+def solve_ends(checks: Sequence[CheckByCase], solver: CaseSolver) -> list[CaseResult]:
     """Case in which each check of a row is followed to the ends of every search.
 
     These ends are solved together.
@@ -98,7 +98,7 @@ def solve_ends(checks: Sequence[CaseCheck], solver: CaseSolver) -> list[CaseResu
 
 
 def _list_margins(
-    check: CaseCheck,
+    check: CheckByCase,
     serving: CaseResult,
     solver: CaseSolver,
     known: Mapping[str, float],
@@ -120,7 +120,7 @@ def _list_margins(
     return margins
 
 
-def _list_confirming(check: CaseCheck) -> list[Case]:
+def _list_confirming(check: CheckByCase) -> list[Case]:
     """The governing case and its nearest neighbour, which margins are confirmed in.
 
     One that differs in more than friction, if there is one: others grow alike.
@@ -180,7 +180,7 @@ def _find_ends(name: str, now: float, row: NetRow) -> tuple[float, float]:
     return now / _FACTOR, now * _FACTOR
 
 
-def _choose_cases(checks: Sequence[CaseCheck]) -> list[CaseResult]:
+def _choose_cases(checks: Sequence[CheckByCase]) -> list[CaseResult]:
     """For each check a case in which its member carries about its largest force.
 
     As few as do: first the case that serves most checks, of several that one in which

@@ -20,11 +20,16 @@ from netdesign.site.model import BaseFriction
 from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
-from netdesign.study.case_check import TRIED_DENSITIES, CaseCheck, Setting, list_near
 from netdesign.study.case_solver import CaseSolver
+from netdesign.study.check_by_case import (
+    TRIED_DENSITIES,
+    CheckByCase,
+    Setting,
+    list_near,
+)
 from netdesign.study.judgement import MemberCheck
 from netdesign.study.records import ChangeRecord
-from netdesign.study.row_check import RowCheck
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.stronger_types import find_type_change
 from netdesign.study.turning import CheckLine, NoResultError, Point
 from netdesign.units import degree_from_radian
@@ -40,7 +45,7 @@ _KEYS = {  # of a quantity's name in words, and its unit
 
 
 def list_remedies(
-    task: RowCheck, one: MemberCheck, check: CaseCheck | None
+    task: RowToCheck, one: MemberCheck, check: CheckByCase | None
 ) -> list[ChangeRecord]:
     """Changes that flip a failing, unproven or close check.
 
@@ -64,7 +69,7 @@ def list_remedies(
 
 
 def list_end_remedies(
-    task: RowCheck, one: MemberCheck, check: CaseCheck | None
+    task: RowToCheck, one: MemberCheck, check: CheckByCase | None
 ) -> list[ChangeRecord]:
     """Changes that flip a failing, unproven or close check of such a member."""
     if not _is_worth_telling(task, one):
@@ -73,7 +78,7 @@ def list_end_remedies(
     return changes + (_list_solved_remedies(task, check) if check else [])
 
 
-def _is_worth_telling(task: RowCheck, one: MemberCheck) -> bool:
+def _is_worth_telling(task: RowToCheck, one: MemberCheck) -> bool:
     """It has a force, and does not pass with much to spare."""
     demand, used = one.result.find("E_d"), one.result.find("μ")
     if demand is None or demand.high == 0.0 or task.basis.row.is_overtopped:
@@ -83,7 +88,7 @@ def _is_worth_telling(task: RowCheck, one: MemberCheck) -> bool:
     return (used.high or 0.0) >= CLOSE
 
 
-def _list_solved_remedies(task: RowCheck, check: CaseCheck) -> list[ChangeRecord]:
+def _list_solved_remedies(task: RowToCheck, check: CheckByCase) -> list[ChangeRecord]:
     """Changes of snow and friction, each found by solves."""
     if task.solver is None:
         return []
@@ -95,7 +100,7 @@ def _list_solved_remedies(task: RowCheck, check: CaseCheck) -> list[ChangeRecord
     return [change for change in found if change is not None]
 
 
-def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:
+def _doubt_density(task: RowToCheck, change: ChangeRecord) -> ChangeRecord:
     """Change of density that says where the creep law is not given for its snow."""
     if change.bound is None or not find_doubt(
         task.basis.site,
@@ -108,7 +113,7 @@ def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:
     return replace(change, note=say("change.if_law_accepted"))
 
 
-def _list_resistance_remedies(task: RowCheck, one: MemberCheck) -> list[ChangeRecord]:
+def _list_resistance_remedies(task: RowToCheck, one: MemberCheck) -> list[ChangeRecord]:
     """Characteristic resistance that is needed, and the type that has it."""
     site, standard, result = task.basis.site, task.basis.standard, one.result
     demand, factor = result.find("E_d"), result.find_value("γ_R")
@@ -152,7 +157,7 @@ def find_spacing_remedy(
     )
 
 
-def find_density_remedy(check: CaseCheck, solver: CaseSolver) -> ChangeRecord:
+def find_density_remedy(check: CheckByCase, solver: CaseSolver) -> ChangeRecord:
     """Largest snow density at which a check passes.
 
     The guideline's load has densities of its own and stays.
@@ -178,7 +183,7 @@ def find_density_remedy(check: CaseCheck, solver: CaseSolver) -> ChangeRecord:
     return _record("density", highest, bound, solver.count - before, note)
 
 
-def find_height_remedy(check: CaseCheck, solver: CaseSolver) -> ChangeRecord:
+def find_height_remedy(check: CheckByCase, solver: CaseSolver) -> ChangeRecord:
     """Largest snow thickness, normal to the slope, at which a check passes.
 
     Where the thickness ranges, all of it has to stay below, and thinner snow that was
@@ -235,7 +240,7 @@ def _is_floor_next(line: CheckLine, bound: float) -> bool:
     return line.check.use_about(above) > 1.0
 
 
-def _find_thinnest(check: CaseCheck) -> float:
+def _find_thinnest(check: CheckByCase) -> float:
     """Least thickness that the ranges have; 0 where it does not range [m]."""
     ranges = check.ranges
     if "thickness" in ranges.further:
@@ -245,7 +250,7 @@ def _find_thinnest(check: CaseCheck) -> float:
     return 0.0
 
 
-def find_friction_remedy(check: CaseCheck, solver: CaseSolver) -> ChangeRecord | None:
+def find_friction_remedy(check: CheckByCase, solver: CaseSolver) -> ChangeRecord | None:
     """Friction angle from or up to which a failing check passes.
 
     Within the range that was given; None where the check passes all over it. The
@@ -297,7 +302,7 @@ def _list_passing_ends(passes: Sequence[bool], place: int) -> list[int]:
     return [k for k in ends if all(passes[k:] if k > place else passes[: k + 1])]
 
 
-def _list_friction_angles(check: CaseCheck) -> list[float]:
+def _list_friction_angles(check: CheckByCase) -> list[float]:
     """Angles that stand for the whole of the other ranges, and the governing one.
 
     A search solves some angles at a few cases only; an angle counts where the corners
@@ -314,7 +319,7 @@ def _list_friction_angles(check: CaseCheck) -> list[float]:
     return sorted(whole | {check.governing.friction_angle})
 
 
-def _find_worst_use(check: CaseCheck, angle: float) -> float:
+def _find_worst_use(check: CheckByCase, angle: float) -> float:
     """Largest utilisation at a friction angle [-]; infinite if a case there failed."""
     known = [
         check.utilisation(result)
@@ -324,7 +329,7 @@ def _find_worst_use(check: CaseCheck, angle: float) -> float:
     return max((math.inf if one is None else one for one in known), default=math.inf)
 
 
-def _less_passes(check: CaseCheck, name: str, bound: float) -> bool:
+def _less_passes(check: CheckByCase, name: str, bound: float) -> bool:
     """Every solved case passes that has no more of a quantity than a bound."""
     return all(
         _is_met(check, result)
@@ -333,7 +338,7 @@ def _less_passes(check: CaseCheck, name: str, bound: float) -> bool:
     )
 
 
-def _is_met(check: CaseCheck, result: CaseResult) -> bool:
+def _is_met(check: CheckByCase, result: CaseResult) -> bool:
     used = check.utilisation(result)
     return used is not None and used <= 1.0
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 from netdesign.envelope.extremes import Extreme
 from netdesign.outcome import Verdict
-from netdesign.study.case_check import CaseCheck
-from netdesign.study.case_checks import (
-    build_end_case_check,
+from netdesign.study.build_check_by_case import (
+    build_end_check,
     find_row_margins,
-    list_case_checks,
+    list_checks_by_case,
 )
+from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.judgement import (
     Known,
     MemberCheck,
@@ -24,7 +24,7 @@ from netdesign.study.judgement import (
 from netdesign.study.margins import solve_ends
 from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
 from netdesign.study.remedies import list_end_remedies, list_remedies
-from netdesign.study.row_check import RowCheck
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.spreads import list_end_spreads, list_spreads
 from netdesign.words.message import say
 
@@ -33,26 +33,26 @@ _FAULT_BESIDE = say("check.fault_beside")
 
 
 def check_row(
-    task: RowCheck, extremes: Mapping[str, Extreme], known: Known
+    task: RowToCheck, extremes: Mapping[str, Extreme], known: Known
 ) -> list[CheckRecord]:
     """Every check of a row: the members of both supports, then the geometry.
 
     ``extremes`` are those of its solved cases, ``known`` what these tell.
     """
     judged = judge_members(task.basis, known)
-    case_checks = _list_case_checks(task, judged, extremes)
+    followed = _list_checks_by_case(task, judged, extremes)
     if task.solver is not None:  # what is solved here serves changes and limits
-        solve_ends([one for one in case_checks if one is not None], task.solver)
+        solve_ends([one for one in followed if one is not None], task.solver)
     beside = []
-    for place, (one, case_check) in enumerate(zip(judged, case_checks, strict=True)):
+    for place, (one, by_case) in enumerate(zip(judged, followed, strict=True)):
         before = task.count_faults()
-        beside.append(_solve_beside(task, one, case_check, extremes))
+        beside.append(_solve_beside(task, one, by_case, extremes))
         if task.count_faults() > before:
             judged[place] = judge_with_fault(task.basis, one, _FAULT_BESIDE)
         task.on_check()
     before = task.count_faults()
     changes = [parts.changes for parts in beside]
-    holds = find_row_margins(task, judged, changes, case_checks)
+    holds = find_row_margins(task, judged, changes, followed)
     if task.count_faults() > before:
         judged = [judge_with_fault(task.basis, one, _FAULT_BESIDE) for one in judged]
     checks = [
@@ -75,22 +75,22 @@ class _Beside:
     changes: list[ChangeRecord]
 
 
-def _list_case_checks(
-    task: RowCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
-) -> list[CaseCheck | None]:
+def _list_checks_by_case(
+    task: RowToCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
+) -> list[CheckByCase | None]:
     """Checks as functions of a solved case; None of those that no solve may turn."""
     members = [one for one in judged if not one.is_of_end]
     ends = [one for one in judged if one.is_of_end]
     return [
-        *list_case_checks(task, members, extremes),
-        *(build_end_case_check(task, one, extremes) for one in ends),
+        *list_checks_by_case(task, members, extremes),
+        *(build_end_check(task, one, extremes) for one in ends),
     ]
 
 
 def _solve_beside(
-    task: RowCheck,
+    task: RowToCheck,
     one: MemberCheck,
-    case_check: CaseCheck | None,
+    by_case: CheckByCase | None,
     extremes: Mapping[str, Extreme],
 ) -> _Beside:
     """Intervals of a check and changes that turn it, as far as solves tell them."""
@@ -99,11 +99,9 @@ def _solve_beside(
     extreme = extremes[one.force.largest.quantity]
     if one.is_of_end:
         return _Beside(
-            list_end_spreads(one, extreme), list_end_remedies(task, one, case_check)
+            list_end_spreads(one, extreme), list_end_remedies(task, one, by_case)
         )
-    return _Beside(
-        list_spreads(task, one, extreme), list_remedies(task, one, case_check)
-    )
+    return _Beside(list_spreads(task, one, extreme), list_remedies(task, one, by_case))
 
 
 def distrust(check: CheckRecord) -> CheckRecord:

@@ -10,13 +10,13 @@ from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.judgement import MemberCheck
 from netdesign.study.records import SpreadRecord
-from netdesign.study.row_check import RowCheck
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 
 def list_spreads(
-    task: RowCheck, one: MemberCheck, extreme: Extreme
+    task: RowToCheck, one: MemberCheck, extreme: Extreme
 ) -> list[SpreadRecord]:
     """Parts of the interval of a utilisation, the creep law's for comparison.
 

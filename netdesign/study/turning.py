@@ -14,8 +14,8 @@ from itertools import count
 
 from netdesign.envelope.parameters import PARAMETERS, Parameter
 from netdesign.envelope.ranges import Case
-from netdesign.study.case_check import CaseCheck, Setting
 from netdesign.study.case_solver import CaseSolver
+from netdesign.study.check_by_case import CheckByCase, Setting
 from netdesign.words.message import Message
 
 _CLOSE = 0.004  # below a utilisation of 1: near enough; the half is aimed at
@@ -54,7 +54,7 @@ class CheckLine:
 
     Attributes
     ----------
-    check : CaseCheck
+    check : CheckByCase
         The check.
     quantity : str
         Name as in ``parameters.PARAMETERS``.
@@ -69,7 +69,7 @@ class CheckLine:
         1 [-].
     """
 
-    check: CaseCheck
+    check: CheckByCase
     quantity: str
     cases: Sequence[Case]
     ends: tuple[float, float]

@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from netdesign.commands.bench import bench
-from netdesign.evidence.benchmark import envelope, panel_cost, precision, stress
+from netdesign.evidence.benchmark import envelope, precision, stress
 from netdesign.evidence.benchmark.precision import Effort
 from netdesign.evidence.benchmark.stress import Attempt
 from netdesign.outcome import ModelError, OutputError
@@ -85,25 +85,6 @@ def test_envelope_in_short_and_at_length(sizes):
     assert sizes[1] == envelope.BenchSize(missed_scenes=200)
     assert run("--envelope", "--stress", "2").exit_code == 2
     assert run("--envelope", "--plot", "x.svg").exit_code == 2
-
-
-@pytest.mark.parametrize("is_reached", [True, False])
-def test_panel_prints_its_document(monkeypatch, is_reached):
-    row = {"what": "a row", "reach": "<= 1.5", "reached": is_reached, "median": 1.23}
-    asked = []
-    monkeypatch.setattr(
-        panel_cost,
-        "measure_panel_cost",
-        lambda **sizes: asked.append(sizes) or dict(row),
-    )
-    printed = run("--panel", "--json")
-    assert json.loads(printed.stdout) == row
-    shown = run("--panel")
-    assert shown.stdout.split()[-1] == "1.23"
-    assert printed.exit_code == shown.exit_code == int(not is_reached)
-    assert run("--panel", "--quick").exit_code == 0
-    assert asked[-1] == {"repeats": 1, "rows": 1}
-    assert run("--panel", "--envelope").exit_code == 2
 
 
 def test_errors_of_one_scene():

@@ -14,7 +14,7 @@ from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.study.case_check import CaseCheck
+from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.margins import find_margins, list_spans, solve_ends
 from tests.small_site import build_row
 
@@ -98,7 +98,7 @@ def a_result(forces, fails, row, case):
 
 def a_check(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
     cases = (GOVERNING, RIVAL, OTHER)
-    return CaseCheck(
+    return CheckByCase(
         row=row,
         ranges=ranges,
         member=member,
@@ -292,7 +292,7 @@ def apart(row, case):
 
 def an_apart(used, member, governing):
     cases = (GOVERNING, MIDDLE, RIVAL)
-    return CaseCheck(
+    return CheckByCase(
         row=ROW,
         ranges=RANGES,
         member=member,

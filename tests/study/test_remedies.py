@@ -14,7 +14,7 @@ from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.case_check import CaseCheck, Setting
+from netdesign.study.check_by_case import CheckByCase, Setting
 from netdesign.study.remedies import (
     find_density_remedy,
     find_friction_remedy,
@@ -79,7 +79,7 @@ class MadeUpSolver:
 def a_check(scale, force=smooth):
     results = [MadeUpSolver(force).solve(ROW, case) for case in build_cases(RANGES)]
     governing = max(results, key=lambda r: r.member_forces["post"].value)
-    return CaseCheck(
+    return CheckByCase(
         row=ROW,
         ranges=RANGES,
         member="post",
@@ -370,7 +370,7 @@ def test_no_thickness_is_told_up_to_which_some_solved_snow_fails(seed, name):
         )
     )
     results = [MadeUpSolver(force).solve(ROW, case) for case in build_cases(ranges)]
-    check = CaseCheck(
+    check = CheckByCase(
         row=ROW,
         ranges=ranges,
         member="post",

@@ -6,7 +6,7 @@ import random
 import pytest
 
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.study.case_check import CaseCheck, list_near
+from netdesign.study.check_by_case import CheckByCase, list_near
 from netdesign.study.remedies import find_height_remedy
 from netdesign.study.turning import CheckLine, NoResultError, Point
 from tests.study.test_remedies import ROW, MadeUpSolver, a_check
@@ -123,7 +123,7 @@ def draw_force(seed):
 def build_check(used, force):
     results = [MadeUpSolver(force).solve(ROW, case) for case in CASES]
     largest = max(results, key=lambda one: one.member_forces["post"].high)
-    return CaseCheck(
+    return CheckByCase(
         row=ROW,
         ranges=RANGES,
         member="post",

@@ -10,15 +10,15 @@ from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.structure.members import RopeForce, name_in_panel
-from netdesign.study.case_check import CaseCheck, Push
+from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
 from netdesign.study.force_records import ForceRecord
 from netdesign.study.judgement import MemberCheck, is_worst
 from netdesign.study.margins import find_margins
 from netdesign.study.member_force import MemberForce
 from netdesign.study.records import ChangeRecord, HoldRecord
-from netdesign.study.row_check import RowCheck
 from netdesign.study.row_end import compute_end_factor
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message
 
@@ -26,9 +26,9 @@ from netdesign.words.message import Message
 _SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness"}
 
 
-def list_case_checks(
-    task: RowCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
-) -> list[CaseCheck | None]:
+def list_checks_by_case(
+    task: RowToCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
+) -> list[CheckByCase | None]:
     """Checks as functions of a solved case; None of those that no solve may turn.
 
     Of several supports that one which uses a member most: where that holds, the
@@ -37,33 +37,33 @@ def list_case_checks(
     if _is_open(task):
         return [None] * len(judged)
     return [
-        _build_case_check(task, one, extremes)
-        if _has_case_check(one) and is_worst(one, judged)
+        _build_check(task, one, extremes)
+        if _follows_cases(one) and is_worst(one, judged)
         else None
         for one in judged
     ]
 
 
-def _is_open(task: RowCheck) -> bool:
+def _is_open(task: RowToCheck) -> bool:
     return task.solver is None or bool(task.solved.gap) or task.basis.row.is_overtopped
 
 
 def find_row_margins(
-    task: RowCheck,
+    task: RowToCheck,
     judged: Sequence[MemberCheck],
     changes: Sequence[Sequence[ChangeRecord]],
-    case_checks: Sequence[CaseCheck | None],
+    by_case: Sequence[CheckByCase | None],
 ) -> dict[str, list[HoldRecord]]:
     """Limits of single values for the checks that follow from forces, by their ids.
 
-    ``changes`` and ``case_checks`` are those of the checks in their order.
+    ``changes`` and ``by_case`` are those of the checks in their order.
     """
     if task.solver is None:
         return {}
     held = {
-        one.id: case_check
-        for one, case_check in zip(judged, case_checks, strict=True)
-        if case_check is not None
+        one.id: by_case
+        for one, by_case in zip(judged, by_case, strict=True)
+        if by_case is not None
     }
     known = {
         one.id: _list_known(found) for one, found in zip(judged, changes, strict=True)
@@ -82,9 +82,9 @@ def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:
     return found
 
 
-def build_end_case_check(
-    task: RowCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
-) -> CaseCheck | None:
+def build_end_check(
+    task: RowToCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
+) -> CheckByCase | None:
     """Check of a member that holds the row along itself as a function of a case.
 
     None where a solve tells nothing of it.
@@ -96,7 +96,7 @@ def build_end_case_check(
     if not force.largest.high_kN > 0.0:
         return None
     member = force.largest.quantity
-    return CaseCheck(
+    return CheckByCase(
         row=task.basis.row,
         ranges=task.basis.site.ranges,
         member=member,
@@ -107,14 +107,14 @@ def build_end_case_check(
     )
 
 
-def _find_end_factor(task: RowCheck, ranges: Ranges) -> float:
+def _find_end_factor(task: RowToCheck, ranges: Ranges) -> float:
     """Factor of the end effect on a rope's pull, over some ranges [-]."""
     effects = find_effects(task.basis.row, task.basis.standard, ranges)
     edge = effects.find_support("edge")
     return compute_end_factor(edge, effects.post_spacing)
 
 
-def _has_case_check(one: MemberCheck) -> bool:
+def _follows_cases(one: MemberCheck) -> bool:
     """The check follows from the member's force by numbers that stay as they are.
 
     A resistance that follows the snow does not, nor what is added to no force at all.
@@ -125,9 +125,9 @@ def _has_case_check(one: MemberCheck) -> bool:
     return force.largest.high_kN > 0.0 or force.added_high == 0.0
 
 
-def _build_case_check(
-    task: RowCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
-) -> CaseCheck:
+def _build_check(
+    task: RowToCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
+) -> CheckByCase:
     """The check as a function of a solved case and of the row.
 
     Of section and panel that one which is larger is followed, the other beside it.
@@ -142,7 +142,7 @@ def _build_case_check(
     }
     followed = force.largest.quantity
     use_floor = (task, member, force, use)
-    return CaseCheck(
+    return CheckByCase(
         row=task.basis.row,
         ranges=task.basis.site.ranges,
         member=followed,
@@ -160,7 +160,7 @@ def _build_case_check(
 
 
 def _use_floor(
-    task: RowCheck, member: str, force: MemberForce, use: float, ranges: Ranges
+    task: RowToCheck, member: str, force: MemberForce, use: float, ranges: Ranges
 ) -> float:
     """Utilisation of a member by the guideline's load alone [-]."""
     floor = task.find_floor(ranges)
@@ -174,7 +174,7 @@ def _use_floor(
 
 
 def _bound_floor(
-    task: RowCheck, member: str, force: MemberForce, use: float, ranges: Ranges
+    task: RowToCheck, member: str, force: MemberForce, use: float, ranges: Ranges
 ) -> tuple[float, float]:
     """Ends of what `_use_floor` gives; no upper one where the bound is not known."""
     ends = task.bound_floor(ranges)
@@ -191,7 +191,7 @@ def _bound_floor(
     return least, most
 
 
-def _find_push(task: RowCheck, one: MemberCheck, force: MemberForce) -> Push | None:
+def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push | None:
     """Part of the panel's force that the end guy brings; None of any other member."""
     if force.on.push is None or not force.on.push.high:
         return None
@@ -203,7 +203,7 @@ def _find_push(task: RowCheck, one: MemberCheck, force: MemberForce) -> Push | N
     return Push(force=name, rope=rope, ratio=force.on.push.high / pull / inside)
 
 
-def _find_load(task: RowCheck, one: MemberCheck, ranges: Ranges) -> float:
+def _find_load(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
     """Load of an end post over some ranges, at most, over that of the row as is [-].
 
     The larger growth of width and ropes' pull counts for both.
@@ -221,7 +221,7 @@ def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
     return force.high_kN / at_cases if at_cases else 1.0
 
 
-def _find_width(task: RowCheck, one: MemberCheck, ranges: Ranges) -> float:
+def _find_width(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
     """Width that loads a support over ranges in which something was moved [m]."""
     supports = find_effects(task.basis.row, task.basis.standard, ranges).supports
     widths = [w.width for w in supports if w.position == one.width.position]

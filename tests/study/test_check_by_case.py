@@ -9,7 +9,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.snow.ground import build_ground_from_glide_factor
-from netdesign.study.case_check import CaseCheck, Setting
+from netdesign.study.check_by_case import CheckByCase, Setting
 from netdesign.study.effects import find_effects
 from netdesign.study.floor import find_row_floor
 from tests.small_site import build_row
@@ -82,7 +82,7 @@ def test_floor_follows_a_moved_inclination():
 
 
 def build_check(row, ranges):
-    return CaseCheck(
+    return CheckByCase(
         row=row,
         ranges=ranges,
         member="post",

@@ -59,7 +59,7 @@ class Push:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CaseCheck:
+class CheckByCase:
     """One check as a function of a solved case.
 
     Attributes
@@ -242,7 +242,7 @@ class CaseCheck:
         return self.widen(setting.on(self.ranges)) / self.widen(self.ranges)
 
 
-def list_near(check: CaseCheck) -> list[Case]:
+def list_near(check: CheckByCase) -> list[Case]:
     """Cases whose force is near the largest, that first; of a search some of them."""
     forces = {
         result.case: check.force(result)

@@ -13,7 +13,7 @@ from netdesign.study.judgement import Basis
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RowCheck:
+class RowToCheck:
     """One net row under one profile.
 
     ``find_floor`` gives the guideline's load over ranges in which something may be
