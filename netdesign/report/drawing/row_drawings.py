@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.envelope_figure import draw_envelope
 from netdesign.report.drawing.envelope_maps import draw_lines, draw_maps, split_members
 from netdesign.report.drawing.monitoring_figure import (
@@ -22,6 +23,7 @@ class RowDrawings:
     """Drawings of a net row as SVG; "" where there is nothing to draw."""
 
     section: str
+    chains: str
     envelope: str  # of the member that governs
     panel: str
     monitoring: str
@@ -33,6 +35,7 @@ def draw_row(row: RowStudy, anchor: str, words: Words) -> RowDrawings:
     monitoring = draw_monitoring(row.monitoring, words)
     return RowDrawings(
         section=draw_section(row.drawing, anchor, words) if row.drawing else "",
+        chains=draw_chains(row, words),
         envelope=_draw_member(row, words)
         if row.envelope
         else draw_envelope(row, words),

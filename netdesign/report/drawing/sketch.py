@@ -74,6 +74,16 @@ class Sketch(Chart):
         right = (neck[0] + half * uy, neck[1] - half * ux)
         self.area([tip, left, right], stroke)
 
+    def words_of_size(
+        self, at: Point, text: str, size: float, *, bold: bool = False
+    ) -> None:
+        """One line of text from a place on, in a size [pt]."""
+        weight = ' font-weight="bold"' if bold else ""
+        self.shapes.append(
+            f'<text x="{at[0]:.2f}" y="{at[1]:.2f}" font-size="{size:.2f}"{weight}>'
+            f"{escape(text)}</text>"
+        )
+
     def words(
         self,
         at: Point,

@@ -28,7 +28,8 @@ from netdesign.words.message import say
 
 _SCOPE = ("avalanche", "structure", "ground", "product")
 _READING = (
-    *("reading.checks", "caption.arrows", "reading.pressure", "reading.search"),
+    *("reading.checks", "caption.chains", "caption.arrows", "reading.pressure"),
+    "reading.search",
     *("reading.holds", "reading.directions"),
 )
 # Left empty, its factor is taken by the guideline's load.

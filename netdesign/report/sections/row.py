@@ -88,7 +88,7 @@ class RowSections:
                     id=f"{self.anchor}-drawing",
                     blocks=tuple(self._show_drawing(drawn)),
                 ),
-                self._section("checks", t("heading.checks"), *self._show_checks()),
+                self._section("checks", t("heading.checks"), *self._show_checks(drawn)),
                 self._section(
                     "worked", t("heading.worked_check"), *self._show_worked()
                 ),
@@ -127,7 +127,7 @@ class RowSections:
                 value = append_unit(show_value(echo, t), echo.unit.replace("-", ""))
                 yield t("show.label", label=t.show(label), text=value)
 
-    def _show_checks(self) -> Iterator[Block]:
+    def _show_checks(self, drawn: RowDrawings) -> Iterator[Block]:
         row, t = self.row, self.words
         lines = tuple(list_lines(row.checks))
         if row.reasons and not row.checks:
@@ -135,6 +135,7 @@ class RowSections:
             yield Items(items=reasons, look="reasons")
         if lines:
             yield self._tabulate_checks(lines)
+            yield Figure(svg=drawn.chains)
         further = [one for one in row.checks if not one.is_of_force]
         if further:
             yield from self._show_requirements(further)

@@ -8,6 +8,7 @@ from datetime import date, timedelta
 import numpy as np
 
 from netdesign.coupling.face import Face
+from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.envelope_figure import draw_envelope
 from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.drawing.monitoring_figure import draw_monitoring
@@ -24,7 +25,7 @@ from netdesign.study.envelope_records import (
     LineRecord,
     MapRecord,
 )
-from netdesign.study.records import MonitoringRecord
+from netdesign.study.records import MonitoringRecord, RowStudy
 from netdesign.study.support_records import (
     Arrow,
     Drawing,
@@ -54,6 +55,7 @@ def draw_all(rng: random.Random, words) -> list[str]:
         draw_section(build_section(rng), "s", words),
         *(draw(envelope, words) for draw in (draw_maps, draw_lines, draw_drivers)),
         draw_panel(build_panel(rng), words),
+        draw_chains(build_chains(rng), words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
         draw_monitoring([build_monitoring(rng)], words),
     ]
@@ -68,6 +70,34 @@ def draw_slow(rng: random.Random, words) -> list[str]:
         draw_node_forces(face, "f", words),
         draw_stick_slip(face, "t", words),
     ]
+
+
+MODES = {
+    "foot_anchor": ("tendon", "pull_out", "bent"),
+    "uphill_guy": ("rope",),
+    "uphill_anchor": ("tendon", "pull_out"),
+    "post": ("compression", "compression_bending"),
+    "post_base": ("bearing", "sliding"),
+    "end_guy": ("rope",),
+    "lateral_anchor": ("tendon",),
+}
+
+
+def build_chains(rng: random.Random) -> RowStudy:
+    """Row with checks of many members, some without a resistance."""
+    row = build_row("A", 1)
+    of_force = next(one for one in row.checks if one.is_of_force)
+    checks = [
+        replace(
+            of_force,
+            member=member,
+            mode=mode,
+            utilisation=rng.choice([None, 10 ** rng.uniform(-3.0, 1.2)]),
+        )
+        for member, modes in MODES.items()
+        for mode in modes
+    ]
+    return replace(row, checks=checks)
 
 
 def build_section(rng: random.Random) -> Drawing:

@@ -1,0 +1,113 @@
+"""Chains of a net row: each line of parts from the net into the ground, with its use.
+
+A chain is as strong as its weakest link: that of each chain is bold, that of the whole
+row has a thick border.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from netdesign.report.drawing.letters import measure_words
+from netdesign.report.drawing.plain_svg import WIDTH
+from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
+from netdesign.report.words import Words, show_member
+from netdesign.study.records import CheckRecord, RowStudy
+from netdesign.words.names import name_mode
+
+# Members from the net into the ground.
+_CHAINS = (
+    ("foot_anchor",),
+    ("uphill_guy", "uphill_anchor"),
+    ("downhill_guy", "downhill_anchor"),
+    ("post", "post_base"),
+    ("end_guy", "end_guy_anchor"),
+    ("lateral_anchor",),
+)
+_LINE = 14.5  # from chain to chain [pt]
+_BOX = 11.5  # height of a link [pt]
+_PAD, _ARROW = 3.5, 13.0  # inside a box, and between two [pt]
+_OPEN = "?"  # utilisation of a link that is not proven
+_SMALLEST = 0.6  # of the text, where a chain is long
+
+
+@dataclass(frozen=True, slots=True)
+class _Link:
+    """One mode of a member: its largest utilisation inside the row and at its end."""
+
+    text: str
+    used: float | None
+
+
+def draw_chains(row: RowStudy, words: Words) -> str:
+    """SVG of the chains of a net row; "" where no check has a force.
+
+    Parameters
+    ----------
+    row : RowStudy
+        Its checks of forces are the links.
+    words : Words
+        Language.
+    """
+    chains = [chain for names in _CHAINS if (chain := list(_list(row, names, words)))]
+    if not chains:
+        return ""
+    known = [one.used for chain in chains for one in chain if one.used is not None]
+    most = max(known, default=None)
+    sketch = Sketch(language=words.language)
+    start = words("chain.net")
+    for place, chain in enumerate(chains):
+        _draw_chain(sketch, start, chain, place * _LINE + 1.0, most)
+    return sketch.write(len(chains) * _LINE + 2.0, words("chain.title"))
+
+
+def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:
+    """Links of a chain: of a member one for each mode."""
+    for name in names:
+        by_mode: dict[str, list[CheckRecord]] = {}
+        for check in row.checks:
+            if check.member == name and check.is_of_force:
+                by_mode.setdefault(check.mode, []).append(check)
+        for place, (mode, checks) in enumerate(by_mode.items()):
+            used = [one.utilisation for one in checks]
+            known = [one for one in used if one is not None]
+            largest = max(known) if len(known) == len(used) else None
+            shown = _OPEN
+            if largest is not None:
+                shown = words.show_number("utilisation", largest)
+            named = [words.show(name_mode(mode))]
+            if place == 0:
+                named.insert(0, show_member(words, name))
+            yield _Link(text=f"{words.join(named)}: {shown}", used=largest)
+
+
+def _draw_chain(
+    sketch: Sketch, start: str, chain: Sequence[_Link], top: float, most: float | None
+) -> None:
+    """One chain from left to right, smaller where it would not fit."""
+    texts = [start, *(one.text for one in chain)]
+    widths = [measure_words(text, TEXT_PT) + 2.0 * _PAD for text in texts]
+    room = WIDTH - 2.0 - _ARROW * len(chain)
+    size = max(_SMALLEST, min(1.0, room / sum(widths)))
+    weakest = max((one.used or 0.0 for one in chain), default=0.0)
+    left, middle = 1.0, top + 0.5 * _BOX
+    for place, (text, width) in enumerate(zip(texts, widths, strict=True)):
+        wide = size * width
+        used = chain[place - 1].used if place else None
+        is_most = used is not None and used == most
+        edge, thick = (ACCENT, 1.8) if is_most else (GREY, 0.6)
+        corners = [(left, top), (left + wide, top), (left + wide, top + _BOX)]
+        corners += [(left, top + _BOX), (left, top)]
+        if place:
+            sketch.line(corners, stroke=edge, width=thick)
+        base = (left + size * _PAD, middle + 0.35 * size * TEXT_PT)
+        is_weakest = used is not None and used == weakest
+        sketch.words_of_size(base, text, size * TEXT_PT, bold=is_weakest)
+        left += wide
+        if place < len(chain):
+            sketch.arrow(
+                (left + 1.0, middle), (left + _ARROW - 1.0, middle), stroke=INK
+            )
+            left += _ARROW

@@ -1,0 +1,64 @@
+"""Chains of a row: which links they have, and which is the weakest."""
+
+import random
+import re
+from dataclasses import replace
+
+import pytest
+
+from netdesign.report.drawing.chain_figure import draw_chains
+from netdesign.report.drawing.plain_svg import WIDTH
+from netdesign.report.words import ENGLISH, Words
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.build_study import build_row
+from tests.report.drawing.drawn import build_chains
+
+TEXT = re.compile(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>([^<]*)</text>')
+SEEDS = range(12)
+
+
+def use(row, checks):
+    """Row whose checks have these utilisations, in their order."""
+    pairs = zip(row.checks, checks, strict=True)
+    return replace(row, checks=[replace(one, utilisation=used) for one, used in pairs])
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_every_check_of_a_force_is_a_link_inside_the_picture(seed, language):
+    row = build_chains(random.Random(seed))
+    svg = draw_chains(row, Words(language))
+    shown = [text for *_, text in TEXT.findall(svg) if ":" in text]
+    assert len(shown) == len(row.checks)
+    assert sum(text.endswith(": ?") for text in shown) == sum(
+        one.utilisation is None for one in row.checks
+    )
+    right = [float(x) for x in re.findall(r"([\d.]+),[\d.]+ [\d.]+,", svg)]
+    assert max(right) <= WIDTH
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_weakest_link_of_the_row_alone_has_a_thick_border(seed):
+    draw = random.Random(seed)
+    row = build_chains(draw)
+    used = [draw.uniform(0.01, 1.4) for _ in row.checks]
+    svg = draw_chains(use(row, used), ENGLISH)
+    assert svg.count('stroke-width="1.8"') == 1
+    bold = re.findall(r'font-weight="bold">([^<]*)<', svg)
+    largest = ENGLISH.show_number("utilisation", max(used))
+    assert sum(text.endswith(largest) for text in bold) >= 1
+
+
+def test_of_two_places_the_larger_utilisation_counts():
+    row = build_chains(random.Random(3))
+    inside = replace(row.checks[0], utilisation=0.613)
+    end = replace(inside, utilisation=0.847, position="edge")
+    svg = draw_chains(replace(row, checks=[inside, end]), ENGLISH)
+    assert "0.847" in svg
+    assert "0.613" not in svg
+    open_ = replace(end, utilisation=None)
+    assert ": ?" in draw_chains(replace(row, checks=[inside, open_]), ENGLISH)
+
+
+def test_a_row_without_forces_has_no_chain():
+    assert draw_chains(replace(build_row("A", 1), checks=[]), ENGLISH) == ""
