@@ -76,7 +76,7 @@ THIRD_PARTY = {
             "solving.*",
         ),
         *("files.solution", "evidence.*"),
-        *("study.record_envelope", "study.record_panel"),
+        *("study.record_envelope", "study.record_support"),
         *("report.drawing.net_figures", "commands.doctor"),
     ),
     "scipy": (

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from netdesign.report.words import Words
     from netdesign.solving.runner import Runner
     from netdesign.solving.solve import Settings
-    from netdesign.study.envelope_records import EnvelopeRecord
+    from netdesign.study.case_records import EnvelopeRecord
 
 _RANGES = (
     ("--density", "density", "Snow density [kg/m3]."),

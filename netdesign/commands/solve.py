@@ -287,7 +287,7 @@ def write_solution_folder(
     """Write page, drawings, tables and document; their paths."""
     from netdesign.edge.output import write_files
     from netdesign.report.page.solution_page import render_solution
-    from netdesign.study.record_panel import record_solved_panel
+    from netdesign.study.record_support import record_solved_panel
 
     panel = None if support is None else record_solved_panel(support.result)
     contents = render_solution(solution, document, scene_file, language, panel)

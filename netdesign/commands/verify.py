@@ -131,9 +131,13 @@ def _verify_study(
     """Exit code; inputs that are not those of the study are not solved."""
     from netdesign.study.check_site import check_site
     from netdesign.study.document import load_study
-    from netdesign.study.record_provenance import load_own_profile
+    from netdesign.study.record_provenance import (
+        build_run,
+        is_of_ties,
+        list_differences,
+        load_own_profile,
+    )
     from netdesign.study.rejudge import rejudge
-    from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
     study = load_study(path)
     run = build_run(study, jobs or os.cpu_count() or 1)
@@ -244,7 +248,7 @@ class _Shown:
         self, study: Study, again: Study, ties: Sequence[Difference]
     ) -> bool:
         """Tell what a new solve cannot show; True if some of it is avoidable."""
-        from netdesign.study.repeat import list_versions
+        from netdesign.study.record_provenance import list_versions
 
         made = study.provenance
         old, new = list_versions(study), list_versions(again)

@@ -12,9 +12,8 @@ from netdesign.envelope.extremes import Extreme, find_extremes
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.solving.runner import Counts
-from netdesign.study.envelope_records import BoundRecord, EnvelopeRecord
-from netdesign.study.record_cases import show_case, show_coincident
-from netdesign.study.record_envelope import record_envelope
+from netdesign.study.case_records import BoundRecord, EnvelopeRecord
+from netdesign.study.record_envelope import record_envelope, show_case, show_coincident
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say

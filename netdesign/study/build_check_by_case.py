@@ -10,14 +10,13 @@ from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.structure.members import RopeForce, name_in_panel
+from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
-from netdesign.study.force_records import ForceRecord
 from netdesign.study.judgement import MemberCheck, is_worst
 from netdesign.study.margins import find_margins
-from netdesign.study.member_force import MemberForce
+from netdesign.study.member_force import MemberForce, compute_end_factor
 from netdesign.study.records import ChangeRecord, HoldRecord
-from netdesign.study.row_end import compute_end_factor
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message

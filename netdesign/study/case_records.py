@@ -1,16 +1,128 @@
-"""Records of solved cases and of the largest forces over them.
-
-All numbers in engineer's units, as in ``records``.
-"""
+"""Records of cases, forces, the guideline's loads and the searched envelope."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome
 from netdesign.words.text_field import Text
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxisRecord:
+    """One quantity that ranges; unit in its key."""
+
+    key: str  # "density_kg_m3"
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class DriverRecord:
+    """Answer of one force to one quantity that ranges."""
+
+    key: str
+    at_low_kN: float  # the others as in the governing case
+    at_high_kN: float
+    least_kN: float
+    most_kN: float
+    first_order: float  # Sobol index
+    total: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlipRecord:
+    """A value at which a check flips, the others as in the governing case."""
+
+    check: str  # id of the check
+    key: str
+    value: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineRecord:
+    """Force along one quantity through the governing case."""
+
+    key: str
+    values: list[float]
+    force_kN: list[float]
+    bound_kN: list[float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MapRecord:
+    """Force over density and friction at one inclination; rows are frictions."""
+
+    inclination_deg: float
+    density_kg_m3: list[float]
+    friction_deg: list[float]
+    force_kN: list[list[float]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConfirmationRecord:
+    """The governing case solved again by another fidelity."""
+
+    method: str
+    screened_kN: float
+    confirmed_kN: float | None
+    difference_percent: float | None
+    elements: int | None
+    screened_elements: int
+    reason: Text | None  # why there is no confirmation
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoundRecord:
+    """Largest value of one force anywhere in the ranges.
+
+    Per anchor; per metre of width where the envelope says so.
+    """
+
+    quantity: str
+    max_kN: float
+    upper_bound_kN: float  # with what may hide between the cases
+    case: dict[str, float]
+    coincident_kN: dict[str, float]
+    unexplained: float | None  # error of the Sobol indices: share of the variance
+    drivers: list[DriverRecord]
+    flips: list[FlipRecord]
+    lines: list[LineRecord]
+    maps: list[MapRecord]
+    confirmation: ConfirmationRecord | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AdditionRecord:
+    """One line of the densification log."""
+
+    round: int
+    reason: str
+    quantity: str
+    case: dict[str, float]
+    predicted_kN: float | None
+    claimed_kN: float | None  # one standard error of the prediction
+    found_kN: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnvelopeRecord:
+    """Search for the largest forces of a net row, and what may hide."""
+
+    axes: list[AxisRecord]
+    is_per_metre: bool
+    is_closed: bool  # every gap is within the one asked for
+    gap_asked_percent: float
+    certainty: float  # standard errors in an upper bound
+    resolved_share: float  # narrower features may hide, as a share of a range
+    cases: int
+    skipped: int  # known without a solve, since the snow stuck with less friction
+    skips_tested: int
+    failed: int
+    bounds: list[BoundRecord]
+    log: list[AdditionRecord]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,3 +178,105 @@ class ExtremeRecord:
     case: CasePoint
     coincident_kN: dict[str, float]  # the other members in that case
     upper_bound_kN: float | None = None  # None for a grid, which has no bound
+
+
+@dataclass(frozen=True, kw_only=True)
+class ForceRecord:
+    """Largest force of one kind over the cases of a row, as its checks take it.
+
+    The upper end has what may hide between the cases.
+    """
+
+    quantity: str  # "foot_anchor", "panel_post", "panel_upper_along", ...
+    low_kN: float
+    value_kN: float
+    high_kN: float
+    case: CasePoint
+    unknown: list[str] = field(default_factory=list)  # axes nothing is known along
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineCase:
+    """One load case of the guideline on this row; characteristic, inside a row."""
+
+    name: str  # "same_snow", "load_case_1", "load_case_2"
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float | None
+    glide_factor: float | None
+    rigid_kN_per_m: float | None  # S'_N on a rigid wall
+    load_kN_per_m: float | None  # along the slope on the net, with the prism
+    foot_anchor_kN: float | None
+    uphill_guy_kN: float | None
+    post_kN: float | None
+    load_difference_percent: float | None  # of the coupled solve against this
+    foot_difference_percent: float | None
+    reason: Text | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineRecord:
+    """Independent check of a row by the guideline's load model."""
+
+    profile: str  # whose numbers
+    sha256: str
+    case: CasePoint  # of the coupled solve
+    solved_load_kN_per_m: float  # along the slope on the net
+    solved_foot_anchor_kN: float
+    cases: list[GuidelineCase]
+    sentence: Text  # why the two differ
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloorForceRecord:
+    """Largest force of the guideline's load in one member, inside the row."""
+
+    member: str
+    force_kN: float  # characteristic
+    load_case: str  # "load_case_1" or "load_case_2"
+    inclination_deg: float  # of the net, where the force is largest
+    snow_thickness_m: float  # of the snow that is held, there as well
+    slack: float
+    stiffness_kN_per_m: float
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float
+    glide_factor: float
+    load_along_kN_per_m: float  # on the net, downslope, with the prism
+    load_across_kN_per_m: float  # out of the ground
+    chord_tension_kN_per_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloorRecord:
+    """Forces that no demand of a row lies below, by the guideline's load cases."""
+
+    profile: str  # whose load model
+    sha256: str
+    forces: list[FloorForceRecord]  # empty where the floor is not available
+    altitude_factor: float  # on the density of load case 1
+    assumed: list[Text] = field(default_factory=list)  # of the row, for its load
+    reason: Text | None = None  # why it is not
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineLoadRecord:
+    """The guideline's load on a net, for each metre of width: (G1) to (G9)."""
+
+    load_case: str  # "load_case_1" or "load_case_2"
+    inclination_deg: float
+    snow_thickness_m: float
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float
+    glide_factor: float
+    rigid_kN_per_m: float
+    parallel_kN_per_m: float
+    normal_kN_per_m: float
+    prism_kN_per_m: float
+    load_along_kN_per_m: float
+    load_across_kN_per_m: float
+    loaded_share: float  # of the chord, from the foot
+    stiffness_kN_per_m: float
+    slack: float
+    chord_tension_kN_per_m: float

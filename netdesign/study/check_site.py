@@ -15,9 +15,15 @@ from netdesign.solving.runner import Runner
 from netdesign.study.cases import have_same_forces, list_alike, search_site, solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import gather_study
-from netdesign.study.known_rows import Studies, find_rows, keep_rows, name_rows
 from netdesign.study.records import Study
-from netdesign.study.side_by_side import RowsJob, judge_rows
+from netdesign.study.side_by_side import (
+    RowsJob,
+    Studies,
+    find_rows,
+    judge_rows,
+    keep_rows,
+    name_rows,
+)
 from netdesign.words.message import Message, say
 
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others

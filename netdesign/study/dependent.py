@@ -39,8 +39,7 @@ from netdesign.resistance.steel import (
 )
 from netdesign.site.model import AnchorType, BaseFriction, NetRow, Resistance
 from netdesign.structure.layout import place_support
-from netdesign.study.corners import list_corners
-from netdesign.study.effects import find_row_glide_factor, load_guideline
+from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
 from netdesign.study.member_force import MemberForce
 from netdesign.study.pulls import AnchorPull
 from netdesign.units import degree_from_radian, kilonewton_from_newton

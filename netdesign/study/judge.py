@@ -15,13 +15,12 @@ from netdesign.envelope.run import CaseResult
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
-from netdesign.study.case_records import CaseRecord, ExtremeRecord
+from netdesign.study.case_records import CaseRecord, EnvelopeRecord, ExtremeRecord
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.check_run import CheckRun
-from netdesign.study.end_note import record_end_effects
-from netdesign.study.envelope_records import EnvelopeRecord
-from netdesign.study.floor import bound_row_floor, find_row_floor, record_floor
+from netdesign.study.effects import record_end_effects
 from netdesign.study.judgement import Basis, Known
+from netdesign.study.measured_pulls import record_monitoring
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_history_notes,
@@ -29,21 +28,27 @@ from netdesign.study.notes import (
     list_reasons,
     list_site_notes,
 )
-from netdesign.study.opinion_records import ModelFormRecord
 from netdesign.study.pulls import record_pulls
-from netdesign.study.record_cases import record_case, record_extreme
-from netdesign.study.record_envelope import record_envelope
-from netdesign.study.record_guideline import record_guideline
-from netdesign.study.record_independent import record_independent
-from netdesign.study.record_monitoring import record_monitoring
-from netdesign.study.record_panel import record_panel
+from netdesign.study.record_envelope import record_case, record_envelope, record_extreme
+from netdesign.study.record_guideline import (
+    bound_row_floor,
+    find_row_floor,
+    record_floor,
+    record_guideline,
+)
+from netdesign.study.record_independent import record_independent, record_slab
 from netdesign.study.record_provenance import record_profile, record_provenance
-from netdesign.study.record_slab import record_slab
 from netdesign.study.record_statics import record_statics
-from netdesign.study.record_support import record_anchors, record_drawing, record_head
+from netdesign.study.record_support import (
+    record_anchors,
+    record_drawing,
+    record_head,
+    record_panel,
+)
 from netdesign.study.records import (
     SCHEMA,
     CheckRecord,
+    ModelFormRecord,
     RowStudy,
     Study,
     list_verdicts,

@@ -16,6 +16,7 @@ from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
+from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.check_to_record import (
     apply_declaration,
     judge_force,
@@ -29,17 +30,17 @@ from netdesign.study.dependent import (
     find_resistance_for_force,
     find_short_post,
 )
-from netdesign.study.force_records import ForceRecord
-from netdesign.study.guideline_records import FloorForceRecord
 from netdesign.study.member_force import (
     MemberForce,
     RowForces,
     find_force,
+    find_lack,
+    find_other_panel,
     name_governing,
+    name_unsaid,
 )
 from netdesign.study.pulls import AnchorPull, check_directions, find_pull
 from netdesign.study.records import CheckRecord
-from netdesign.study.row_end import find_lack, find_other_panel, name_unsaid
 from netdesign.study.sideways import check_sideways
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say

@@ -31,9 +31,8 @@ from netdesign.snow.law import Sides
 from netdesign.structure.members import Member
 from netdesign.study.calibration import is_calibrated, list_densities
 from netdesign.study.case_solver import CaseSolver
-from netdesign.study.opinion_records import ModelFormRecord, VariantRecord
-from netdesign.study.record_cases import record_point
-from netdesign.study.records import CheckRecord
+from netdesign.study.record_envelope import record_point
+from netdesign.study.records import CheckRecord, ModelFormRecord, VariantRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 

@@ -15,8 +15,7 @@ from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
-from netdesign.study.effects import RowEffects, list_assumed
-from netdesign.study.end_note import list_end_notes
+from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton

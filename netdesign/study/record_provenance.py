@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
+import re
 from dataclasses import replace
 
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue, load_standard
 from netdesign.checks.schema import GLIDE_FACTORS
 from netdesign.core.library import name_core
+from netdesign.coupling.scene import SolverSettings
+from netdesign.outcome import StudyError
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
-from netdesign.study.check_run import CheckRun
+from netdesign.study.check_run import CheckRun, read_method
 from netdesign.study.effects import load_glide_limits, load_guideline
-from netdesign.study.records import ProfileRecord, ProfileValue, Provenance
+from netdesign.study.records import ProfileRecord, ProfileValue, Provenance, Study
+from netdesign.study.values import Difference, compare_listed, list_values
+from netdesign.words.message import say
 
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 
@@ -119,3 +124,84 @@ def _list_map(site: Site) -> dict[str, str]:
 def name_law(law: CreepLaw) -> str:
     """Name and source of a creep law, as a study states it."""
     return f"{law.name} ({law.source})"
+
+
+_REPEATED = ("accuracy", "method")
+_LOG = re.compile(r"rows\..*\.envelope\.log\.\d+\.\w+(\.\w+)?")
+
+
+def build_run(study: Study, jobs: int) -> CheckRun:
+    """Settings with which a study was made; time and command are taken over.
+
+    Parameters
+    ----------
+    study : Study
+        As stored.
+    jobs : int
+        Processes; they change nothing.
+
+    Raises
+    ------
+    StudyError
+        If the settings cannot be had again: another creep law, other tolerances.
+    """
+    given, made = study.provenance.settings, study.provenance
+    try:
+        run = CheckRun(
+            settings=SolverSettings(accuracy=float(given["accuracy"])),
+            method=read_method(given["method"]),
+            jobs=jobs,
+            command=made.command,
+            started=made.started,
+        )
+    except (KeyError, ValueError):
+        told = tuple(f"{name} = {given.get(name)!r:.60}" for name in _REPEATED)
+        raise StudyError(say("study.settings", given=told)) from None
+    if given.get("creep_law") != name_law(run.creep_law):
+        raise StudyError(
+            say(
+                "study.other_law",
+                given=f"{given.get('creep_law')!r:.120}",
+                own=repr(name_law(run.creep_law)),
+            )
+        )
+    return run
+
+
+def list_differences(stored: Study, again: Study) -> tuple[int, list[Difference]]:
+    """Compare everything but the versions that made the two studies.
+
+    Parameters
+    ----------
+    stored, again : Study
+        The study, and what comes out of its inputs now.
+
+    Returns
+    -------
+    tuple
+        Number of values compared, and those that differ: numbers by more than a
+        millionth, all else at all.
+    """
+    old, new = (list_values(_leave_out_versions(study)) for study in (stored, again))
+    return len(old | new), compare_listed(old, new)
+
+
+def is_of_ties(difference: Difference) -> bool:
+    """It says only why a search solved a case, where several reasons tie.
+
+    Rounding decides between them, and so do the kernels of a processor. The cases and
+    all that is found from them are compared on their own.
+    """
+    return _LOG.fullmatch(difference.place) is not None
+
+
+def list_versions(study: Study) -> dict[str, str]:
+    """Program and libraries that made a study."""
+    made = study.provenance
+    return {"netdesign": made.version, **made.libraries}
+
+
+def _leave_out_versions(study: Study) -> Study:
+    """Study without what made it and the digest over it, which are told beside."""
+    made = replace(study.provenance, version="", libraries={})
+    return replace(study, provenance=made, digest="")

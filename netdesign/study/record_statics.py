@@ -16,9 +16,8 @@ from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.axis import measure_pull
 from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member, RopeForce
-from netdesign.study.case_records import CasePoint
-from netdesign.study.guideline_records import GuidelineLoadRecord
-from netdesign.study.record_cases import record_point
+from netdesign.study.case_records import CasePoint, GuidelineLoadRecord
+from netdesign.study.record_envelope import record_point
 from netdesign.study.sideways import (
     GUYS,
     GUYS_BY_PANEL,

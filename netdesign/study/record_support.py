@@ -2,16 +2,193 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+
+import numpy as np
+
 from netdesign.coupling.face import NetState, find_net_face
+from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
-from netdesign.site.model import NetRow
+from netdesign.numerics.arrays import Floats
+from netdesign.panel.inputs import Rope
+from netdesign.panel.solution import FailedPanel
+from netdesign.panel.stations import ROPE_POINTS
+from netdesign.site.model import BorderRope, NetRow
 from netdesign.structure.anchors import AnchorForces
-from netdesign.structure.layout import SupportPoints, place_support
-from netdesign.structure.members import Member
+from netdesign.structure.layout import Point, SupportPoints, place_support
+from netdesign.structure.members import Member, RopeForce
 from netdesign.study.effects import RowEffects
-from netdesign.study.record_cases import record_point
-from netdesign.study.support_records import AnchorRecord, Arrow, Drawing, HeadForce
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.study.record_envelope import record_extreme, record_point
+from netdesign.study.support_records import (
+    AnchorRecord,
+    Arrow,
+    Drawing,
+    HeadForce,
+    PanelDrawing,
+    PanelRecord,
+    RopeRecord,
+)
+from netdesign.units import (
+    degree_from_radian,
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
+
+_DECIMALS = 4  # of a metre in a drawing
+
+
+def record_panel(
+    row: NetRow,
+    results: Sequence[CaseResult] = (),
+    extremes: Mapping[str, Extreme] = MappingProxyType({}),
+    drawn: CaseResult | None = None,
+) -> PanelRecord | None:
+    """Panel of a row with its largest forces over the cases that have some.
+
+    None of a row without a panel. ``drawn`` is the case that is shown.
+    """
+    if row.panel is None:
+        return None
+    panel = row.panel.panels[0]
+    solved = [
+        variant.solution
+        for one in results
+        if isinstance(one.panel, PanelForces)
+        for variant in one.panel.variants
+    ]
+    found = {name: extremes[name] for name in PANEL_QUANTITIES if name in extremes}
+    lower = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
+    upper = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
+    return PanelRecord(
+        cut=panel.cut,
+        has_mid_anchors=panel.has_mid_anchors,
+        assumed=list(row.panel.assumed),
+        ropes=[]
+        if row.panel.assumed
+        else [
+            _record_rope("lower", panel.lower, row.panel.lower, found, lower),
+            _record_rope("upper", panel.upper, row.panel.upper, found, upper),
+        ],
+        extremes=[record_extreme(one) for one in found.values()],
+        failed=sum(isinstance(one.panel, FailedPanel) for one in results),
+        effective_height_m=min(
+            (row.net_height + one.upper.mid_displacement[1] for one in solved),
+            default=None,
+        ),
+        lift_m=max((one.lower.mid_displacement[1] for one in solved), default=None),
+        end_guy_deg=_find_guy_angle(row),
+        drawing=_draw(drawn) if drawn and not row.panel.assumed else None,
+    )
+
+
+def record_solved_panel(result: CaseResult) -> PanelRecord | None:
+    """Panel of one case alone, without types of ropes; None where it has none."""
+    if not isinstance(result.panel, PanelForces):
+        return None
+    solved = result.panel.solution
+    panel = solved.panel
+    return PanelRecord(
+        cut=panel.cut,
+        has_mid_anchors=panel.has_mid_anchors,
+        ropes=[
+            RopeRecord(
+                rope=name,
+                type="",
+                stiffness_kN=kilonewton_from_newton(rope.stiffness),
+                sag=rope.sag,
+                along_kN=kilonewton_from_newton(forces.along),
+                tension_kN=kilonewton_from_newton(forces.tension),
+                breaking_kN=None,
+                cell="",
+            )
+            for name, rope, forces in (
+                ("lower", panel.lower, solved.lower),
+                ("upper", panel.upper, solved.upper),
+            )
+        ],
+        extremes=[],
+        drawing=_draw(result),
+    )
+
+
+def _find_guy_angle(row: NetRow) -> float | None:
+    angle = row.row_end.guy_angle if row.row_end else None
+    return None if angle is None else degree_from_radian(angle)
+
+
+def _draw(drawn: CaseResult) -> PanelDrawing | None:
+    """Half a panel of a case; None where it has none."""
+    panel, anchors = drawn.panel, drawn.anchors
+    if not isinstance(panel, PanelForces) or anchors is None:
+        return None
+    solved = panel.solution
+    half = solved.panel.post_spacing / 2.0
+    foot = anchors.foot_anchor
+    order = np.argsort(solved.stations)  # from the post to mid-panel
+    lower, upper = (solved.curves[order][:, :, end] for end in (0, -1))
+    head = drawn.solution.head_point if drawn.solution else (0.0, 0.0)
+    return PanelDrawing(
+        case=record_point(drawn.case),
+        places_m=_round(solved.stations[order]),
+        post_head_m=_list_points(np.array([head]))[0],
+        lower_m=_list_points(lower),
+        upper_m=_list_points(upper),
+        mid_net_m=_list_points(solved.curves[-1].T),
+        rope_places_m=_round(half * (1.0 - ROPE_POINTS[::-1])),
+        lower_tensions_kN=_show(solved.lower.tensions),
+        upper_tensions_kN=_show(solved.upper.tensions),
+        foot_kN=_show_point(solved.foot),
+        mid_foot_kN=_show_point(solved.mid_foot),
+        head_kN=_show_point(solved.head),
+        section_foot_kN=_show_point((foot.x, foot.y)),
+        section_head_kN=_show_point(anchors.head_pull),
+        lower_along_kN=kilonewton_from_newton(solved.lower.along),
+        upper_along_kN=kilonewton_from_newton(solved.upper.along),
+    )
+
+
+def _round(places: Floats) -> list[float]:
+    return [round(float(one), _DECIMALS) for one in places]
+
+
+def _list_points(points: Floats) -> list[tuple[float, float]]:
+    """Points of shape (n, 2) to what a drawing shows [m]."""
+    return [(round(float(x), _DECIMALS), round(float(y), _DECIMALS)) for x, y in points]
+
+
+def _show(forces: Floats) -> list[float]:
+    """Tensions from the post on, as ``rope_places_m`` has them [kN]."""
+    return [round(kilonewton_from_newton(float(one)), 3) for one in forces[::-1]]
+
+
+def _show_point(force: Point) -> tuple[float, float]:
+    return kilonewton_from_newton(force[0]), kilonewton_from_newton(force[1])
+
+
+def _record_rope(
+    name: str,
+    rope: Rope,
+    bears: BorderRope,
+    extremes: Mapping[str, Extreme],
+    forces: tuple[str, str],
+) -> RopeRecord:
+    along, tension = (
+        kilonewton_from_newton(extremes[one].widened.high) if one in extremes else None
+        for one in forces
+    )
+    return RopeRecord(
+        rope=name,
+        type=bears.type_id,
+        stiffness_kN=kilonewton_from_newton(rope.stiffness),
+        sag=rope.sag,
+        along_kN=along,
+        tension_kN=tension,
+        breaking_kN=kilonewton_if_known(bears.breaking),
+        cell=bears.source,
+    )
+
 
 _PRESSURE_DECIMALS = 3  # [kPa]
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre

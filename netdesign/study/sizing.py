@@ -15,12 +15,12 @@ from netdesign.checks import Standard
 from netdesign.outcome import Verdict
 from netdesign.site.model import END_MODES, MEMBER_MODES, NAMED_BY, NetRow, Site
 from netdesign.structure.members import EndMember, Member
-from netdesign.study.anchor_ground import find_ground, holds_in_ground
 from netdesign.study.cases import have_same_forces
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite
 from netdesign.study.judge import judge_site
 from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.stronger_types import find_ground, holds_in_ground
 from netdesign.words.message import say
 
 Column = Member | EndMember

@@ -10,13 +10,13 @@ from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow
+from netdesign.study.case_records import ForceRecord
 from netdesign.study.effects import find_effects
-from netdesign.study.floor import record_floor
-from netdesign.study.force_records import ForceRecord
 from netdesign.study.judgement import Basis, Known
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import list_pulls
-from netdesign.study.record_cases import record_point
+from netdesign.study.record_envelope import record_point
+from netdesign.study.record_guideline import record_floor
 from netdesign.study.sideways import find_held_sideways, place_row
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say

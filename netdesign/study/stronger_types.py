@@ -9,12 +9,46 @@ from netdesign.checks import Standard, find_resistance
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import compute_rope_resistance
 from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
-from netdesign.study.anchor_ground import holds_in_ground
+from netdesign.structure.members import EndMember, Member
 from netdesign.study.dependent import find_short_post
 from netdesign.study.records import ChangeRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
+
+_ANCHORS = (
+    *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
+    *(EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR),
+)
+
+
+def find_ground(site: Site, type_id: str) -> str:
+    """Ground of an anchor type of the workbook; "" where nobody gives it."""
+    found = (one.ground for one in site.catalogue if one.type_id == type_id)
+    return next((ground for ground in found if ground), "")
+
+
+def holds_in_ground(member: str, now: str, other: Resistance) -> bool | None:
+    """Validity of a type in the ground of the type that it would replace.
+
+    Parameters
+    ----------
+    member : str
+        What the type is for; only anchors stand in a ground.
+    now : str
+        Ground of the type that is there; "" for an unknown one.
+    other : Resistance
+        Of the type that would replace it.
+
+    Returns
+    -------
+    bool or None
+        None where either ground is unknown: somebody has to be asked.
+    """
+    if member not in _ANCHORS:
+        return True
+    return now == other.ground if now and other.ground else None
+
 
 _CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
 _DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)

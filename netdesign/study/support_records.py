@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from netdesign.study.case_records import CasePoint, ExtremeRecord
-from netdesign.study.guideline_records import GuidelineLoadRecord
+from netdesign.study.case_records import CasePoint, ExtremeRecord, GuidelineLoadRecord
 from netdesign.words.message import Message
 
 

@@ -18,7 +18,7 @@ from netdesign.report.page.solved_support import view_support
 from netdesign.report.words import Words
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
-from netdesign.study.record_panel import record_solved_panel
+from netdesign.study.record_support import record_solved_panel
 
 SETTINGS = SolverSettings(accuracy=0.1)
 LAYOUT = SupportLayout(

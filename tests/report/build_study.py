@@ -19,19 +19,15 @@ from netdesign.checks.forces import (
 )
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
-from netdesign.study.guideline_records import (
+from netdesign.study.case_records import (
+    CasePoint,
+    CaseRecord,
+    ExtremeRecord,
     FloorForceRecord,
     FloorRecord,
     GuidelineCase,
     GuidelineLoadRecord,
     GuidelineRecord,
-)
-from netdesign.study.opinion_records import (
-    ModelFormRecord,
-    SlabCase,
-    SlabRecord,
-    VariantRecord,
 )
 from netdesign.study.records import (
     SCHEMA,
@@ -39,12 +35,16 @@ from netdesign.study.records import (
     CheckRecord,
     HoldRecord,
     IndependentRecord,
+    ModelFormRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
     RowStudy,
+    SlabCase,
+    SlabRecord,
     SpreadRecord,
     Study,
+    VariantRecord,
 )
 from netdesign.study.support_records import (
     AnchorRecord,

@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.report.page.html import render_html
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.envelope_records import (
+from netdesign.study.case_records import (
     AxisRecord,
     BoundRecord,
     DriverRecord,

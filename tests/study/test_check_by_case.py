@@ -11,7 +11,7 @@ from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.study.check_by_case import CheckByCase, Setting
 from netdesign.study.effects import find_effects
-from netdesign.study.floor import find_row_floor
+from netdesign.study.record_guideline import find_row_floor
 from tests.small_site import build_row
 
 STANDARD = load_standard("swiss-guideline-2007")

@@ -10,8 +10,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.haefeli.slab import Slab
 from netdesign.planview.end_effect import compute_end_effect
 from netdesign.snow.creep_law import BOUTILLIER_2004, GAGLIARDINI_1997
-from netdesign.study.effects import find_effects
-from netdesign.study.end_note import list_end_notes, record_end_effects
+from netdesign.study.effects import find_effects, list_end_notes, record_end_effects
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.small_site import build_row
 

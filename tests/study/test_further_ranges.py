@@ -19,7 +19,7 @@ from netdesign.study.case_solver import CaseSolver, build_scene
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.record_cases import read_point, record_point
+from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site

@@ -18,13 +18,13 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
 from netdesign.study import check_site as use_case
-from netdesign.study import known_rows, side_by_side
+from netdesign.study import side_by_side
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.known_rows import cut_site, name_rows
+from netdesign.study.side_by_side import cut_site, name_rows
 from tests.short_example import write_short_example
 from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
 from tests.study.test_member_force import ACCEPTED
@@ -66,7 +66,7 @@ def judged(monkeypatch):
 
 @pytest.fixture
 def quick_names(monkeypatch):
-    monkeypatch.setattr(known_rows, "identify_installation", lambda: "here")
+    monkeypatch.setattr(side_by_side, "identify_installation", lambda: "here")
 
 
 def check(site, store, standards=STANDARDS[:1], **changes):
@@ -250,7 +250,7 @@ def test_a_row_with_a_value_of_no_known_kind_is_judged_every_time():
 def test_another_code_is_not_answered_by_this_one(store, judged, monkeypatch):
     site = build_site(*ROWS)
     check(site, store)
-    monkeypatch.setattr(known_rows, "identify_installation", lambda: "9.9+feed")
+    monkeypatch.setattr(side_by_side, "identify_installation", lambda: "9.9+feed")
     check(site, store)
     assert judged == ["R1", "R2"] * 2
 

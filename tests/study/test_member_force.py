@@ -14,12 +14,11 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
+from netdesign.study.case_records import ForceRecord
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.effects import find_effects
-from netdesign.study.floor import find_row_floor, record_floor
-from netdesign.study.force_records import ForceRecord
 from netdesign.study.judge import judge_site
 from netdesign.study.member_force import (
     RowForces,
@@ -27,7 +26,8 @@ from netdesign.study.member_force import (
     leave_out_governing,
     name_governing,
 )
-from netdesign.study.record_cases import record_point
+from netdesign.study.record_envelope import record_point
+from netdesign.study.record_guideline import find_row_floor, record_floor
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say

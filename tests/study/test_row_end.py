@@ -14,8 +14,8 @@ from netdesign.structure.members import RopeForce
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.effects import find_effects
+from netdesign.study.member_force import compute_end_factor
 from netdesign.study.rejudge import rejudge
-from netdesign.study.row_end import compute_end_factor
 from netdesign.words.message import say
 from tests.read_check import scale_force, scale_step
 from tests.small_site import RANGES, RUN, build_row, resist

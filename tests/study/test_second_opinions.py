@@ -16,7 +16,7 @@ from netdesign.snow.creep_law import BOUTILLIER_2004, GAGLIARDINI_1997
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.model_form import record_model_form
-from netdesign.study.record_slab import record_slab
+from netdesign.study.record_independent import record_slab
 from netdesign.study.records import CheckRecord
 from tests.small_site import build_row
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.study.repeat import is_of_ties
+from netdesign.study.record_provenance import is_of_ties
 from netdesign.study.values import Difference, compare_values, list_values
 from tests.report.build_study import build_study
 

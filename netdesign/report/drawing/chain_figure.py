@@ -60,7 +60,9 @@ def draw_chains(row: RowStudy, words: Words) -> str:
     start = words("chain.net")
     for place, chain in enumerate(chains):
         _draw_chain(sketch, start, chain, place * _LINE + 1.0, most)
-    return sketch.write(len(chains) * _LINE + 2.0, words("chain.title"))
+    values = tuple(one.text for chain in chains for one in chain)
+    title = words("drawing.with_values", what=words("chain.title"), values=values)
+    return sketch.write(len(chains) * _LINE + 2.0, title)
 
 
 def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:

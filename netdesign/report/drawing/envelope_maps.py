@@ -25,7 +25,7 @@ from netdesign.report.words import (
     Words,
     name_heading,
 )
-from netdesign.study.envelope_records import (
+from netdesign.study.case_records import (
     BoundRecord,
     DriverRecord,
     EnvelopeRecord,

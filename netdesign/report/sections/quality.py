@@ -31,10 +31,8 @@ from netdesign.report.words import (
     show_member,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.case_records import CasePoint, CaseRecord
-from netdesign.study.envelope_records import BoundRecord
-from netdesign.study.opinion_records import ModelFormRecord
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.case_records import BoundRecord, CasePoint, CaseRecord
+from netdesign.study.records import CheckRecord, ModelFormRecord, RowStudy, Study
 from netdesign.words.names import name
 
 _QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")

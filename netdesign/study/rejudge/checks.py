@@ -32,15 +32,17 @@ from netdesign.structure.members import (
 )
 from netdesign.study.member_force import PARTS, PUSHED, leave_out_governing
 from netdesign.study.records import CheckRecord, ProfileRecord, RowStudy
-from netdesign.study.rejudge.cases import is_complete, name_members, same_point
-from netdesign.study.rejudge.compare import (
+from netdesign.study.rejudge.cases import (
     SAME,
     Pair,
     guard,
+    is_complete,
+    name_members,
     report_differences,
     report_unequal,
     report_value,
     report_verdict,
+    same_point,
 )
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say

@@ -3,16 +3,258 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_met
+from netdesign.checks.schema import LATERAL_SHARE
+from netdesign.outcome import Outcome
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.head import HeadForces, compute_head_forces
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import Member, RopeForce, name_in_panel
-from netdesign.study.records import RowStudy
-from netdesign.study.rejudge.compare import Pair, report_unequal
-from netdesign.study.support_records import StaticsRecord
+from netdesign.structure.members import (
+    BROUGHT_BY,
+    REPORTED_MEMBERS,
+    Member,
+    RopeForce,
+    name_in_panel,
+)
+from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.records import IndependentRecord, ProfileRecord, RowStudy
+from netdesign.study.rejudge.cases import (
+    Pair,
+    find_largest,
+    list_solved,
+    name_members,
+    read_force,
+    report_unequal,
+    report_value,
+    same_point,
+)
+from netdesign.study.support_records import (
+    AnchorRecord,
+    Drawing,
+    HeadForce,
+    StaticsRecord,
+)
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
+
+_LAWS = ("global_balance", "friction_excess", "end_direction", "tension_share")
+_END_SHARE = 0.005  # of the chord: the drawn points are rounded to a tenth of a mm
+_BESIDE_NET = 0.15  # rad, over so short a piece of a net that sags
+_CLOSE = 1e-6  # of the pull: members from a stored pull, whose last digits are lost
+
+
+def rejudge_drawn(
+    row: RowStudy, profile: ProfileRecord, *, is_steady: bool
+) -> Iterator[Message]:
+    """Sentences on what cannot be true of the drawn case of a row.
+
+    Forces of a history are its largest ones, and need not be of one instant: then
+    ``is_steady`` is false, and less is known.
+    """
+    place, drawing = say("audit.row", row=row.id), row.drawing
+    parts = (row.anchors, row.head, row.independent)
+    if drawing is None:
+        if any(parts) or list_solved(row):
+            yield say("audit.no_drawing", place=place)
+        return
+    drawn = next((one for one in row.cases if same_point(one.case, drawing.case)), None)
+    if drawn is None or drawn.outcome is not Outcome.CONVERGED or not all(parts):
+        yield say("audit.drawn_without_result", place=place)
+        return
+    if not same_point(drawing.case, _find_governing(row)):
+        yield say("audit.other_drawn", place=place)
+    share = next((v.value for v in profile.values if v.id == LATERAL_SHARE), 0.0)
+    yield from _rejudge_anchors(place, row.anchors, drawing, share)
+    if is_steady:
+        yield from _rejudge_sizes(place, row.anchors, drawing, drawn)
+    yield from _rejudge_head(place, row, drawing)
+    yield from _rejudge_ends(place, row, drawing)
+    yield from _rejudge_laws(place, row, drawn, is_steady=is_steady)
+
+
+def _find_governing(row: RowStudy) -> CasePoint | None:
+    """Case that has to be drawn: of the largest utilisation, or of the foot's force."""
+    rated = [one for one in row.checks if one.used is not None and one.case]
+    if rated:
+        return max(rated, key=lambda check: check.used or 0.0).case
+    largest = find_largest(row, Member.FOOT_ANCHOR)
+    return largest.case if largest else None
+
+
+def _rejudge_anchors(
+    place: Message, anchors: list[AnchorRecord], drawing: Drawing, share: float
+) -> Iterator[Message]:
+    named = tuple((one.anchor, one.member) for one in anchors)
+    if named != tuple(BROUGHT_BY.items()):
+        names = name_members(one.anchor for one in anchors)
+        yield say("audit.other_anchors", place=place, named=names)
+        return
+    points = (
+        (0.0, 0.0),
+        drawing.uphill_anchor_m,
+        drawing.downhill_anchor_m,
+        drawing.post_base_m,
+    )
+    if len(drawing.arrows) != len(anchors):
+        arrows, forces = len(drawing.arrows), len(anchors)
+        yield say("audit.arrows", place=place, arrows=arrows, forces=forces)
+        return
+    for one, arrow, point in zip(anchors, drawing.arrows, points, strict=True):
+        where = say("audit.part", place=place, part=name_member(one.anchor))
+        lateral = share * one.size_kN if one.member == Member.NET else 0.0
+        size = math.hypot(one.force_x_kN, one.force_y_kN)
+        turn = math.degrees(math.atan2(one.force_y_kN, one.force_x_kN))
+        if arrow.member != _name_arrow(one.anchor):
+            drawn_as = name_member(arrow.member)
+            yield say("audit.drawn_as", place=where, member=drawn_as)
+        yield from report_unequal(
+            where,
+            [
+                ("size_kN", one.size_kN, size),
+                ("direction_deg", one.direction_deg, turn if size else None),
+                ("lateral_kN", one.lateral_kN, lateral),
+                ("arrows.force_x_kN", arrow.force_x_kN, one.force_x_kN),
+                ("arrows.force_y_kN", arrow.force_y_kN, one.force_y_kN),
+                ("arrows.x_m", arrow.x_m, point[0]),
+                ("arrows.y_m", arrow.y_m, point[1]),
+            ],
+        )
+
+
+def _name_arrow(anchor: str) -> str:
+    return Member.POST if anchor == Member.POST_BASE else anchor
+
+
+def _rejudge_sizes(
+    place: Message, anchors: list[AnchorRecord], drawing: Drawing, drawn: CaseRecord
+) -> Iterator[Message]:
+    """Forces on the ground against those of the case; one anchor may carry two."""
+    if len(anchors) != len(BROUGHT_BY):
+        return
+    foot, uphill, downhill, post = (one.size_kN for one in anchors)
+    is_shared = drawing.uphill_anchor_m == (0.0, 0.0)
+    sizes = (foot + uphill if is_shared else foot, uphill, downhill, post)
+    yield from report_unequal(
+        say("audit.drawn_case", place=place),
+        [
+            (m, s, read_force(drawn, m))
+            for m, s in zip(REPORTED_MEMBERS, sizes, strict=True)
+        ],
+    )
+
+
+def _rejudge_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
+    """Members that hold the net's pull on the head, from (S1) to (S4)."""
+    pull, *others = row.head
+    if pull.member != Member.NET or len(row.anchors) != len(BROUGHT_BY):
+        yield say("audit.no_pull", place=place)
+        return
+    points = SupportPoints(
+        net_foot=(0.0, 0.0),
+        head=drawing.head_m,
+        post_base=drawing.post_base_m,
+        uphill_anchor=drawing.uphill_anchor_m,
+        downhill_anchor=drawing.downhill_anchor_m,
+    )
+    held = compute_head_forces((pull.x_kN, pull.y_kN), points)
+    if not isinstance(held, HeadForces):
+        yield say("audit.not_held", place=place, reason=held.reason)
+        return
+    _, uphill, downhill, base = row.anchors
+    sizes = (
+        (Member.POST, base, held.post_compression),
+        (Member.UPHILL_GUY, uphill, held.uphill_guy_tension),
+        (Member.DOWNHILL_GUY, downhill, held.downhill_guy_tension),
+    )
+    within = _CLOSE * math.hypot(pull.x_kN, pull.y_kN)
+    for member, anchor, force in sizes:
+        if abs(anchor.size_kN - force) > within:
+            where = say("audit.part", place=place, part=name_member(member))
+            yield report_value(where, "size_kN", anchor.size_kN, force)
+    expected = [(m, -a.force_x_kN, -a.force_y_kN) for m, a, _ in sizes if a.size_kN > 0]
+    yield from _compare_head(place, others, expected)
+
+
+def _rejudge_ends(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
+    """A net pulls on its ends along itself, as far as its drawing shows that."""
+    foot, pull = row.anchors[0], row.head[0]
+    for name, points, force in (
+        ("foot", drawing.net_m, (foot.force_x_kN, foot.force_y_kN)),
+        ("head", drawing.net_m[::-1], (pull.x_kN, pull.y_kN)),
+    ):
+        angle = _find_angle(points, force)
+        if angle is None or angle > _BESIDE_NET:
+            yield say("audit.beside_net", place=place, end=name_member(name))
+
+
+def _find_angle(
+    points: Sequence[tuple[float, float]], force: tuple[float, float]
+) -> float | None:
+    """Angle between a force and the curve that leaves the first point [rad]."""
+    (x0, y0), (x1, y1) = points[0], points[-1]
+    least = _END_SHARE * math.hypot(x1 - x0, y1 - y0)
+    for x, y in points[1:]:
+        if math.hypot(x - x0, y - y0) >= least:
+            turn = math.atan2(y - y0, x - x0) - math.atan2(force[1], force[0])
+            return abs(math.remainder(turn, 2.0 * math.pi))
+    return None
+
+
+def _compare_head(
+    place: Message,
+    others: list[HeadForce],
+    expected: Sequence[tuple[str, float, float]],
+) -> Iterator[Message]:
+    if [one.member for one in others] != [member for member, _, _ in expected]:
+        yield say("audit.other_members", place=place)
+        return
+    for one, (member, x, y) in zip(others, expected, strict=True):
+        pairs = [("x_kN", one.x_kN, x), ("y_kN", one.y_kN, y)]
+        where = say("audit.at_head", place=place, member=name_member(member))
+        yield from report_unequal(where, pairs)
+
+
+def _rejudge_laws(
+    place: Message, row: RowStudy, drawn: CaseRecord, *, is_steady: bool
+) -> Iterator[Message]:
+    wanted = {*_LAWS, *(["capstan_ratio"] if is_steady else [])}
+    wanted |= {"head_balance"} if len(row.head) > 1 else set()
+    named = [law.name for law in row.independent]
+    if len(set(named)) < len(named) or not wanted <= set(named):
+        yield say(
+            "audit.other_laws",
+            place=place,
+            named=tuple(named),
+            wanted=tuple(sorted(wanted)),
+        )
+    for law in row.independent:
+        where = say("audit.law", place=place, law=law.name)
+        if law.is_met is not is_law_met(law.name, law.value, law.limit):
+            yield report_value(where, "is_met", law.is_met, not law.is_met)
+        yield from report_unequal(where, _list_law_pairs(law, row, drawn))
+
+
+def _list_law_pairs(
+    law: IndependentRecord, row: RowStudy, drawn: CaseRecord
+) -> list[Pair]:
+    """Pairs that a law's numbers must form, known without the solved case."""
+    if law.name == "end_direction":
+        errors = DIRECTION_ERRORS * (drawn.error_percent or 0.0) / 100.0
+        return [("limit", law.limit, max(DIRECTION, errors))]
+    if law.name not in LIMITS:
+        return []
+    pairs: list[Pair] = [("limit", law.limit, LIMITS[law.name])]
+    if law.name == "global_balance":
+        pairs.append(("value", law.value, drawn.balance_residual))
+    if law.name == "head_balance":
+        open_part = math.hypot(
+            sum(one.x_kN for one in row.head), sum(one.y_kN for one in row.head)
+        )
+        largest = max(math.hypot(one.x_kN, one.y_kN) for one in row.head)
+        pairs.append(("value", law.value, open_part / largest if largest else None))
+    return pairs
 
 
 def rejudge_statics(row: RowStudy) -> Iterator[Message]:

@@ -4,20 +4,323 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from netdesign.checks import Standard
 from netdesign.envelope.parameters import PARAMETERS
+from netdesign.envelope.ranges import build_cases
 from netdesign.outcome import merge_verdicts
-from netdesign.site.model import Site
-from netdesign.study.notes import list_reasons
-from netdesign.study.records import RowStudy, Study, list_verdicts
-from netdesign.study.rejudge.cases import Spans, rejudge_cases
-from netdesign.study.rejudge.checks import rejudge_checks
-from netdesign.study.rejudge.compare import guard, is_of_steady_states, report_verdict
-from netdesign.study.rejudge.drawn import rejudge_drawn
-from netdesign.study.rejudge.statics import rejudge_statics
+from netdesign.site.model import NetRow, Site
+from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
+from netdesign.structure.members import Member
+from netdesign.study.calibration import is_calibrated
+from netdesign.study.case_records import FloorRecord
+from netdesign.study.effects import (
+    RowEffects,
+    find_effects,
+    load_guideline,
+    record_end_effects,
+)
+from netdesign.study.judgement import (
+    Basis,
+    Known,
+    MemberCheck,
+    judge_members,
+    judge_with_fault,
+    record_member,
+    record_others,
+)
+from netdesign.study.member_force import RowForces
+from netdesign.study.model_form import span_variants
+from netdesign.study.notes import list_judged_notes, list_reasons, list_site_notes
+from netdesign.study.pulls import AnchorPull, build_pull, read_pulls, record_pulls
+from netdesign.study.record_envelope import read_point, record_point
+from netdesign.study.record_guideline import compare_case, find_row_floor, record_floor
+from netdesign.study.record_independent import compare_slab
+from netdesign.study.record_support import record_panel
+from netdesign.study.records import CheckRecord, RowStudy, Study, list_verdicts
+from netdesign.study.rejudge.cases import (
+    Spans,
+    find_largest,
+    guard,
+    is_complete,
+    is_of_steady_states,
+    is_same,
+    rejudge_cases,
+    report_differences,
+    report_value,
+    report_verdict,
+    same_point,
+)
+from netdesign.study.rejudge.checks import is_held_back, rejudge_checks
+from netdesign.study.rejudge.statics import rejudge_drawn, rejudge_statics
+from netdesign.study.sideways import find_lack
+from netdesign.study.support_records import PanelRecord
+from netdesign.study.values import compare_values
+from netdesign.units import degree_from_radian, newton_from_kilonewton
 from netdesign.words.message import Message, say
+
+_UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
+
+
+def judge_again(
+    study: Study, site: Site, standard: Standard | None
+) -> Iterator[Message]:
+    """Sentences on where a study is not that of its site file.
+
+    Parameters
+    ----------
+    study : Study
+        As stored.
+    site : Site
+        From the file with the study's hash.
+    standard : Standard or None
+        The profile with the study's hash; without it no check is judged again.
+    """
+    law, is_steady = _find_law(study), is_of_steady_states(study)
+    stored = [row.id for row in study.rows]
+    given = [row.id for row in site.rows]
+    if stored != given:
+        yield say("audit.other_rows", stored=repr(stored), given=repr(given))
+    parts = (
+        ("project", study.project, site.project),
+        ("ranges", study.range_inputs, list(site.range_inputs)),
+        ("notes", study.notes, list_site_notes(site, law, _find_accuracy(study))),
+        ("site_file", study.provenance.site_file, site.file_name),
+        ("what_if", study.what_if, list(site.what_if)),
+    )
+    for name, one, other in parts:
+        yield from report_differences(
+            "audit.site_otherwise", {name: one}, {name: other}
+        )
+    rows = {row.id: row for row in site.rows}
+    is_known = standard is not None and standard.sha256 == study.profile.sha256
+    for row in study.rows:
+        if row.id not in rows:
+            continue
+        yield from _compare_inputs(row, rows[row.id], site, law)
+        if standard is not None and is_known:
+            basis = Basis(site=site, row=rows[row.id], standard=standard, law=law)
+            place = say("audit.row", row=row.id)
+            yield from guard(place, _judge_row(row, basis, is_steady=is_steady))
+
+
+def _find_law(study: Study) -> CreepLaw:
+    name = study.provenance.settings.get("creep_law", "").partition(" ")[0]
+    return CREEP_LAWS.get(name, BOUTILLIER_2004)
+
+
+def _find_accuracy(study: Study) -> float:
+    """Accuracy that a study says; infinite, no cause of a note, if it is none."""
+    try:
+        return float(study.provenance.settings["accuracy"])
+    except (KeyError, ValueError):
+        return math.inf
+
+
+def _compare_inputs(
+    row: RowStudy, given: NetRow, site: Site, law: CreepLaw
+) -> Iterator[Message]:
+    """Inputs of a row as they were read, beside what the study shows of them."""
+    place = say("audit.row", row=row.id)
+    stored = {
+        "inputs": row.inputs,
+        "questions": row.questions,
+        "panel": row.panel and _leave_out_forces(row.panel),
+    }
+    again = {
+        "inputs": list(given.inputs),
+        "questions": list(given.questions),
+        "panel": record_panel(given),
+    }
+    yield from report_differences("audit.row_otherwise", stored, again, place=place)
+    if site.ranges.is_grid:
+        points = [record_point(case) for case in build_cases(site.ranges)]
+        if [case.case for case in row.cases] != points:
+            yield say("audit.other_grid", place=place)
+    for number, case in enumerate(row.cases):
+        known = is_calibrated(law, given, case.case.density_kg_m3)
+        if case.is_calibrated is not known:
+            where = say("audit.case", place=place, number=number)
+            yield report_value(where, "is_calibrated", case.is_calibrated, known)
+    yield from _compare_section(place, row, given)
+
+
+def _leave_out_forces(panel: PanelRecord) -> PanelRecord:
+    ropes = [replace(one, along_kN=None, tension_kN=None) for one in panel.ropes]
+    return replace(
+        panel,
+        ropes=ropes,
+        extremes=[],
+        failed=0,
+        effective_height_m=None,
+        lift_m=None,
+        drawing=None,
+    )
+
+
+def _compare_section(place: Message, row: RowStudy, given: NetRow) -> Iterator[Message]:
+    """Slope and snow of the drawn section."""
+    drawing = row.drawing
+    if drawing is None:
+        return
+    drawn = (drawing.slope_deg, drawing.snow_thickness_m)
+    at = given.at(read_point(drawing.case))
+    wanted = (degree_from_radian(given.slope_angle), at.held_thickness)
+    if any(compare_values(drawn, wanted)):
+        yield say(
+            "audit.other_section",
+            place=place,
+            slope=drawn[0],
+            thickness=drawn[1],
+            given_slope=wanted[0],
+            given_thickness=wanted[1],
+        )
+
+
+def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Message]:
+    """Every check from the forces of the study, as if these had just been solved."""
+    given, standard, ranges = basis.row, basis.standard, basis.site.ranges
+    place = say("audit.row", row=row.id)
+    effects = find_effects(given, standard, ranges)
+    floor = record_floor(find_row_floor(given, ranges, standard), given)
+    known = _know_again(row, basis, effects, floor)
+    stored, again = (
+        [_leave_out_solves(check) for check in checks]
+        for checks in (row.checks, _check_again(row, basis, known))
+    )
+    notes = list_judged_notes(
+        *(basis.site, given, standard, basis.law),
+        effects=effects,
+        pulls=known.pulls,
+        checks=row.checks,
+        cases=row.cases,
+    )
+    # of histories more is noted, behind these
+    shown = row.notes if is_steady else row.notes[: len(notes)]
+    ends = record_end_effects(given, ranges, basis.law, standard)
+    for key, one, other in (
+        ("audit.judged_otherwise", stored, again),
+        ("audit.judged_otherwise", row.pulls, record_pulls(known.pulls)),
+        ("audit.other_notes", shown, notes),
+        ("audit.other_end_effects", row.end_effects, ends),
+        ("audit.other_floor", row.floor, floor),
+        *_list_opinions(row, given, basis.law),
+    ):
+        yield from report_differences(key, one, other, place=place)
+    yield from _look_at_guideline(place, row)
+
+
+def _know_again(
+    row: RowStudy, basis: Basis, effects: RowEffects, floor: FloorRecord | None
+) -> Known:
+    """Knowledge of a row by what the study states of its solved cases."""
+    held = row.held_sideways
+    panel = row.panel
+    is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)
+    forces = RowForces(
+        row=basis.row,
+        standard=basis.standard,
+        effects=effects,
+        largest={one.quantity: one for one in row.forces},
+        floor={one.member: one for one in floor.forces} if floor else None,
+        held=held,
+        tilt=row.tilt,
+    )
+    return Known(
+        forces=forces,
+        held=held or find_lack(basis.row) or _UNKNOWN_GAP,
+        pulls=tuple(_pull_again(row, basis.row, effects.lateral_share)),
+        gap=None if is_complete(row) else _UNKNOWN_GAP,
+        floor_gap=floor.reason if floor else None,
+        panel_gap=_UNKNOWN_GAP if is_failed else None,
+    )
+
+
+def _pull_again(row: RowStudy, given: NetRow, share: float) -> list[AnchorPull]:
+    """Axes, kinds and angles of the anchors, from the ranges of their pulls."""
+    return [
+        build_pull(given, one.anchor, one.pulls, share, one.position)
+        for one in read_pulls(given, row.pulls)
+    ]
+
+
+def _check_again(row: RowStudy, basis: Basis, known: Known) -> list[CheckRecord]:
+    """Checks of a row, judged again; a gap in its own words is one."""
+    stored = {check.id: check for check in row.checks}
+    judged = [
+        _hold_back(basis, one, stored.get(one.id))
+        for one in judge_members(basis, known)
+    ]
+    found = [record_member(basis, known, one) for one in judged]
+    found += record_others(basis, known, judged)
+    return [_take_reason(one, stored.get(one.id)) for one in found]
+
+
+def _hold_back(
+    basis: Basis, one: MemberCheck, stored: CheckRecord | None
+) -> MemberCheck:
+    """A pass that the study holds back, for a fault beside its forces."""
+    if stored is None or not is_held_back(stored):
+        return one
+    return judge_with_fault(basis, one, _UNKNOWN_GAP)
+
+
+def _take_reason(again: CheckRecord, stored: CheckRecord | None) -> CheckRecord:
+    """Reason of the study where a gap stands for it: only a solve tells that one."""
+    is_open = _UNKNOWN_GAP in _list_gaps(again.reason)
+    return (
+        again if stored is None or not is_open else replace(again, reason=stored.reason)
+    )
+
+
+def _list_gaps(reason: Message) -> list[object]:
+    """Reason and all that is said in it."""
+    found: list[object] = [reason]
+    for value in reason.arguments.values():
+        for one in value if isinstance(value, tuple) else (value,):
+            found += _list_gaps(one) if isinstance(one, Message) else [one]
+    return found
+
+
+def _leave_out_solves(check: CheckRecord) -> CheckRecord:
+    """Check without what only a solve can tell."""
+    return replace(check, spreads=[], changes=[], holds=[])
+
+
+def _list_opinions(
+    row: RowStudy, given: NetRow, law: CreepLaw
+) -> Iterator[tuple[str, object, object]]:
+    """Second opinions with themselves worked out again: guideline, slab, model form."""
+    slab, form, guideline = row.slab, row.model_form, row.guideline
+    if slab is not None:
+        again = compare_slab(
+            *(given, read_point(slab.case), law),
+            load=newton_from_kilonewton(slab.solved_load_kN_per_m),
+            foot=newton_from_kilonewton(slab.solved_foot_anchor_kN),
+        )
+        yield "audit.other_slab", slab, again
+    if form is not None:
+        yield "audit.other_model_form", form, span_variants(form)
+    if guideline is not None and guideline.sha256 == load_guideline().sha256:
+        compared = compare_case(
+            *(given, read_point(guideline.case)),
+            load=newton_from_kilonewton(guideline.solved_load_kN_per_m),
+            foot=newton_from_kilonewton(guideline.solved_foot_anchor_kN),
+        )
+        yield "audit.other_guideline", guideline, compared
+
+
+def _look_at_guideline(place: Message, row: RowStudy) -> Iterator[Message]:
+    """The comparison with the guideline stands beside the largest force of the foot."""
+    stored, largest = row.guideline, find_largest(row, Member.FOOT_ANCHOR)
+    if stored is None or largest is None:
+        return
+    is_its_case = same_point(stored.case, largest.case)
+    if not (
+        is_its_case and is_same(stored.solved_foot_anchor_kN, largest.foot_anchor_kN)
+    ):
+        yield say("audit.guideline_case", place=place)
 
 
 def rejudge(
@@ -63,7 +366,7 @@ def rejudge(
         for part in parts:
             found += guard(place, part)
     if site is not None and site.sha256 == study.provenance.site_sha256:
-        from netdesign.study.rejudge.again import judge_again
+        from netdesign.study.rejudge.study import judge_again
 
         found += judge_again(study, site, standard)
     verdict = merge_verdicts(row.verdict for row in study.rows)

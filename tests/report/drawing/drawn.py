@@ -16,10 +16,10 @@ from netdesign.report.drawing.net_figures import draw_node_forces, draw_stick_sl
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.drawing.winter_figure import draw_winter
-from netdesign.study.case_records import CasePoint
-from netdesign.study.envelope_records import (
+from netdesign.study.case_records import (
     AxisRecord,
     BoundRecord,
+    CasePoint,
     DriverRecord,
     EnvelopeRecord,
     LineRecord,
@@ -85,7 +85,7 @@ MODES = {
 
 def build_chains(rng: random.Random) -> RowStudy:
     """Row with checks of many members, some without a resistance."""
-    row = build_row("A", 1)
+    row = build_row("A", 3, scale=1.0)
     of_force = next(one for one in row.checks if one.is_of_force)
     checks = [
         replace(

@@ -56,9 +56,10 @@ def test_of_two_places_the_larger_utilisation_counts():
     svg = draw_chains(replace(row, checks=[inside, end]), ENGLISH)
     assert "0.847" in svg
     assert "0.613" not in svg
+    assert "0.847" in re.search('aria-label="([^"]*)"', svg)[1]
     open_ = replace(end, utilisation=None)
     assert ": ?" in draw_chains(replace(row, checks=[inside, open_]), ENGLISH)
 
 
 def test_a_row_without_forces_has_no_chain():
-    assert draw_chains(replace(build_row("A", 1), checks=[]), ENGLISH) == ""
+    assert draw_chains(replace(build_row("A", 3, scale=1.0), checks=[]), ENGLISH) == ""

@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.drawing.plain_svg import Chart, Frame, list_ticks, shade
-from netdesign.study.envelope_records import (
+from netdesign.study.case_records import (
     AxisRecord,
     BoundRecord,
     DriverRecord,

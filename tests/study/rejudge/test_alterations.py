@@ -17,9 +17,8 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study import check_site as use_case
 from netdesign.study.document import compute_digest, read_document, write_document
-from netdesign.study.record_provenance import record_provenance
+from netdesign.study.record_provenance import list_differences, record_provenance
 from netdesign.study.rejudge import rejudge
-from netdesign.study.repeat import list_differences
 from netdesign.words.catalogue import render
 from tests.alter_study import alter_leaf, list_leaves
 from tests.short_example import write_short_example
