@@ -98,7 +98,7 @@ def test_governing_day_solved_as_uniform_snow_says_so(call, site, tmp_path):
     (winter,) = json.loads(ended.out)["rows"][0]["winters"]
     day = {one["date"]: one for one in winter["curve"]}[winter["governing_date"]]
     assert (day["layers"], winter["basis"]) == ([], "uniform")
-    assert "this day is solved as uniform snow" in winter["why"]
+    assert "This day is calculated with uniform snow" in winter["why"]
     assert "ripened" not in winter["why"]
 
 
