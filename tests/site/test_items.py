@@ -160,13 +160,13 @@ def test_items_above_their_headings_are_refused(tmp_path):
     lines = ["standard;eurocode", "item;value", "name;Combe"]
     (finding,) = findings_of(write_csv(tmp_path / "site.csv", lines))
     assert (finding.cell, finding.text) == ("A2", "standard")
-    assert str(finding.rule) == "stands above the headings: the line is not read"
+    assert str(finding.rule) == "is above the headings: the line is not read"
 
 
 def test_a_title_block_is_noted(sheets, save):
     sheets["Nets"][:0] = [["Survey", "2023"], ["alone"]]
     (note,) = map(str, read_site(save(sheets)).notes)
-    assert 'Nets › A1: "Survey" stands above the headings' in note
+    assert 'Nets › A1: "Survey" is above the headings' in note
 
 
 @pytest.mark.parametrize("mark", [",", "\t", "|"])
@@ -192,7 +192,7 @@ def test_a_cell_beyond_the_headings_of_a_csv_is_refused(tmp_path):
     sheets["Nets"][0] = [*sheets["Nets"][0], "slack [-]"]
     sheets["Nets"][1] = [*sheets["Nets"][1], None, 0.087]
     (finding,) = findings_of(write_csv(tmp_path / "site.csv", ["item;value"], sheets))
-    assert (str(finding.rule), finding.text) == ("stands below no heading", "0.087")
+    assert (str(finding.rule), finding.text) == ("has no heading above it", "0.087")
 
 
 def test_every_spelling_of_an_item_names_it():

@@ -44,9 +44,7 @@ def test_an_answer_against_the_unit_of_the_heading_is_refused(sheets, give, refu
     path = give('[headings.Nets]\n"Steilheit" = "slope angle [%]"\n')
     (finding,) = (one for one in refused(path) if one.severity == "error")
     assert finding.cell == "B1"
-    assert str(finding.rule) == (
-        'is another unit than that of the heading, "slope angle [%]"'
-    )
+    assert str(finding.rule) == ('is not the unit of the heading, "slope angle [%]"')
 
 
 def test_a_column_that_is_ignored_is_told(sheets, give):

@@ -58,7 +58,7 @@ def test_another_text_in_a_row_of_units_is_a_finding(sheets, save, refused):
     put_units_below(sheets)
     sheets["Nets"][1][0] = "R0"
     (finding,) = refused(save(sheets))
-    assert (finding.cell, str(finding.rule)) == ("A2", "stands in the row of units")
+    assert (finding.cell, str(finding.rule)) == ("A2", "is in the row of units")
 
 
 def test_a_line_of_numbers_is_no_row_of_units(sheets, save):

@@ -145,7 +145,7 @@ def test_what_ranges_and_is_given_too_is_refused_at_the_cell(
     (finding,) = refused(save(sheets))
     assert finding.sheet == "Nets"
     assert finding.cell == f"{'ABCDEFGHIJ'[column]}2"
-    assert str(finding.rule) == "stands beside the range in Ranges!B4"
+    assert str(finding.rule) == "is given beside the range in Ranges!B4"
     assert str(finding.accepted) == "an empty cell, or no range"
 
 
@@ -171,7 +171,7 @@ def test_the_other_name_of_what_ranges_is_refused_too(
     give(sheets, line)
     (finding,) = refused(save(sheets))
     assert finding.cell == f"{'ABCDEFGH'[column]}2"
-    assert str(finding.rule) == "stands beside the range in Ranges!B4"
+    assert str(finding.rule) == "is given beside the range in Ranges!B4"
 
 
 def test_a_single_value_beside_a_range_of_one_value_is_refused_as_well(
@@ -203,12 +203,12 @@ def test_glide_that_ranges_needs_sliding_ground_in_every_row(sheets, save, refus
         (
             [["slip length [m]", 1, 2], ["glide factor", 1.3, 1.7]],
             "A5",
-            "is the same quantity as that of Ranges!A4",
+            "is the same quantity as in Ranges!A4",
         ),
         (
             [LINES["snow thickness"], ["snow height vertical [m]", 3, 3.2]],
             "A5",
-            "is the same quantity as that of Ranges!A4",
+            "is the same quantity as in Ranges!A4",
         ),
     ],
 )

@@ -268,7 +268,7 @@ def test_unknown_columns_sheets_and_hidden_rows_are_noted(sheets, save):
 
     notes = "\n".join(map(str, read_site(save(sheets, hide)).notes))
     assert 'Nets › O1: "remark" is no known heading' in notes
-    assert 'Nets › P2: "7" stands below no heading' in notes
+    assert 'Nets › P2: "7" has no heading above it' in notes
     assert "Letters: the sheet has no part in the check" in notes
     assert 'Nets › A3: "R2" is in a hidden row' in notes
     assert "Ropes: the sheet is hidden" in notes
@@ -377,7 +377,7 @@ def test_two_units_for_one_column_are_refused(sheets, save, refused):
     sheets["Nets"].insert(1, [None, "[%]"])
     (finding,) = refused(save(sheets))
     assert (finding.cell, finding.text) == ("B2", "[%]")
-    assert str(finding.rule).startswith("is another unit")
+    assert str(finding.rule).startswith("is not the unit")
 
 
 def test_thickness_and_height_exclude_each_other(sheets, save, refused):
@@ -403,8 +403,8 @@ def test_thickness_and_height_may_not_both_lack_their_heading(sheets, save, refu
     [
         ("sliding", None, None, "F2", "needs a slip length or a glide factor: neither"),
         ("sliding", 2.0, 1.8, "F2", "needs a slip length or a glide factor: both"),
-        ("free", 2.0, None, "G2", 'does not go with the ground law "free"'),
-        ("no-slip", None, 1.8, "H2", 'does not go with the ground law "no-slip"'),
+        ("free", 2.0, None, "G2", 'does not fit the ground law "free"'),
+        ("no-slip", None, 1.8, "H2", 'does not fit the ground law "no-slip"'),
         ("sliding", None, 3.46, "H2", "is out of range"),
         ("sliding", None, 1.0005, "H2", "has no slip length"),
     ],

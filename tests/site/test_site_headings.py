@@ -68,7 +68,7 @@ def test_a_heading_merged_over_two_columns_of_numbers_is_refused(sheets, save, r
 
     (finding,) = refused(save(sheets, merge))
     assert (finding.cell, str(finding.rule)) == (
-        *("D2", "stands below a heading merged over C1:D1"),
+        *("D2", "is below a heading merged over C1:D1"),
     )
 
 

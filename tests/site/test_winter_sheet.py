@@ -74,7 +74,7 @@ def test_blank_height_is_a_day_without_a_reading(sheets, save):
         (days(0, -1), "B3", "accepted: 0 to 8 m"),
         (days(0, 801), "B3", "accepted: 0 to 8 m"),
         ([["1.2.2003", 0, None]], "A2", "is no date"),
-        ([*days(0, 20), ["2003-02-02", 21, None]], "A4", "second reading of its day"),
+        ([*days(0, 20), ["2003-02-02", 21, None]], "A4", "second reading on its day"),
         ([*days(0, 20), ["2003-02-01", 21, None]], "A4", "before the line above"),
         ([*days(0, 20), ["2003-02-07", 21, None]], "A4", "4 days without a reading"),
         (
@@ -178,7 +178,7 @@ def test_a_row_has_its_own_height_factor(sheets, save):
         (((None, None), (1.2, "R1"), (1.3, "R1")), "E4", "has a height factor already"),
         (((0.9, None), (None, "R1"), (None, None)), "E3", "without a height factor"),
         (((0.9, None), (1.2, "r 77"), (None, None)), "E3", "is no id of sheet Nets"),
-        (((0.9, None), (1.2, None), (None, None)), "D3", "height factor of no row"),
+        (((0.9, None), (1.2, None), (None, None)), "D3", "height factor without a row"),
         (((0.9, None), (5.2, "R1"), (None, None)), "D3", "accepted: 0.2 to 5"),
     ],
 )

@@ -54,7 +54,7 @@ def test_decimal_commas_go_with_semicolons_and_in_quotes_with_commas(tmp_path):
 def test_decimal_commas_between_commas_are_refused(tmp_path):
     path = write(tmp_path / "site.csv", ONE_FILE.replace(";", ","))
     text_format = TextFormat(delimiter=",")
-    assert "stands below no heading" in refusal_of(path, text_format)
+    assert "has no heading above it" in refusal_of(path, text_format)
 
 
 def test_cells_are_named_as_a_spreadsheet_would(tmp_path):

@@ -161,7 +161,9 @@ def test_an_archive_without_workbook_is_refused(tmp_path):
     path = tmp_path / "site.xlsx"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("letter.txt", "no workbook")
-    assert "cannot be read as a workbook (a part of it is missing)" in refusal_of(path)
+    assert "cannot be read as a workbook (a part of the file is missing)" in refusal_of(
+        path
+    )
 
 
 @pytest.mark.parametrize("part", ["xl/workbook.xml", "xl/worksheets/sheet1.xml"])
