@@ -272,3 +272,41 @@ def test_quantities_that_may_be_others_are_asked_for(quantity):
 )
 def test_quantities_of_something_else_are_not_taken(quantity):
     assert Lexicon.of(RANGES.items, RANGES).match(quantity).field is None
+
+
+OFFICES = [  # as three offices write them
+    ("Nets", "Höhenlage", "altitude"),
+    ("Nets", "Seehöhe", "altitude"),
+    ("Nets", "elevation", "altitude"),
+    ("Nets", "elevation [m a.s.l.]", "altitude"),
+    ("Nets", "altitude moyenne", "altitude"),
+    ("Nets", "Altitude [m NGF]", "altitude"),
+    ("Nets", "quota [m s.l.m.]", "altitude"),
+    ("Nets", "terrain slope", "slope_angle"),
+    ("Nets", "terrain inclination", "slope_angle"),
+    ("Nets", "row ID", "id"),
+    ("Nets", "post c/c", "post_spacing"),
+    ("Nets", "Pfostenabstand", "post_spacing"),
+    ("Nets", "wirksame Werkhöhe Dk", "net_height"),
+    ("Nets", "hauteur efficace Dk", "net_height"),
+    ("Anchors", "Stab-Ø", "bar_diameter"),
+    ("Anchors", "bar dia.", "bar_diameter"),
+    ("Anchors", "Nenndurchmesser", "bar_diameter"),
+    ("Anchors", "Bohrloch-Ø", "drill_diameter"),
+    ("Ropes", "Nenndurchmesser", "rope_diameter"),
+    ("Posts", "A", "area"),
+    ("Posts", "Iz", "second_moment"),
+    ("Posts", "Wz", "section_modulus"),
+]
+
+
+@pytest.mark.parametrize(("sheet", "heading", "key"), OFFICES)
+def test_headings_of_offices_are_known(sheet, heading, key):
+    assert LEXICA[sheet].match(heading).field.key == key
+
+
+@pytest.mark.parametrize("heading", ["Hs", "Werkabstand", "Reihenabstand"])
+def test_headings_that_may_mean_several_things_are_asked_for(heading):
+    meaning = LEXICA["Nets"].match(heading)
+    assert meaning.field is None
+    assert len(meaning.readings) > 1
