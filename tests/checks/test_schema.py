@@ -210,7 +210,7 @@ def test_same_id_twice_is_refused():
     assert "twice or more: action.snow" in message
     message = refusal(LimitsFile, {"limit": [*some_limits(), *some_limits()]})
     assert message == (
-        "my.toml: whole file: each id may stand once; twice or more: "
+        "my.toml: whole file: each id may occur once; twice or more: "
         "geometry.inclination.max, geometry.inclination.min"
     )
 

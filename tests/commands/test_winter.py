@@ -118,7 +118,7 @@ def test_heights_of_a_file_keep_the_factor_of_the_sheet(call, tmp_path):
     station = document["station"]
     assert (station["name"], station["altitude_m"]) == ("Alp Sura", 2137.0)
     assert (station["height_factor"], station["file"]) == (1.27, "other.csv")
-    note = "those of sheet Winter hold"
+    note = "those of sheet Winter apply"
     assert note in ended.err
     page = (folder / "winter.html").read_text(encoding="utf-8")
     assert note in page
@@ -139,7 +139,7 @@ def test_snow_above_the_net_is_not_proven(call, site, tmp_path):
     ("arguments", "told", "code"),
     [
         ((), "no snow heights", 3),
-        (("--heights", "thin"), "are metres taken for centimetres", 3),
+        (("--heights", "thin"), "Were metres taken for centimetres", 3),
         (
             ("--heights", "good", "--row", "R77"),
             "--row R77: the site has no such row",

@@ -102,7 +102,7 @@ def test_governing_cases_are_confirmed_on_a_finer_mesh(found):
         )
 
 
-def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
+def test_a_governing_case_that_cannot_be_calculated_again_leaves_a_gap(found):
     one = found.confirmations[0]
     failed = replace(
         one.confirmed, outcome=Outcome.DIVERGED, reason="spoilt", member_forces={}
@@ -110,7 +110,7 @@ def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
     lost = replace(found, confirmations=(replace(one, confirmed=failed),))
     assert found.gap is None
     assert str(lost.gap) == (
-        f"{name_member(one.member)!s}: the governing case could not be solved "
+        f"{name_member(one.member)!s}: the governing case could not be calculated "
         "again (spoilt)"
     )
 

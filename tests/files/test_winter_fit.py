@@ -107,6 +107,6 @@ def test_without_an_answer_no_number_is_shown():
 def test_few_readings_have_a_sentence_alone():
     few = SeasonFit(winter="", ending="few", readings=READINGS[:1], noise=Noise())
     document = write_fit(few, SERIES, "en")
-    assert "1 usable day with a reading" in document["why"]
+    assert "1 day with a usable reading" in document["why"]
     blocks = list(show_fit(document, 390.0, Words("en")))
     assert [type(one) for one in blocks] == [Heading, Part]  # which has the sentence

@@ -367,7 +367,7 @@ def test_snow_that_turns_a_triangle_over_is_refused(a_flow_problem):
     displaced[0, inner] += 1.0
     assert compute_areas(body.topology, displaced).min() < 0.0
     net = on_net(body)
-    with pytest.raises(SolveError, match="the snow's mesh folds over") as failure:
+    with pytest.raises(SolveError, match="the mesh of the snow folds over") as failure:
         move_body(body, displaced, net, net[:, -1])
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
 
@@ -376,7 +376,7 @@ def test_a_net_that_leaves_no_room_is_refused(a_flow_problem):
     body = a_body(a_flow_problem())
     net = on_net(body)
     net[0, 1:-1] -= 4.0
-    with pytest.raises(SolveError, match="cannot be mended"):
+    with pytest.raises(SolveError, match="cannot be repaired"):
         move_body(body, body.vertices, net, net[:, -1])
 
 
