@@ -18,6 +18,7 @@ from netdesign.study.margins import find_margins
 from netdesign.study.member_force import MemberForce, compute_end_factor
 from netdesign.study.records import ChangeRecord, HoldRecord
 from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.sideways import find_tilt
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message
 
@@ -153,7 +154,7 @@ def _build_check(
         results=results,
         use_floor=partial(_use_floor, *use_floor),
         bound_floor=partial(_bound_floor, *use_floor),
-        widen=cache(partial(_find_load if force.on.push else _find_width, task, one)),
+        widen=cache(partial(_find_load if force.on.push else _find_tilted, task, one)),
         push=_find_push(task, one, force),
     )
 
@@ -208,10 +209,25 @@ def _find_load(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
     The larger growth of width and ropes' pull counts for both.
     """
     now = task.basis.site.ranges
-    return max(
-        _find_width(task, one, ranges) / _find_width(task, one, now),
-        _find_end_factor(task, ranges) / _find_end_factor(task, now),
-    )
+    widths = _find_width(task, one, ranges) / _find_width(task, one, now)
+    pulls = _find_end_factor(task, ranges) / _find_end_factor(task, now)
+    return max(widths, pulls) * _find_tilt(task, one, ranges)
+
+
+def _find_tilted(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Width that loads a support, times the tilt where a base would slide by it."""
+    return _find_width(task, one, ranges) * _find_tilt(task, one, ranges)
+
+
+def _find_tilt(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Share of a post's force along the slope over some ranges; 1 of other checks [-].
+
+    The tangent of its tilt is largest at an end of the inclinations.
+    """
+    if one.given.mode != "sliding":
+        return 1.0
+    span = ranges["inclination"]
+    return find_tilt(task.basis.row, (span.low, span.high))
 
 
 def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:

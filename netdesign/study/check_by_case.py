@@ -18,7 +18,10 @@ from netdesign.study.case_solver import CaseSolver
 
 TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 # Quantities that a glide factor follows from.
-ON_GLIDE = ("thickness", "snow_height", "slip_length", "glide_factor")
+_ON_GLIDE = ("thickness", "snow_height", "slip_length", "glide_factor")
+# What the load of a support follows beside the forces of its cases: the width at an end
+# goes with the glide factor, the tilt of a post with the net's inclination.
+_WIDENING = (*_ON_GLIDE, "inclination")
 # What the guideline's load does not know; it has densities of its own.
 _NOT_IN_FLOOR = ("density", "friction_angle", "upslope_length")
 _RIVAL = 0.9  # share of the governing force from which a case may take over
@@ -88,7 +91,7 @@ class CheckByCase:
         Two ends between which what ``use_floor`` finds lies, at a part of its cost.
     widen : callable
         Load of the support over some ranges of the row, in any unit: the end effect
-        grows with the glide factor.
+        grows with the glide factor, the force along a base with the tilt of its post.
     push : Push or None
         What a rope adds to one of the forces.
     """
@@ -237,9 +240,12 @@ class CheckByCase:
 
     def _compare_width(self, setting: Setting | None) -> float:
         """Load of the moved row's support by its end over that of the row as is."""
-        if setting is None or setting.name not in ON_GLIDE:
+        if setting is None or setting.name not in _WIDENING:
             return 1.0
-        return self.widen(setting.on(self.ranges)) / self.widen(self.ranges)
+        now, moved = self.widen(self.ranges), self.widen(setting.on(self.ranges))
+        if now == 0.0:
+            return math.inf if moved else 1.0
+        return moved / now
 
 
 def list_near(check: CheckByCase) -> list[Case]:

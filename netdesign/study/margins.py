@@ -36,7 +36,7 @@ _SERVES = 0.85  # share of its largest force that a member carries in a case it 
 _DOUBT = 0.2
 _CONFIRMING = 2  # cases in which a margin is confirmed
 _LEAST_USED = 1e-3  # of a member that is slack at an end
-_CLOSE = 0.03  # a margin leaves so much of the utilisation unused
+_CLOSE = 0.08  # a margin leaves so much of the utilisation unused
 _DECIMALS = 9  # of the ends of a search
 
 

@@ -87,7 +87,7 @@ def list_pulls(
     are of types of their own.
     """
     solved = [one for one in results if one.is_converged]
-    points = [place_row(row, one) for one in solved]
+    points = [place_row(row, one.case.inclination) for one in solved]
     feet = [one for result in solved for one in _list_feet(result)]
     directions = {
         anchor: [_measure_guy(place, anchor, row.guys) for place in points]

@@ -103,7 +103,7 @@ def _read_pulls(row: NetRow, state: _State) -> _Pulls | None:
     solution, anchors = result.solution, result.anchors
     if solution is None or anchors is None:
         return None
-    points = place_row(row, result)
+    points = place_row(row, result.case.inclination)
     if panel is None:
         return _Pulls(
             foot=solution.foot, head=solution.head, points=points, anchors=anchors

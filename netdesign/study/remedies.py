@@ -231,7 +231,7 @@ def _search(line: CheckLine, start: float) -> tuple[float | None, Message | None
 
 def _remark(key: str, line: CheckLine, value: float) -> Message:
     unit = _KEYS[line.quantity][1].replace("m3", "m³")
-    return say(key, value=value, unit=unit)
+    return say(key, value=line.parameter.show(value), unit=unit)
 
 
 def _is_floor_next(line: CheckLine, bound: float) -> bool:
@@ -287,9 +287,9 @@ def find_friction_remedy(check: CheckByCase, solver: CaseSolver) -> ChangeRecord
         points = [Point(value=samples[k], used=used[k]) for k in (nearest, beside)]
         turn = line.find_turn(*points)
         bound = None if turn is None else line.parameter.show(turn)
-    except NoResultError:
-        bound = None
-    note = say("change.no_friction_angle") if bound is None else None
+        note = say("change.no_friction_angle") if bound is None else None
+    except NoResultError as none:
+        bound, note = None, _remark("change.case_without_result", line, none.value)
     sense: Literal["at most", "at least"] = "at most" if is_upper else "at least"
     return _record(
         "friction_angle", now, bound, solver.count - before, note, sense=sense

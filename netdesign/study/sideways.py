@@ -7,7 +7,7 @@ cases, each in its own case, so that whoever has the report can work them out ag
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.checks import Band, CheckResult, Standard
@@ -183,18 +183,25 @@ class _Head:
         return None if self.weights else say("support.not_held_sideways")
 
 
-def place_row(row: NetRow, result: CaseResult) -> SupportPoints:
-    """Points of a support of the row in a case [m]."""
+def place_row(row: NetRow, inclination: float) -> SupportPoints:
+    """Points of a support of the row at an inclination of its net [m]."""
     height = row.net_height
-    head = (height * math.tan(result.case.inclination), height)
-    return place_support(row.layout, head)
+    return place_support(row.layout, (height * math.tan(inclination), height))
+
+
+def find_tilt(row: NetRow, inclinations: Iterable[float]) -> float:
+    """Largest tangent of the post's tilt at some inclinations of the net [-]."""
+    places = [place_row(row, one) for one in inclinations]
+    tilts = [(one.head[0] - one.post_base[0]) / one.head[1] for one in places]
+    return max(map(math.fabs, tilts), default=0.0)
 
 
 def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
     """Head of a case, also with the pull of its panel; none of a failed case."""
     if not result.is_converged or result.anchors is None:
         return []
-    points, bands = place_row(row, result), result.member_forces
+    points = place_row(row, result.case.inclination)
+    bands = result.member_forces
     error = result.solution.head.error if result.solution else 0.0
     error *= row.layout.post_spacing
     pulls = [(result.anchors.head_pull, error, _add_guys(bands, GUYS))]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
 from netdesign.envelope.extremes import Extreme
@@ -17,7 +16,7 @@ from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import list_pulls
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import record_floor
-from netdesign.study.sideways import find_held_sideways, place_row
+from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
@@ -44,7 +43,9 @@ def know_row(
         largest={name: _record_force(one) for name, one in extremes.items()},
         floor={one.member: one for one in record.forces} if record else None,
         held=None if isinstance(held, Message) else held,
-        tilt=_find_tilt(row, results),
+        tilt=find_tilt(
+            row, (one.case.inclination for one in results if one.is_converged)
+        ),
     )
     return Known(
         forces=forces,
@@ -66,13 +67,6 @@ def _record_force(extreme: Extreme) -> ForceRecord:
         case=record_point(extreme.governing.case),
         unknown=list(extreme.unknown),
     )
-
-
-def _find_tilt(row: NetRow, results: Sequence[CaseResult]) -> float:
-    """Largest tangent of the post's tilt over the converged cases [-]."""
-    places = [place_row(row, one) for one in results if one.is_converged]
-    tilts = [(one.head[0] - one.post_base[0]) / one.head[1] for one in places]
-    return max(map(math.fabs, tilts), default=0.0)
 
 
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:

@@ -18,7 +18,8 @@ from netdesign.study.case_solver import CaseSolver
 from netdesign.study.check_by_case import CheckByCase, Setting
 from netdesign.words.message import Message
 
-_CLOSE = 0.004  # below a utilisation of 1: near enough; the half is aimed at
+_CLOSE = 0.004  # below a utilisation of 1: near enough
+_GOAL = 0.3  # of that: what is aimed at
 _GOAL_SHARE, _CLOSE_SHARE = 0.25, 0.6  # or these shares of what the check has left
 _LEAST_USED = 1e-3  # of a member that is slack at one end
 _MOST_STEPS = 14
@@ -139,7 +140,7 @@ class CheckLine:
     def _approach(self, case: Case, passing: Point, failing: Point) -> float:
         """Last rounded value of a bracket that passes in one case."""
         left = 1.0 - passing.used
-        goal = 1.0 - min(0.5 * self.close, _GOAL_SHARE * left)
+        goal = 1.0 - min(_GOAL * self.close, _GOAL_SHARE * left)
         close = 1.0 - min(self.close, _CLOSE_SHARE * left)
         for step in count():
             # a kink misleads a secant: every third step halves the bracket
@@ -175,8 +176,10 @@ class CheckLine:
     def find_step(self, shown: float) -> float:
         """Power of ten to whose multiples a value is rounded."""
         low, high = (self.parameter.show(end) for end in self.ends)
-        of_digits = math.floor(math.log10(abs(shown))) - _DIGITS + 1
         finest = math.floor(math.log10(_FINEST * (high - low)))
+        if shown == 0.0:
+            return float(10.0**finest)
+        of_digits = math.floor(math.log10(abs(shown))) - _DIGITS + 1
         return float(10.0 ** max(of_digits, finest))
 
 

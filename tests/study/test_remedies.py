@@ -421,3 +421,22 @@ def test_friction_angles_are_told_only_where_all_beyond_them_pass(used, bound, n
     told = math.radians(change.bound)
     beyond = np.linspace(told, angles[0 if bound == "at most" else -1], 37)
     assert max(np.interp(beyond, angles, used)) <= 1.0 + 1e-9
+
+
+def test_a_friction_angle_without_a_result_is_said():
+    """Between the samples the solver fails: no angle is stated, and why."""
+
+    def by_friction(row, case):
+        return 1.0 + (math.degrees(case.friction_angle) - 15.0) / 60.0
+
+    check = a_check(1 / 1.3, by_friction)
+    known = {one.case.friction_angle for one in check.results}
+
+    def fails(row, case):
+        return case.friction_angle not in known
+
+    change = find_friction_remedy(check, MadeUpSolver(by_friction, fails))
+    assert change.bound is None
+    assert change.note.key == "change.case_without_result"
+    assert 15.0 < change.note.arguments["value"] < 45.0
+    assert change.note.arguments["unit"] == "deg"

@@ -144,3 +144,18 @@ def test_a_remedy_passes_in_every_case_of_the_search(seed):
     above = min(highest + 2.0 * STEP, ROW.net_height)
     worst = max(force(ROW, case.with_value("thickness", above)) for case in CASES)
     assert check.scale * worst > 0.993 or above == ROW.net_height
+
+
+def test_a_quantity_at_zero_is_rounded_too():
+    """A slack of nothing has no first digit."""
+    check = a_check(1.0)
+    line = CheckLine(
+        check=check,
+        quantity="slack",
+        cases=list_near(check),
+        ends=(0.0, 0.137),
+        solver=MadeUpSolver(),
+    )
+    assert line.find_step(0.0) == 1e-4
+    found = line.find_turn(Point(value=0.0, used=1.0), Point(value=0.1, used=1.2))
+    assert found is None or line.find_use(found).passes

@@ -1,11 +1,12 @@
 """Chains of a net row: each line of parts from the net into the ground, with its use.
 
 A chain is as strong as its weakest link: that of each chain is bold, that of the whole
-row has a thick border.
+row has a thick border. A link that is not proven counts as the weakest.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -13,7 +14,7 @@ from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.sketch import Sketch
 from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
-from netdesign.report.words import Words, show_member
+from netdesign.report.words import Words, show_member, show_verdict
 from netdesign.study.records import CheckRecord, RowStudy
 from netdesign.words.names import name_mode
 
@@ -29,16 +30,18 @@ _CHAINS = (
 _LINE = 14.5  # from chain to chain [pt]
 _BOX = 11.5  # height of a link [pt]
 _PAD, _ARROW = 3.5, 13.0  # inside a box, and between two [pt]
-_OPEN = "?"  # utilisation of a link that is not proven
 _SMALLEST = 0.6  # of the text, where a chain is long
 
 
 @dataclass(frozen=True, slots=True)
 class _Link:
-    """One mode of a member: its largest utilisation inside the row and at its end."""
+    """One mode of a member: its largest utilisation inside the row and at its end.
+
+    Infinite where nothing resists, or one place has no utilisation.
+    """
 
     text: str
-    used: float | None
+    used: float
 
 
 def draw_chains(row: RowStudy, words: Words) -> str:
@@ -54,8 +57,7 @@ def draw_chains(row: RowStudy, words: Words) -> str:
     chains = [chain for names in _CHAINS if (chain := list(_list(row, names, words)))]
     if not chains:
         return ""
-    known = [one.used for chain in chains for one in chain if one.used is not None]
-    most = max(known, default=None)
+    most = max(one.used for chain in chains for one in chain)
     sketch = Sketch(language=words.language)
     start = words("chain.net")
     for place, chain in enumerate(chains):
@@ -73,27 +75,29 @@ def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:
             if check.member == name and check.is_of_force:
                 by_mode.setdefault(check.mode, []).append(check)
         for place, (mode, checks) in enumerate(by_mode.items()):
-            used = [one.utilisation for one in checks]
-            known = [one for one in used if one is not None]
-            largest = max(known) if len(known) == len(used) else None
-            shown = _OPEN
-            if largest is not None:
-                shown = words.show_number("utilisation", largest)
+            worst = max(checks, key=_use)
+            shown = show_verdict(worst.verdict, words).symbol
+            if worst.utilisation is not None or worst.is_unbounded:
+                shown = words.show_number("utilisation", _use(worst))
             named = [words.show(name_mode(mode))]
             if place == 0:
                 named.insert(0, show_member(words, name))
-            yield _Link(text=f"{words.join(named)}: {shown}", used=largest)
+            yield _Link(text=f"{words.join(named)}: {shown}", used=_use(worst))
+
+
+def _use(check: CheckRecord) -> float:
+    return math.inf if check.utilisation is None else check.utilisation
 
 
 def _draw_chain(
-    sketch: Sketch, start: str, chain: Sequence[_Link], top: float, most: float | None
+    sketch: Sketch, start: str, chain: Sequence[_Link], top: float, most: float
 ) -> None:
     """One chain from left to right, smaller where it would not fit."""
     texts = [start, *(one.text for one in chain)]
     widths = [measure_words(text, TEXT_PT) + 2.0 * _PAD for text in texts]
     room = WIDTH - 2.0 - _ARROW * len(chain)
     size = max(_SMALLEST, min(1.0, room / sum(widths)))
-    weakest = max((one.used or 0.0 for one in chain), default=0.0)
+    weakest = max(one.used for one in chain)
     left, middle = 1.0, top + 0.5 * _BOX
     for place, (text, width) in enumerate(zip(texts, widths, strict=True)):
         wide = size * width

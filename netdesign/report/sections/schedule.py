@@ -23,11 +23,13 @@ from netdesign.report.words import (
 )
 from netdesign.structure.members import EndMember
 from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.words.message import Message
+from netdesign.words.message import Message, say
 from netdesign.words.names import name_mode
 
 _PUSHED = ("post", "post_base")
 _END = "edge"
+_PER_POST = "schedule.per_post"
+_MID_ANCHORS = say("column.Nets.mid_anchors")
 _SIDES = ("uphill", "downhill")
 
 
@@ -89,7 +91,7 @@ def _describe_place(row: RowStudy, member: str, words: Words) -> str:
         return words("schedule.per_end")
     side = next((one for one in _SIDES if member.startswith(one)), None)
     if side is None:
-        return words("schedule.per_post", count=1)
+        return words(_name_foot(row) if member == "foot_anchor" else _PER_POST, count=1)
     count = _find_input(row, "guy_count")
     if "guy" in member:
         return words(
@@ -101,6 +103,15 @@ def _describe_place(row: RowStudy, member: str, words: Words) -> str:
         count=MISSING if count is None else f"{count:.0f}",
         distance=MISSING if distance is None else words.write(f"{distance:.2f}"),
     )
+
+
+def _name_foot(row: RowStudy) -> str:
+    """Words for the number of foot anchors: there may be one in mid-panel, too."""
+    if row.panel is None:
+        return _PER_POST
+    if _MID_ANCHORS in row.panel.assumed:
+        return "schedule.mid_not_given"
+    return "schedule.with_mid" if row.panel.has_mid_anchors else _PER_POST
 
 
 def _find_input(row: RowStudy, column: str) -> float | None:

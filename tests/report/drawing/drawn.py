@@ -8,6 +8,7 @@ from datetime import date, timedelta
 import numpy as np
 
 from netdesign.coupling.face import Face
+from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.envelope_figure import draw_envelope
 from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
@@ -87,17 +88,25 @@ def build_chains(rng: random.Random) -> RowStudy:
     """Row with checks of many members, some without a resistance."""
     row = build_row("A", 3, scale=1.0)
     of_force = next(one for one in row.checks if one.is_of_force)
+    used = [
+        rng.choice([None, 10 ** rng.uniform(-3.0, 1.2)])
+        for modes in MODES.values()
+        for _ in modes
+    ]
+    places = [(member, mode) for member, modes in MODES.items() for mode in modes]
     checks = [
         replace(
-            of_force,
-            member=member,
-            mode=mode,
-            utilisation=rng.choice([None, 10 ** rng.uniform(-3.0, 1.2)]),
+            of_force, member=member, mode=mode, utilisation=one, verdict=_judge(one)
         )
-        for member, modes in MODES.items()
-        for mode in modes
+        for (member, mode), one in zip(places, used, strict=True)
     ]
     return replace(row, checks=checks)
+
+
+def _judge(used: float | None) -> Verdict:
+    if used is None:
+        return Verdict.NOT_PROVEN
+    return Verdict.PASS if used <= 1.0 else Verdict.FAIL
 
 
 def build_section(rng: random.Random) -> Drawing:

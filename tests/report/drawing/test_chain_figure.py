@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.words import ENGLISH, Words
@@ -57,8 +58,32 @@ def test_of_two_places_the_larger_utilisation_counts():
     assert "0.847" in svg
     assert "0.613" not in svg
     assert "0.847" in re.search('aria-label="([^"]*)"', svg)[1]
-    open_ = replace(end, utilisation=None)
+    open_ = replace(end, utilisation=None, verdict=Verdict.NOT_PROVEN)
     assert ": ?" in draw_chains(replace(row, checks=[inside, open_]), ENGLISH)
+
+
+def test_a_link_that_is_not_proven_is_the_weakest():
+    """Knowing less makes no other link look stronger."""
+    row = build_chains(random.Random(3))
+    used = [0.97] * len(row.checks)
+    row = use(row, used)
+    open_ = replace(row.checks[1], utilisation=None, verdict=Verdict.NOT_PROVEN)
+    checks = [row.checks[0], open_, *row.checks[2:]]
+    svg = draw_chains(replace(row, checks=checks), ENGLISH)
+    bold = re.findall(r'font-weight="bold">([^<]*)<', svg)
+    assert sum(text.endswith(": ?") for text in bold) == 1
+    assert svg.count('stroke-width="1.8"') == 1
+
+
+def test_a_proof_elsewhere_and_nothing_that_resists_are_shown():
+    row = build_chains(random.Random(3))
+    declared = replace(row.checks[0], utilisation=None, verdict=Verdict.DECLARED)
+    gone = replace(
+        row.checks[1], utilisation=None, verdict=Verdict.FAIL, is_unbounded=True
+    )
+    svg = draw_chains(replace(row, checks=[declared, gone]), ENGLISH)
+    assert "†" in svg
+    assert "∞" in svg
 
 
 def test_a_row_without_forces_has_no_chain():

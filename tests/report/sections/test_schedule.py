@@ -7,6 +7,7 @@ import pytest
 from netdesign.report.sections.schedule import build_schedule
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.site.model import InputEcho
+from netdesign.study.support_records import PanelRecord
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.report.build_study import build_study
@@ -79,3 +80,27 @@ def test_each_part_has_its_number_and_place(language):
     assert at["post"].startswith("1 ")
     # nobody gave the other distance
     assert " - m" in at["downhill_anchor"]
+
+
+@pytest.mark.parametrize(
+    ("has_mid", "assumed", "shown"),
+    [
+        (False, [], "1 per post"),
+        (True, [], "1 per post, 1 in mid-panel"),
+        (True, ["mid_anchors"], "1 per post; in mid-panel: not given"),
+        (False, ["mid_anchors", "net_cut"], "1 per post; in mid-panel: not given"),
+    ],
+)
+def test_foot_anchors_in_mid_panel_are_counted(has_mid, assumed, shown):
+    of_force = next(one for one in STUDY.rows[0].checks if one.is_of_force)
+    panel = PanelRecord(
+        cut="upper",
+        has_mid_anchors=has_mid,
+        ropes=[],
+        extremes=[],
+        assumed=[say(f"column.Nets.{one}") for one in assumed],
+    )
+    checks = [replace(of_force, member="foot_anchor")]
+    row = replace(STUDY.rows[0], checks=checks, panel=panel)
+    ((_, _, _, place, *_),) = build_schedule(replace(STUDY, rows=[row]), ENGLISH).rows
+    assert place.text == shown
