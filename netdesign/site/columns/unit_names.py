@@ -82,6 +82,9 @@ _SPELLINGS = {
     "—": "-",
 }
 
+# Metres above the sea, as countries write them; points do not count.
+_ABOVE_SEA = ("müm", "müa", "mngf", "masl", "mslm")
+
 _FACTORS = {
     ("cm", "m"): 1e-2,
     ("mm", "m"): 1e-3,
@@ -138,6 +141,8 @@ def normalise_unit(text: str) -> str:
     if compact == "MN/m2":
         return "MPa"
     folded = compact.casefold()
+    if folded.replace(".", "") in _ABOVE_SEA:
+        return "m"
     if folded.startswith("mn"):
         return compact
     return _SPELLINGS.get(folded.replace("é", "e").replace("è", "e"), folded)

@@ -14,6 +14,7 @@ from netdesign.site.columns.all_tables import (
     load_file,
 )
 from netdesign.site.columns.lexicon import Lexicon, find_unit, fold, read_part
+from netdesign.site.columns.unit_names import normalise_unit
 
 LISTS = [(plan, plan.fields) for plan in SHEETS]
 LISTS += [(plan, plan.items) for plan in SHEETS if plan.items]
@@ -310,3 +311,17 @@ def test_a_heading_that_is_not_sure_is_asked_for(heading):
     meaning = LEXICA["Nets"].match(heading)
     assert meaning.field is None
     assert meaning.readings
+
+
+@pytest.mark.parametrize(
+    "unit", ["m ü. M.", "m ü.A.", "m NGF", "m a.s.l.", "m s.l.m.", "m asl", "müM"]
+)
+def test_metres_above_the_sea_are_metres(unit):
+    assert normalise_unit(unit) == "m"
+    heading = LEXICA["Nets"].match(f"Altitude [{unit}]")
+    assert heading.field.key == "altitude"
+
+
+def test_millinewtons_stay_what_nobody_guesses():
+    assert normalise_unit("mN") == "mN"
+    assert normalise_unit("mN/m") == "mN/m"
