@@ -34,7 +34,7 @@ def test_axe_finds_no_violation(language, detail, width, tmp_path):
 
 @pytest.mark.robustness
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("detail", ["summary", "full", "figures"])
+@pytest.mark.parametrize("detail", ["summary", "full"])
 @pytest.mark.parametrize("width", [PHONE_PX, 1100])
 def test_axe_finds_no_violation_anywhere(language, detail, width, tmp_path):
     """All pages: python -m pytest -m robustness tests/report/test_accessible.py."""

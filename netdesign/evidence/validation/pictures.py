@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from netdesign.evidence.validation.band import Validation
+from netdesign.evidence.validation.band import MemberBand, Validation
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, STRESSES, Place
 from netdesign.evidence.verification.pack import name_kind
@@ -129,13 +129,7 @@ def draw_bands(validations: Sequence[Validation], words: Words = ENGLISH) -> str
                     fontweight="bold",
                 )
                 before = title
-            least = 1.0  # of the axis: a slack guy has no force
-            axes.plot([max(band.low, least), band.high], [place] * 2, color=PALE, lw=7,
-                      solid_capstyle="butt")  # fmt: skip
-            axes.plot([max(end, least) for end in band.middle], [place] * 2,
-                      color=GREY, lw=7, solid_capstyle="butt")  # fmt: skip
-            value = comparison.measured.value
-            axes.plot([value], [place], "|", color=ACCENT, markersize=11, mew=2.2)
+            _draw_bar(axes, place, band, comparison.measured.value)
             label = words(
                 "show.label",
                 label=show_own(words, comparison.measured.name),
@@ -150,6 +144,15 @@ def draw_bands(validations: Sequence[Validation], words: Words = ENGLISH) -> str
         _strip(axes)
         figure.tight_layout(pad=0.4)
     return write_svg(figure, name, words("validation.bands_title"))
+
+
+def _draw_bar(axes: Axes, place: float, band: MemberBand, value: float) -> None:
+    """Band of a member, its middle, and what was measured."""
+    least = 1.0  # of the axis: a slack guy has no force
+    for ends, color in (((band.low, band.high), PALE), (band.middle, GREY)):
+        shown = [max(end, least) for end in ends]
+        axes.plot(shown, [place] * 2, color=color, lw=7, solid_capstyle="butt")
+    axes.plot([value], [place], "|", color=ACCENT, markersize=11, mew=2.2)
 
 
 def name_validated(member: str, words: Words) -> str:

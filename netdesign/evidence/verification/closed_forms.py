@@ -45,28 +45,7 @@ _DIVISIONS = (4, 8, 16)
 
 def list_law() -> list[VerificationCase]:
     """Strain rates of simple stress states, against formula and printed figure."""
-    a = compute_shear_factor(ZWINGER_2007, _DENSITY)
-    b = compute_bulk_factor(ZWINGER_2007, _DENSITY)
-    s = _STRESS
-    axial = np.diag([0.0, 0.0, s])
-    even = np.diag([s, s, s])
-    # lateral stress of confined compression, from tau_xx and p of the same source
-    tau = -2.0 / (3.0 * a) / (4.0 / (3.0 * a) + 1.0 / b) * s
-    confined = np.diag([s + 3.0 * tau, s + 3.0 * tau, s])
-    one = a / 3.0 + b / 9.0
-    two = 4.0 / (3.0 * a) + 1.0 / b
-    rows = (
-        ("law-uniaxial", axial, 2, _FLUIDITY * one**2 * s**3, -0.1381),
-        (
-            "law-uniaxial-lateral",
-            axial,
-            0,
-            _FLUIDITY / 18.0 * one * (2 * b - 3 * a) * s**3,
-            0.03328,
-        ),
-        ("law-isotropic", even, 0, b**2 * _FLUIDITY * s**3 / 3.0, -0.1113),
-        ("law-confined", confined, 2, _FLUIDITY * two**-2 * s**3, -0.0991),
-    )
+    confined, rows = _list_states()
     cases = []
     for name, stress, axis, formula, printed in rows:
         got = _rate_per_year(stress)[axis, axis]
@@ -96,6 +75,33 @@ def list_law() -> list[VerificationCase]:
         )
     )
     return cases
+
+
+def _list_states() -> tuple[Floats, tuple[tuple[str, Floats, int, float, float], ...]]:
+    """Confined compression, and all states: axis, rate by the formula, and printed."""
+    a = compute_shear_factor(ZWINGER_2007, _DENSITY)
+    b = compute_bulk_factor(ZWINGER_2007, _DENSITY)
+    s = _STRESS
+    axial = np.diag([0.0, 0.0, s])
+    even = np.diag([s, s, s])
+    # lateral stress of confined compression, from tau_xx and p of the same source
+    tau = -2.0 / (3.0 * a) / (4.0 / (3.0 * a) + 1.0 / b) * s
+    confined = np.diag([s + 3.0 * tau, s + 3.0 * tau, s])
+    one = a / 3.0 + b / 9.0
+    two = 4.0 / (3.0 * a) + 1.0 / b
+    rows = (
+        ("law-uniaxial", axial, 2, _FLUIDITY * one**2 * s**3, -0.1381),
+        (
+            "law-uniaxial-lateral",
+            axial,
+            0,
+            _FLUIDITY / 18.0 * one * (2 * b - 3 * a) * s**3,
+            0.03328,
+        ),
+        ("law-isotropic", even, 0, b**2 * _FLUIDITY * s**3 / 3.0, -0.1113),
+        ("law-confined", confined, 2, _FLUIDITY * two**-2 * s**3, -0.0991),
+    )
+    return confined, rows
 
 
 def list_snow() -> list[VerificationCase]:

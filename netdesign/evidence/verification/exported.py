@@ -16,7 +16,7 @@ from importlib.resources import files
 import numpy as np
 
 from netdesign.cable.net import Net
-from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.evidence.scene import build_scene, solve
 from netdesign.evidence.verification.case import VerificationCase
@@ -237,6 +237,17 @@ def _place_forces(solution: Solution, edges: Ints, sides: Ints) -> Floats:
     return forces
 
 
+def _describe_layers(scene: Scene) -> str:
+    """Line of each layer: its top, density, and factors of the law."""
+    law, tops = scene.creep_law, np.cumsum([one.thickness for one in scene.layers])
+    return "\n".join(
+        f"  up to Y = {top:.6g} m: density {layer.density:.6g} kg/m3, "
+        f"a = {compute_shear_factor(law, layer.density / ICE_DENSITY):.8g}, "
+        f"b = {compute_bulk_factor(law, layer.density / ICE_DENSITY):.8g}"
+        for top, layer in zip(tops, scene.layers, strict=True)
+    )
+
+
 def describe_scene(scene: ExportedScene) -> bytes:
     """Equations, numbers and what this program found, as a text.
 
@@ -248,16 +259,6 @@ def describe_scene(scene: ExportedScene) -> bytes:
     solution = scene.solution
     pack, law = solution.scene.snowpack, solution.scene.creep_law
     x, y = scene.resultant
-    layers = [
-        f"  up to Y = {top:.6g} m: density {layer.density:.6g} kg/m3, "
-        f"a = {compute_shear_factor(law, layer.density / ICE_DENSITY):.8g}, "
-        f"b = {compute_bulk_factor(law, layer.density / ICE_DENSITY):.8g}"
-        for top, layer in zip(
-            np.cumsum([one.thickness for one in solution.scene.layers]),
-            solution.scene.layers,
-            strict=True,
-        )
-    ]
     text = f"""netdesign {scene.name}: {scene.about}
 
 Plane strain, quasi-static, per metre of width. X along the slope, positive downslope;
@@ -271,7 +272,7 @@ psi = {math.degrees(pack.slope_angle):g} degrees
   B any positive number: stresses do not depend on it.
 
 Snow, cut at constant Y (cell data density_kg_m3):
-{chr(10).join(layers)}
+{_describe_layers(solution.scene)}
 
 Boundaries (cell data boundary):
   1 ground: {_describe_ground(solution.scene.ground.kind)}

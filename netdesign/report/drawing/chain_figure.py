@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from netdesign.outcome import Verdict
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.sketch import Sketch
@@ -37,7 +38,7 @@ _SMALLEST = 0.6  # of the text, where a chain is long
 class _Link:
     """One mode of a member: its largest utilisation inside the row and at its end.
 
-    Infinite where nothing resists, or one place has no utilisation.
+    Infinite where nothing resists, or a place is not proven.
     """
 
     text: str
@@ -57,7 +58,7 @@ def draw_chains(row: RowStudy, words: Words) -> str:
     chains = [chain for names in _CHAINS if (chain := list(_list(row, names, words)))]
     if not chains:
         return ""
-    most = max(one.used for chain in chains for one in chain)
+    most = _find_weakest([one for chain in chains for one in chain])
     sketch = Sketch(language=words.language)
     start = words("chain.net")
     for place, chain in enumerate(chains):
@@ -76,17 +77,33 @@ def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:
                 by_mode.setdefault(check.mode, []).append(check)
         for place, (mode, checks) in enumerate(by_mode.items()):
             worst = max(checks, key=_use)
-            shown = show_verdict(worst.verdict, words).symbol
-            if worst.utilisation is not None or worst.is_unbounded:
-                shown = words.show_number("utilisation", _use(worst))
             named = [words.show(name_mode(mode))]
             if place == 0:
                 named.insert(0, show_member(words, name))
-            yield _Link(text=f"{words.join(named)}: {shown}", used=_use(worst))
+            text = f"{words.join(named)}: {_show_use(worst, words)}"
+            yield _Link(text=text, used=_use(worst))
 
 
 def _use(check: CheckRecord) -> float:
-    return math.inf if check.utilisation is None else check.utilisation
+    """Utilisation of a check; infinite where it proves nothing."""
+    is_open = check.utilisation is None or check.verdict is Verdict.NOT_PROVEN
+    return math.inf if is_open else check.utilisation or 0.0
+
+
+def _show_use(check: CheckRecord, words: Words) -> str:
+    """Utilisation; behind the sign of its verdict, where that is no answer."""
+    symbol = show_verdict(check.verdict, words).symbol
+    used = math.inf if check.is_unbounded else check.utilisation
+    if used is None:
+        return symbol
+    shown = words.show_number("utilisation", used)
+    return f"{symbol} {shown}" if check.verdict is Verdict.NOT_PROVEN else shown
+
+
+def _find_weakest(links: Sequence[_Link]) -> float:
+    """Utilisation of the weakest links; NaN, so that none is it, where all are open."""
+    most = max(one.used for one in links)
+    return math.nan if all(one.used == math.inf for one in links) else most
 
 
 def _draw_chain(
@@ -97,7 +114,7 @@ def _draw_chain(
     widths = [measure_words(text, TEXT_PT) + 2.0 * _PAD for text in texts]
     room = WIDTH - 2.0 - _ARROW * len(chain)
     size = max(_SMALLEST, min(1.0, room / sum(widths)))
-    weakest = max(one.used for one in chain)
+    weakest = _find_weakest(chain)
     left, middle = 1.0, top + 0.5 * _BOX
     for place, (text, width) in enumerate(zip(texts, widths, strict=True)):
         wide = size * width

@@ -19,13 +19,13 @@ def summary():
 
 
 def test_the_fast_path_is_faster_on_every_mesh(summary):
-    assert summary.least_times_faster > 2.0
-    assert summary.times_faster > 5.0  # 8 to 10 were measured on a busy machine
+    assert summary["least_times_faster"] > 2.0
+    assert summary["times_faster"] > 5.0  # 8 to 10 were measured on a busy machine
 
 
 def test_cost_stays_below_the_power_of_one_and_a_half(summary):
-    assert summary.cost_order < 1.5
+    assert summary["cost_order"] < 1.5
 
 
 def test_errors_fall(summary):
-    assert summary.error_order > 1.0
+    assert summary["error_order"] > 1.0

@@ -12,7 +12,7 @@ from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.words import ENGLISH, Words
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_row
-from tests.report.drawing.drawn import build_chains
+from tests.report.drawing.drawn import MODES, build_chains
 
 TEXT = re.compile(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>([^<]*)</text>')
 SEEDS = range(12)
@@ -43,7 +43,9 @@ def test_the_weakest_link_of_the_row_alone_has_a_thick_border(seed):
     draw = random.Random(seed)
     row = build_chains(draw)
     used = [draw.uniform(0.01, 1.4) for _ in row.checks]
-    svg = draw_chains(use(row, used), ENGLISH)
+    row = use(row, used)
+    checks = [replace(one, verdict=Verdict.PASS) for one in row.checks]
+    svg = draw_chains(replace(row, checks=checks), ENGLISH)
     assert svg.count('stroke-width="1.8"') == 1
     bold = re.findall(r'font-weight="bold">([^<]*)<', svg)
     largest = ENGLISH.show_number("utilisation", max(used))
@@ -52,7 +54,7 @@ def test_the_weakest_link_of_the_row_alone_has_a_thick_border(seed):
 
 def test_of_two_places_the_larger_utilisation_counts():
     row = build_chains(random.Random(3))
-    inside = replace(row.checks[0], utilisation=0.613)
+    inside = replace(row.checks[0], utilisation=0.613, verdict=Verdict.PASS)
     end = replace(inside, utilisation=0.847, position="edge")
     svg = draw_chains(replace(row, checks=[inside, end]), ENGLISH)
     assert "0.847" in svg
@@ -67,6 +69,7 @@ def test_a_link_that_is_not_proven_is_the_weakest():
     row = build_chains(random.Random(3))
     used = [0.97] * len(row.checks)
     row = use(row, used)
+    row = replace(row, checks=[replace(x, verdict=Verdict.PASS) for x in row.checks])
     open_ = replace(row.checks[1], utilisation=None, verdict=Verdict.NOT_PROVEN)
     checks = [row.checks[0], open_, *row.checks[2:]]
     svg = draw_chains(replace(row, checks=checks), ENGLISH)
@@ -88,3 +91,14 @@ def test_a_proof_elsewhere_and_nothing_that_resists_are_shown():
 
 def test_a_row_without_forces_has_no_chain():
     assert draw_chains(replace(build_row("A", 3, scale=1.0), checks=[]), ENGLISH) == ""
+
+
+def test_a_check_that_is_not_proven_shows_its_number_behind_a_mark():
+    """A row under too much snow: forces are known, and prove nothing."""
+    row = use(build_chains(random.Random(3)), [0.31] * sum(map(len, MODES.values())))
+    checks = [replace(one, verdict=Verdict.NOT_PROVEN) for one in row.checks]
+    svg = draw_chains(replace(row, checks=checks), ENGLISH)
+    shown = [text for *_, text in TEXT.findall(svg) if ":" in text]
+    assert all(text.endswith(": ? 0.310") for text in shown)
+    assert "bold" not in svg  # nobody knows which is the weakest
+    assert 'stroke-width="1.8"' not in svg
