@@ -80,7 +80,8 @@ def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:
             named = [words.show(name_mode(mode))]
             if place == 0:
                 named.insert(0, show_member(words, name))
-            text = f"{words.join(named)}: {_show_use(worst, words)}"
+            used = _show_use(worst, words)
+            text = words("show.label", label=words.join(named), text=used)
             yield _Link(text=text, used=_use(worst))
 
 
