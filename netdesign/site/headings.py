@@ -7,10 +7,11 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
+from typing import NamedTuple
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
-from netdesign.site.cells.numbers import parse_number
+from netdesign.site.cells.numbers import parse_number, read_grade
 from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
 from netdesign.site.columns.lexicon import Lexicon, Meaning, fold
 from netdesign.site.columns.unit_names import (
@@ -47,6 +48,14 @@ class Column:
 Titles = Sequence[tuple[Title, Meaning]]
 
 
+class Pair(NamedTuple):
+    """A name and its value, side by side, and the field that the name means."""
+
+    name: Cell
+    value: Cell
+    meaning: Meaning
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
     """A sheet whose headings were table.
@@ -69,6 +78,8 @@ class Table:
         By field key; absent headings are absent.
     rows : tuple of int
         Numbers of the lines that hold something.
+    above : tuple of Pair
+        Lines above the headings that give a column once for all lines.
     """
 
     sheet: Sheet
@@ -81,6 +92,7 @@ class Table:
     language: Language
     columns: Mapping[str, Column]
     rows: tuple[int, ...] = ()
+    above: tuple[Pair, ...] = ()
 
     def cell(self, row: int, key: str) -> Cell | None:
         """Cell of a field in a row; None without such a heading."""
@@ -115,6 +127,8 @@ def find_headings(
     """
     lexicon = Lexicon.of(plan.fields, plan)
     row = _find_row(sheet, lexicon)
+    if row is None and plan.has_pairs:
+        return _read_as_pairs(sheet, plan)
     if row is None:
         wanted = tuple(quote_title(field) for field in plan.fields[:3])
         accepted = say("heading.such_as", headings=wanted)
@@ -133,9 +147,11 @@ def find_headings(
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     first_data_row += _is_numbering(sheet.row(first_data_row))
     names = {split_heading(title.text)[0] for title, _ in titles}
+    above = tuple(_find_pairs_above(sheet, row, plan))
     table = Table(
         sheet=sheet,
-        plan=plan,
+        plan=plan.free({one.meaning.field.key for one in above if one.meaning.field}),
+        above=above,
         titles=titles,
         heading_row=row,
         units_row=units_row,
@@ -150,6 +166,38 @@ def find_headings(
         ),
     )
     return replace(table, columns=_find_columns(table, findings))
+
+
+def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
+    """Cover sheet: each line a name and, beside it, its value; no headings."""
+    starts = [cells[0].column for row in sheet.rows if len(cells := sheet.row(row)) > 1]
+    first = max(set(starts), key=starts.count, default=1)
+    keys = [field.key for field in plan.fields]
+    return Table(
+        sheet=sheet,
+        plan=plan,
+        titles=(),
+        heading_row=0,
+        units_row=None,
+        first_data_row=1,
+        group_rows=frozenset(),
+        language="en",
+        columns={
+            key: Column(number=first + n, unit="") for n, key in enumerate(keys[:2])
+        },
+    )
+
+
+def _find_pairs_above(sheet: Sheet, row: int, plan: SheetPlan) -> Iterator[Pair]:
+    """Lines above the headings that give a column once: its name and its value."""
+    lexicon = Lexicon.of(plan.list_site_wide(), plan)
+    for number in range(1, row):
+        cells = sheet.row(number)
+        if len(cells) != 2 or not isinstance(cells[0].value, str):
+            continue
+        meaning = understand(Title(cells[0]), lexicon, sheet.answers)
+        if meaning.field:
+            yield Pair(*cells, meaning)
 
 
 def count_known(sheet: Sheet, plan: SheetPlan) -> int:
@@ -247,8 +295,10 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     claimed: set[str] = set()  # by headings that are refused as unclear
     unknown: list[Title] = []
     for title, meaning in table.titles:
-        cell, field = title.cell, meaning.field
-        if field is None:
+        cell, field = title.cell, _settle(table, title, meaning)
+        if field and _is_note_of_steel(table, title, field):
+            unknown.append(title)
+        elif field is None:
             claimed |= {one.key for one in meaning.readings}
             refusal = _explain(meaning, table.sheet)
             if refusal:
@@ -275,6 +325,35 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     _report_missing(table, unknown, {*columns, *claimed}, findings)
     findings.extend(_refuse_unused_answers(table))
     return columns
+
+
+def _is_note_of_steel(table: Table, title: Title, field: Field) -> bool:
+    """A column of a steel without unit has texts that are neither grade nor number."""
+    if not field.is_grade or title.unit:
+        return False
+    cells = [one for one in table.examples(title.cell.column) if one.row]
+    return any(
+        read_grade(one.value) is None
+        and isinstance(parse_number(one.value, one.decimal_mark), Refusal)
+        and one.row != table.units_row
+        for one in cells
+    )
+
+
+def _settle(table: Table, title: Title, meaning: Meaning) -> Field | None:
+    """Field of a heading; of several columns of words, the one that knows its cells."""
+    if meaning.field:
+        return meaning.field
+    if not meaning.readings or any(one.kind != "word" for one in meaning.readings):
+        return None
+    cells = [row.get(title.cell.column) for row in table.sheet.rows.values()]
+    typed = {normalise(one.text) for one in cells if one and one is not title.cell}
+    known = [
+        field
+        for field in meaning.readings
+        if typed & {normalise(one) for one in field.spellings}
+    ]
+    return known[0] if len(known) == 1 else None
 
 
 def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
@@ -309,12 +388,13 @@ def _judge_all_unknown(
 ) -> list[tuple[Finding, Field | None]]:
     """Judge columns that are not read, each with the missing field it may be.
 
-    The headings that the sheet may have are told once.
+    The headings that the sheet still needs are told once.
     """
     judged = [_judge_unknown(title.cell, missing) for title in unknown]
     first = next((n for n, (one, _) in enumerate(judged) if one.severity == "note"), -1)
-    if first >= 0 and missing:
-        names = tuple(quote_title(field) for field in missing)
+    needed = [field for field in missing if field.required]
+    if first >= 0 and needed:
+        names = tuple(quote_title(field) for field in needed)
         known = say("heading.known", headings=names)
         judged[first] = replace(judged[first][0], accepted=known), None
     return judged
@@ -382,17 +462,29 @@ def _find_unit(
         return "-"
     if unit in field.units:
         return unit
-    if not unit and _have_units(table.examples(column), field):
-        return IN_CELLS
+    if not unit and (own := _find_own_unit(table.examples(column), field)):
+        return own
     refusal = _refuse_unit(unit, table.examples(column), field)
     findings.append(cell.finding(*refusal, field.name))
     return None
+
+
+def _find_own_unit(cells: list[Cell], field: Field) -> str:
+    """Unit of a column whose heading has none: in its cells, or that of a grade."""
+    if _have_units(cells, field):
+        return IN_CELLS
+    return field.unit if field.is_grade and _have_grades(cells) else ""
 
 
 def _have_units(cells: list[Cell], field: Field) -> bool:
     """The first numbers of a column have their units in their cells."""
     units = [normalise_unit(cell.own_unit) for cell in cells]
     return any(unit in field.units for unit in units)
+
+
+def _have_grades(cells: list[Cell]) -> bool:
+    """The first cells of a column name steel grades."""
+    return bool(cells) and all(read_grade(cell.value) is not None for cell in cells)
 
 
 def _refuse_unit(unit: str, cells: list[Cell], field: Field) -> Refusal:

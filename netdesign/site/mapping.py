@@ -7,7 +7,7 @@ later run reads it by itself.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
@@ -27,14 +27,14 @@ from netdesign.site.cells.findings import (
     quote,
     refuse_file,
 )
-from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.columns.all_tables import NETS, SHEETS
+from netdesign.site.columns.fields import SheetPlan, normalise
 from netdesign.site.columns.lexicon import IGNORE
 from netdesign.words.message import Message, say
 
 SCHEMA = "netdesign.map/1"
 _MARKS: Mapping[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
-_KEYS = ("schema", "workbook", "decimal_mark", "sheets", "headings")
+_KEYS = ("schema", "workbook", "decimal_mark", "sheets", "headings", "words")
 
 
 def name_map(site_file: Path) -> Path:
@@ -74,6 +74,7 @@ def read_answers(site_file: Path) -> Answers:
         sha256=hashlib.sha256(content).hexdigest(),
         sheets=table.get("sheets", {}),
         headings=table.get("headings", {}),
+        words=table.get("words", {}),
         decimal_mark=_MARKS[table.get("decimal_mark", "")],
     )
 
@@ -90,9 +91,12 @@ def _find_fault(table: Mapping[str, Any]) -> Message | None:
         return say("map.other_schema", schema=SCHEMA)
     if table.get("decimal_mark", "") not in _MARKS:
         return say("map.decimal_mark")
-    sheets, headings = table.get("sheets", {}), table.get("headings", {})
-    tables = [sheets, *(headings.values() if isinstance(headings, dict) else ())]
-    for one in (headings, *tables):
+    sheets = table.get("sheets", {})
+    by_sheet = [table.get(key, {}) for key in ("headings", "words")]
+    tables = [sheets]
+    for one in by_sheet:
+        tables += one.values() if isinstance(one, dict) else ()
+    for one in (*by_sheet, *tables):
         if not isinstance(one, dict):
             return say("map.no_table")
     for one in tables:
@@ -118,7 +122,8 @@ def is_meant(name: str, plan: SheetPlan, answers: Answers) -> bool:
     """A sheet is the planned one: as answered, else by its name."""
     answer = answers.sheets.get(name)
     if answer is None:
-        return plan.matches(name)
+        is_one = plan.name == NETS.name and plan.is_structure(name)
+        return is_one or plan.matches(name)
     return answer != IGNORE and plan.matches(answer)
 
 
@@ -132,8 +137,12 @@ def give_answers(workbook: Workbook, answers: Answers) -> Workbook:
 
 
 def _give(sheet: Sheet, answers: Answers) -> Sheet:
-    found = answers.headings.get(sheet.name, {})
-    return replace(sheet, answers=found, answered_in=answers.file)
+    return replace(
+        sheet,
+        answers=answers.headings.get(sheet.name, {}),
+        words=answers.words.get(sheet.name, {}),
+        answered_in=answers.file,
+    )
 
 
 def judge_answers(workbook: Workbook) -> list[Finding]:
@@ -144,12 +153,24 @@ def judge_answers(workbook: Workbook) -> list[Finding]:
     used = say("map.used", file=answers.file, sha256=answers.sha256)
     names = {sheet.name for sheet in workbook.sheets}
     absent = [one for one in answers.sheets if one not in names | {*workbook.unread}]
-    unread = [one for one in answers.headings if one not in names]
+    answered = dict.fromkeys((*answers.headings, *answers.words))
+    unread = [one for one in answered if one not in names]
     return [
         note_file(workbook.file, used),
         *(_refuse(answers, say("map.sheet_absent"), one) for one in absent),
         *(_refuse(answers, say("map.sheet_not_read"), one) for one in unread),
+        *(one for sheet in workbook.sheets for one in _list_unused_words(sheet)),
     ]
+
+
+def _list_unused_words(sheet: Sheet) -> Iterator[Finding]:
+    """Words that no cell has: the sheet has changed since."""
+    cells = (cell for row in sheet.rows.values() for cell in row.values())
+    typed = {normalise(cell.text) for cell in cells} if sheet.words else set()
+    for word in sheet.words:
+        if normalise(word) not in typed:
+            rule = say("heading.unused_answer", file=sheet.answered_in)
+            yield sheet.finding(rule, quote(word))
 
 
 def _refuse(answers: Answers, rule: Message, name: str) -> Finding:

@@ -7,6 +7,7 @@ from datetime import datetime, timedelta
 from itertools import pairwise
 
 from netdesign.site.cells.findings import Finding
+from netdesign.site.cells.numbers import read_moment
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import MonitoringSeries
@@ -87,7 +88,7 @@ def _read_time(line: Row, findings: list[Finding]) -> float | None:
     if time.state == "given":
         return time.si
     try:
-        moment = datetime.fromisoformat(date.word)
+        moment = read_moment(date.word)
     except ValueError:
         refuse(date, say("measured.no_date"), say("measured.such_as"), findings)
         return None

@@ -19,6 +19,7 @@ from netdesign.site.columns.unit_names import from_si
 from netdesign.site.declared_sheet import Confirmation, show_value
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.type_resistances import list_beside
 from netdesign.words.message import Message, say
 
 
@@ -118,6 +119,7 @@ def _list_of_types(lines: Lines, sheet: str) -> Iterator[tuple[list[str], Doubt]
 Doubt: TypeAlias = tuple[Reading, Message]
 
 _TOLERANCE = 0.05  # of a value of the catalogue
+_APART = 0.1  # between a resistance and what its dimensions give
 _LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
 _FORCES = ("tendon", "rope")
 _TESTED = ("pull_out", "test_mean")
@@ -138,6 +140,10 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
         told = _doubt_alone(reading)
         if told and key not in alone:
             alone[key] = told
+    for reading, computed in list_beside(line):
+        told = _doubt_computed(reading, computed)
+        if told and reading.field.key not in alone:
+            alone[reading.field.key] = told
     for key, reading in typed.items():
         told = alone.get(key) or _doubt_beside(reading, line, alone)
         told = told or _doubt_tested(reading, key, line)
@@ -193,6 +199,14 @@ def _doubt_beside(
                 unit=unit,
             )
     return None
+
+
+def _doubt_computed(reading: Reading, computed: float) -> Message | None:
+    """A resistance is far from what the dimensions beside it give."""
+    if abs(reading.si - computed) <= _APART * computed:
+        return None
+    unit = reading.field.unit
+    return say("plausible.computed", number=from_si(computed, unit), unit=unit)
 
 
 def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:

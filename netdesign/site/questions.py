@@ -17,17 +17,18 @@ from netdesign.site.columns.all_tables import (
     ANCHORS,
     NETS,
     POSTS,
+    PROJECT_AS_TYPED,
     RANGES_AS_TYPED,
     ROPES,
     SHEETS,
 )
 from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.columns.lexicon import UNANSWERED
+from netdesign.site.columns.lexicon import UNANSWERED, has_no_part
 from netdesign.site.headings import Table, count_known
 from netdesign.site.mapping import SCHEMA, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
-from netdesign.site.tables import find_table
+from netdesign.site.tables import find_tables
 from netdesign.site.titles import Title
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -43,6 +44,7 @@ _OF_NAMES = (
     *("item.unknown", "item.unknown_quantity"),
 )
 # A heading that is not understood is asked for where the sheet lacks one.
+_OF_WORDS = "cell.unknown_word"
 _UNREAD, _LACKING = "heading.unknown", ("heading.lacks", "heading.lacks_one_of")
 _LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one
 _EXPECTED = (NETS, RANGES_AS_TYPED, ANCHORS, ROPES, POSTS)
@@ -67,6 +69,7 @@ class Question:
     asked: str
     answer: str
     hints: tuple[Message | str, ...]
+    is_word: bool = False  # of a cell
 
 
 def write_questions(
@@ -90,8 +93,7 @@ def write_questions(
     """
     workbook = read_cells(path, text_format)
     findings = _collect(path, text_format)
-    tables = [_find(workbook, plan) for plan in SHEETS]
-    found = [table for table in tables if table]
+    found = [table for plan in SHEETS for table in _find(workbook, plan)]
     questions = [*_ask_sheets(path, text_format, workbook)]
     questions += _ask_names(found, findings)
     asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
@@ -102,12 +104,13 @@ def write_questions(
     for table in found:
         lines += _list_headings(table, workbook, questions, language)
         lines += [*_list_unread(table, questions, findings), ""]
+        lines += _list_words(table, workbook, questions, language)
     return "\n".join(lines) + "\n", len(questions) + asks_mark
 
 
-def _find(workbook: Workbook, plan: SheetPlan) -> Table | None:
-    as_typed = RANGES_AS_TYPED if plan.name == RANGES_AS_TYPED.name else plan
-    return find_table(workbook, as_typed, [])
+def _find(workbook: Workbook, plan: SheetPlan) -> tuple[Table, ...]:
+    as_typed = {one.name: one for one in (RANGES_AS_TYPED, PROJECT_AS_TYPED)}
+    return find_tables(workbook, as_typed.get(plan.name, plan), [])
 
 
 def _collect(path: Path, text_format: TextFormat) -> list[Finding]:
@@ -124,6 +127,11 @@ def _ask_sheets(
     """Sheets whose headings are those of a planned sheet that is missing."""
     open_names = {*workbook.unread} - {*workbook.answers.sheets}
     missing = [plan for plan in _EXPECTED if not _has(workbook, plan)]
+    for name in sorted(open_names - workbook.hidden):
+        copied = next((one for one in SHEETS if one.begins(name)), None)
+        if copied and copied not in missing:
+            hints = (say("table.copy_accepted", name=copied.title),)
+            yield Question("", name, UNANSWERED, hints)
     if not missing or not open_names:
         return
     every = read_workbook(path, lambda _: True, text_format=text_format)
@@ -150,11 +158,20 @@ def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Questio
     for finding in findings:
         table = by_sheet.get(finding.sheet)
         is_sought = finding.rule.key == _UNREAD and finding.sheet in lacking
+        is_sought = is_sought and not has_no_part(finding.text)
         if table and finding.cell and (finding.severity == "error" or is_sought):
-            question = _ask(table, finding)
+            question = _ask_word(finding) or _ask(table, finding)
             if question:
                 asked[question.sheet, question.asked] = question
     return list(asked.values())
+
+
+def _ask_word(finding: Finding) -> Question | None:
+    """A word that its column does not know."""
+    if finding.rule.key != _OF_WORDS:
+        return None
+    hints = (finding.field, finding.accepted)
+    return Question(finding.sheet, finding.text, UNANSWERED, hints, is_word=True)
 
 
 def _ask(table: Table, finding: Finding) -> Question | None:
@@ -245,7 +262,11 @@ def _list_headings(
 ) -> Iterator[str]:
     name = table.sheet.name
     given = workbook.answers.headings.get(name, {})
-    asked = [one for one in questions if one.sheet == name and one.asked not in given]
+    asked = [
+        one
+        for one in questions
+        if one.sheet == name and one.asked not in given and not one.is_word
+    ]
     yield f"[headings.{_quote(name)}]"
     for key, answer in given.items():
         yield f"{_quote(key)} = {_quote(answer)}"
@@ -253,7 +274,7 @@ def _list_headings(
         yield _line(one, language)
     for field in table.plan.fields:
         column = table.columns.get(field.key)
-        if column is None or column.unit is None:
+        if column is None or column.unit is None or not table.titles:
             continue
         heading = _find_title(table, column.number)
         label = render(field.name, language)
@@ -262,11 +283,29 @@ def _list_headings(
         yield f"# {_quote(heading)} = {_quote(label + unit)}"
 
 
+def _list_words(
+    table: Table, workbook: Workbook, questions: Sequence[Question], language: Language
+) -> Iterator[str]:
+    """Words of the cells of a sheet that are answered, or asked for."""
+    given = workbook.answers.words.get(table.sheet.name, {})
+    asked = [one for one in questions if one.sheet == table.sheet.name and one.is_word]
+    if not given and not asked:
+        return
+    yield f"[words.{_quote(table.sheet.name)}]"
+    for text, answer in given.items():
+        yield f"{_quote(text)} = {_quote(answer)}"
+    for one in asked:
+        if one.asked not in given:
+            yield _line(one, language)
+    yield ""
+
+
 def _list_unread(
     table: Table, questions: Sequence[Question], findings: Sequence[Finding]
 ) -> Iterator[str]:
     """Headings that are not understood, and that nothing asks for."""
     asked = {one.asked for one in questions if one.sheet == table.sheet.name}
+    asked |= table.sheet.answers.keys()
     for finding in findings:
         if finding.rule.key == _UNREAD and finding.sheet == table.sheet.name:
             name = _name_heading(table, finding.cell)

@@ -24,6 +24,8 @@ from netdesign.words.message import Message, say
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
 _DEFAULT_INCLINATION = (25.0, 35.0)  # [deg]
+STIFFNESS = "net_stiffness"
+_NET_STIFFNESSES = (4000.0, 20000.0)  # of nets that are built [kN/m]
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 _Ends = tuple[Cell | None, Cell | None]
 
@@ -124,6 +126,26 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     )
 
 
+def assume_stiffness(sheet: RangesSheet) -> RangesSheet:
+    """Ranges with all stiffnesses that nets are built with: nobody gives one.
+
+    The worst of them is searched, as of any range that is given.
+    """
+    found = _make_default(
+        next(one for one in FURTHER_QUANTITIES if one.column == STIFFNESS),
+        _NET_STIFFNESSES,
+    )
+    ends = {**sheet.ends, STIFFNESS: (found.low, found.high)}
+    if sheet.ranges is None:
+        return replace(sheet, ends=ends)
+    return replace(
+        sheet,
+        ranges=Ranges.of(**dict(sheet.ranges.intervals), **{STIFFNESS: found.interval}),
+        inputs=(*sheet.inputs, *found.inputs),
+        ends=ends,
+    )
+
+
 def refuse_large_grid(
     table: Table, ranges: Ranges, n_rows: int, findings: list[Finding]
 ) -> None:
@@ -203,7 +225,7 @@ def _read_line(
         return
     names[field.key], found[field.key] = name, None
     ends = _find_ends(table, row, findings)
-    settled = _settle_unit(name, unit, field, _find_typed(ends, meaning), findings)
+    settled = settle_unit(name, unit, field, _find_typed(ends, meaning), findings)
     if not settled or ends is None:
         return
     span = table.cell(row, "span")
@@ -256,7 +278,7 @@ def _is_empty(low: Reading | None, high: Reading | None) -> bool:
     return low is not None and high is not None and low.state == high.state == "blank"
 
 
-def _settle_unit(
+def settle_unit(
     name: Reading, unit: Reading, field: Field, typed: str, findings: list[Finding]
 ) -> str:
     """Unit of a line, in brackets or in a column; empty if a finding refused it.
@@ -357,13 +379,17 @@ def _settle_samples(line: _Line, unit: str, findings: list[Finding]) -> Reading:
 
 
 def _default_inclination(field: Field) -> _Range:
+    return _make_default(field, _DEFAULT_INCLINATION)
+
+
+def _make_default(field: Field, ends: tuple[float, float]) -> _Range:
     low, high = (
         Reading(
             field=_name_end(field, key),
             state="default",
             value=value,
         )
-        for key, value in zip(("low", "high"), _DEFAULT_INCLINATION, strict=True)
+        for key, value in zip(("low", "high"), ends, strict=True)
     )
     samples_field = Field(key="samples", kind="count", table="Ranges")
     samples = Reading(field=samples_field, state="default", value=SEARCHED)
@@ -406,12 +432,8 @@ _SEVERE_IS_LOW = ("slack",)
 def free_columns(plan: SheetPlan, ends: Ends) -> SheetPlan:
     """Plan of sheet Nets without the need for columns that sheet Ranges gives."""
     given = {column for name in ends for column in _COLUMNS[name]}
-    fields = tuple(
-        replace(one, required=False, default=None) if one.key in given else one
-        for one in plan.fields
-    )
     is_sized = given.isdisjoint(_SNOW)
-    return replace(plan, fields=fields, one_of=plan.one_of if is_sized else ())
+    return replace(plan.free(given), one_of=plan.one_of if is_sized else ())
 
 
 def fill_in_ranges(row: Row, ends: Ends, findings: list[Finding]) -> Row:

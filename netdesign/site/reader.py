@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from pathlib import Path
 from types import MappingProxyType
@@ -20,6 +20,7 @@ from netdesign.site.columns.all_tables import (
     NETS,
     POSTS,
     PROJECT,
+    PROJECT_AS_TYPED,
     QUIET_SHEETS,
     RANGES,
     RANGES_AS_TYPED,
@@ -28,8 +29,9 @@ from netdesign.site.columns.all_tables import (
     SNOW,
     WINTER,
 )
-from netdesign.site.columns.fields import split_heading
+from netdesign.site.columns.fields import SheetPlan, split_heading
 from netdesign.site.declared_sheet import read_declared
+from netdesign.site.grounds import name_by_ground, place_in_ground
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
     TYPE_SHEETS,
@@ -48,17 +50,27 @@ from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.plausible import ask
 from netdesign.site.ranges import (
+    STIFFNESS,
     RangesSheet,
+    assume_stiffness,
     build_ranges,
     free_columns,
     refuse_large_grid,
 )
-from netdesign.site.readings import Row, refuse
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.replaced import mark_replaced, replace_cells
+from netdesign.site.site_wide import (
+    SiteWide,
+    fill_in_site_wide,
+    read_above,
+    read_once,
+)
 from netdesign.site.snow_layers import check_layers, read_layers
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.tables import (
     find_table,
+    find_tables,
+    is_about,
     is_absent,
     is_near,
     match_item,
@@ -69,6 +81,7 @@ from netdesign.site.type_resistances import (
     check_support_types,
     check_tests,
     fill_in_resistances,
+    fill_in_section,
 )
 from netdesign.site.winter_sheet import read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
@@ -108,10 +121,11 @@ def read_site(
     """
     workbook, replaced = replace_cells(read_cells(path, text_format), instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
-    tables, ranges = _find_tables(workbook, findings)
-    project, project_cells = _read_project(tables[PROJECT.name], findings)
-    lines = _read_lines(workbook, tables, ranges, findings)
-    net_rows = _build_rows(tables, lines, findings)
+    on_cover = _read_project(find_table(workbook, PROJECT_AS_TYPED, findings), findings)
+    tables, nets, ranges = _find_tables(workbook, on_cover.site_wide, findings)
+    typed = _read_net_rows(nets, on_cover.site_wide, findings)
+    lines = _read_lines(workbook, tables, typed, ranges, findings)
+    net_rows = _build_rows(tables[RANGES.name], nets, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
     winter = read_winter(tables[WINTER.name], lines.places, findings)
     said = tables[DECLARED.name]
@@ -130,7 +144,7 @@ def read_site(
         for row in net_rows
     )
     return Site(
-        project=project,
+        project=on_cover.project,
         ranges=ranges.ranges,
         rows=rows,
         file_name=workbook.file,
@@ -138,7 +152,7 @@ def read_site(
         notes=(*notes, *(one.message for one in confirmed)),
         findings=tuple(findings),
         range_inputs=ranges.inputs,
-        project_cells=project_cells,
+        project_cells=on_cover.cells,
         monitoring=monitoring,
         winter=winter,
         declared=declared,
@@ -150,30 +164,81 @@ def read_site(
 
 
 def _find_tables(
-    workbook: Workbook, findings: list[Finding]
-) -> tuple[Mapping[str, Table | None], RangesSheet]:
-    """Tables by the name of their sheet, and what ranges: other sheets need it less."""
+    workbook: Workbook, site_wide: SiteWide, findings: list[Finding]
+) -> tuple[Mapping[str, Table | None], tuple[Table, ...], RangesSheet]:
+    """Tables by the name of their sheet, those of net rows, and what ranges.
+
+    Sheet Nets needs less where something ranges or stands once.
+    """
     told: list[Finding] = []
     table = find_table(workbook, RANGES_AS_TYPED, told)
     ranges = replace(build_ranges(table, told), findings=told)
-    nets = free_columns(NETS, ranges.ends)
-    plans = [nets if one is NETS else one for one in SHEETS if one is not RANGES]
-    tables = {plan.name: find_table(workbook, plan, findings) for plan in plans}
-    return {RANGES.name: table, **tables}, ranges
+    plan = free_columns(NETS, ranges.ends).free(site_wide.keys())
+    if table and not _is_stiffness_given(workbook, plan):
+        ranges = assume_stiffness(ranges)
+        plan = free_columns(plan, ranges.ends)
+    others = [one for one in SHEETS if one not in (NETS, RANGES, PROJECT)]
+    tables = {plan.name: find_table(workbook, plan, findings) for plan in others}
+    nets = find_tables(workbook, plan, findings)
+    return {RANGES.name: table, **tables}, nets, ranges
+
+
+def _is_stiffness_given(workbook: Workbook, plan: SheetPlan) -> bool:
+    """A stiffness of the net stands somewhere, or no net row is found at all."""
+    if not next(one for one in plan.fields if one.key == STIFFNESS).required:
+        return True
+    tables = find_tables(workbook, plan.free((STIFFNESS,)), [])
+    above = (one.meaning.field for table in tables for one in table.above)
+    return not tables or any(
+        [
+            *(STIFFNESS in table.columns for table in tables),
+            *(one.key == STIFFNESS for one in above if one),
+        ]
+    )
+
+
+def _read_net_rows(
+    tables: Sequence[Table], site_wide: SiteWide, findings: list[Finding]
+) -> list[Row]:
+    """Lines of all sheets of net rows, with what stands once."""
+    return [
+        row
+        for table in tables
+        for row in fill_in_site_wide(
+            list(read_rows(table, findings)),
+            {**site_wide, **read_above(table, findings)},
+            findings,
+        )
+    ]
 
 
 def _read_lines(
     workbook: Workbook,
     tables: Mapping[str, Table | None],
+    nets: list[Row],
     ranges: RangesSheet,
     findings: list[Finding],
 ) -> Lines:
-    types = {sheet: _read_types(tables[sheet], findings) for sheet in TYPE_SHEETS}
     snow = read_layers(tables[SNOW.name], findings)
-    ends, nets = (
-        list(read_rows(table, findings)) if (table := tables[one.name]) else []
-        for one in (ENDS, NETS)
-    )
+    ends_table, anchors_table = tables[ENDS.name], tables[ANCHORS.name]
+    ends = list(read_rows(ends_table, findings)) if ends_table else []
+    anchors = list(read_rows(anchors_table, findings)) if anchors_table else []
+    grounds = {
+        row["id"].word: row["ground"] for row in nets if row["ground"].state == "given"
+    }
+    nets, made = place_in_ground(nets, anchors, grounds, findings)
+    ends, more = place_in_ground(ends, anchors, grounds, findings)
+    made += [one for one in more if one["id"].word not in {m["id"].word for m in made}]
+    of_types = {
+        sheet: list(read_rows(table, findings)) if (table := tables[sheet]) else []
+        for sheet in TYPE_SHEETS
+        if sheet != ANCHORS.name
+    }
+    of_types[ANCHORS.name] = [*name_by_ground(anchors), *made]
+    types = {
+        sheet: _read_types(tables[sheet], of_types[sheet], findings)
+        for sheet in TYPE_SHEETS
+    }
     lines = Lines(
         nets=nets,
         ends=index_lines(ends, "row", say("ends.one_line"), findings),
@@ -183,7 +248,7 @@ def _read_lines(
         unreadable=[sheet for sheet, found in types.items() if found is None],
         ranges=ranges,
     )
-    if tables[NETS.name]:
+    if nets:
         for lines_of in snow.values():
             refuse_unknown_ids([lines_of[0]["row"]], lines.places, findings)
         named = (one["row"] for one in lines.ends.values())
@@ -192,11 +257,14 @@ def _read_lines(
 
 
 def _build_rows(
-    tables: Mapping[str, Table | None], lines: Lines, findings: list[Finding]
+    ranged: Table | None,
+    nets: Sequence[Table],
+    lines: Lines,
+    findings: list[Finding],
 ) -> tuple[NetRow, ...]:
     """Net rows without a fault, held against what ranges over the whole site."""
-    nets, ranged, ranges = tables[NETS.name], tables[RANGES.name], lines.ranges
-    rows = build_net_rows(nets, lines, findings) if nets else ()
+    ranges = lines.ranges
+    rows = build_net_rows(nets[0], lines, findings) if nets else ()
     findings.extend(ranges.findings)
     if ranged and ranges.ranges:
         refuse_large_grid(ranged, ranges.ranges, len(rows), findings)
@@ -250,24 +318,38 @@ def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
     ]
 
 
-def _read_project(
-    table: Table | None, findings: list[Finding]
-) -> tuple[Project, dict[str, str]]:
-    """Project and the cell of each of its values."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Cover:
+    """Sheet Project: the project, the cells of its values, what holds for all rows."""
+
+    project: Project = field(default_factory=Project)
+    cells: Mapping[str, str] = field(default_factory=dict)
+    site_wide: SiteWide = field(default_factory=dict)
+
+
+def _read_project(table: Table | None, findings: list[Finding]) -> _Cover:
     values: dict[str, str] = {}
     cells: dict[str, str] = {}
+    site_wide: dict[str, Reading] = {}
     if table is None:
-        return Project(), cells
+        return _Cover()
     for row in read_rows(table, findings):
         item, value = row["item"], row["value"]
-        if not item.word:
+        if not item.word or _is_strange(item, value, table, findings):
             continue
-        field = match_item(item, table, "item", findings).field
-        if field is None or value.state != "given":
+        meaning = match_item(item, table, "item", findings)
+        field = meaning.field
+        if field is None or value.state != "given" or not (item.cell and value.cell):
             continue
-        if field.key in values:
+        if field.key in cells:
             rule = say("item.twice", place=cells[field.key])
             refuse(item, rule, say("item.one_line"), findings)
+        elif field.table == NETS.name:
+            beside = table.sheet.cell(value.cell.row, value.cell.column + 1)
+            site_wide[field.key] = read_once(
+                item.cell, value.cell, beside, meaning, findings
+            )
+            cells[field.key] = value.place
         elif field.key == "accepted_law" and value.word not in CREEP_LAWS:
             refuse(
                 value, say("item.no_law"), say("accepted.words", words=_LAWS), findings
@@ -275,17 +357,32 @@ def _read_project(
         else:
             values[field.key], cells[field.key] = value.word, value.place
     refuse_unused_answers(table, "item", findings)
-    return Project(**values), cells
+    of_project = {key: place for key, place in cells.items() if key in values}
+    return _Cover(project=Project(**values), cells=of_project, site_wide=site_wide)
 
 
-def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] | None:
+def _is_strange(
+    item: Reading, value: Reading, table: Table, findings: list[Finding]
+) -> bool:
+    """A line of a cover sheet is about something else, which is told."""
+    if item.cell is None or table.titles:
+        return False
+    if value.state == "given" and is_about(item.cell, table):
+        return False
+    refuse(item, say("item.not_read"), "", findings, severity="note")
+    return True
+
+
+def _read_types(
+    table: Table | None, rows: list[Row], findings: list[Finding]
+) -> dict[str, Row] | None:
     """Lines of a type sheet by id; a faulty line keeps its id known.
 
     None without the sheet, its headings or its column of ids.
     """
     if table is None:
         return None
-    rows = list(read_rows(table, findings))
+    rows = [fill_in_section(row) for row in rows]
     for row in rows:
         basis = row.get("basis")
         if basis and basis.state == "blank" and row["pull_out"].state == "given":

@@ -14,6 +14,7 @@ from netdesign.site.cells.findings import Finding, Refusal, Severity, add_neares
 from netdesign.site.cells.numbers import (
     DecimalMark,
     parse_number,
+    read_grade,
     split_unit,
 )
 from netdesign.site.columns.fields import Field, normalise
@@ -235,7 +236,8 @@ def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | 
 
 
 def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
-    number = _take_number(cell, unit)
+    grade = read_grade(cell.value) if field.is_grade else None
+    number = _take_number(cell, unit) if grade is None else grade
     if isinstance(number, Refusal):
         return number
     value = convert_unit(number, unit, field.unit)

@@ -61,7 +61,7 @@ def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
         findings.append(cell.finding(rule, severity="note"))
     for above, row in pairwise((first_row - 1, *filled)):
         is_at_part = above in passed or row in passed
-        is_whole = not (plan.items or sheet.is_delimited) and _is_whole(table, row)
+        is_whole = plan.has_pairs or (not plan.items and _is_whole(table, row))
         if row == above + 1 or is_at_part:
             continue
         empty = sheet.cell(above + 1, 1)
@@ -94,8 +94,6 @@ def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
 def _find_other(table: Table, row: int, rows: list[int]) -> Message | None:
     """Rule of a line that holds no data; None of a line of the table."""
     cells = table.sheet.row(row)
-    if table.sheet.is_delimited:  # a line may be cut at wrong places
-        return None
     if _repeats_headings(table, cells):
         return say("table.headings_again")
     if _is_part(table.sheet, table.plan, cells, rows):
@@ -142,13 +140,17 @@ def _is_part(
 
 
 def _is_total(table: Table, row: int) -> bool:
-    """A line sums up others: named so, with less than half of what a line needs."""
+    """A line sums up others: named so, with less than half of what a line holds."""
     first = table.sheet.row(row)[0]
     if not isinstance(first.value, str) or not _TOTAL.match(first.value.strip()):
         return False
+    every = [column.number for column in table.columns.values()]
     needed = _list_needed(table)
-    blank = sum(table.sheet.cell(row, column).is_blank for column in needed)
-    return 2 * blank > len(needed)
+    blank, lacking = (
+        sum(table.sheet.cell(row, column).is_blank for column in columns)
+        for columns in (every, needed)
+    )
+    return 2 * blank > len(every) and 2 * lacking >= len(needed)
 
 
 def _is_whole(table: Table, row: int) -> bool:

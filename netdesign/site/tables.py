@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from netdesign.site.cells.cells import Sheet, Workbook
+from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import (
     Field,
@@ -16,8 +16,14 @@ from netdesign.site.columns.fields import (
     normalise,
     split_heading,
 )
-from netdesign.site.columns.lexicon import UNKNOWN, Lexicon, Meaning
-from netdesign.site.headings import Table, find_cover, find_headings
+from netdesign.site.columns.lexicon import (
+    IGNORE,
+    UNANSWERED,
+    UNKNOWN,
+    Lexicon,
+    Meaning,
+)
+from netdesign.site.headings import Table, find_cover, find_headings, find_near
 from netdesign.site.mapping import is_meant
 from netdesign.site.readings import (
     Reading,
@@ -56,9 +62,32 @@ def find_table(
         None if the sheet or its row of headings is missing; that is a finding
         unless the plan does not require the sheet.
     """
-    sheet = _find_sheet(workbook, plan, findings)
-    if sheet is None:
-        return None
+    sheets = _find_sheets(workbook, plan, findings)
+    _refuse_doubles(sheets, plan, findings)
+    return _take_table(sheets[0], plan, findings) if sheets else None
+
+
+def find_tables(
+    workbook: Workbook, plan: SheetPlan, findings: list[Finding]
+) -> tuple[Table, ...]:
+    """All sheets of one plan, with their headings: one for each structure."""
+    sheets = _find_sheets(workbook, plan, findings)
+    plain = [sheet for sheet in sheets if plan.matches(sheet.name)]
+    _refuse_doubles(plain, plan, findings)
+    read = [sheet for sheet in sheets if sheet not in plain[1:]]
+    found = (_take_table(sheet, plan, findings) for sheet in read)
+    return tuple(table for table in found if table is not None)
+
+
+def _refuse_doubles(
+    sheets: Sequence[Sheet], plan: SheetPlan, findings: list[Finding]
+) -> None:
+    for double in sheets[1:]:
+        rule = say("table.second_sheet", name=plan.title, first=sheets[0].name)
+        findings.append(double.finding(rule))
+
+
+def _take_table(sheet: Sheet, plan: SheetPlan, findings: list[Finding]) -> Table | None:
     table = find_headings(sheet, plan, findings)
     if table is None:
         return None
@@ -94,12 +123,41 @@ def _read_field(
     cell = table.sheet.cell(row, column.number)
     if column.unit is None:  # so is the unit
         return read_without_unit(cell, field, findings)
+    answer = _find_word(table, field, cell)
+    if answer:
+        return _read_answered(table, field, cell, answer, findings)
     return read_cell(cell, field, column.unit, findings)
 
 
-def _find_sheet(
+def _find_word(table: Table, field: Field, cell: Cell) -> str:
+    """Answer to a word that nobody knows; empty where none is needed."""
+    if field.kind != "word" or cell.is_blank:
+        return ""
+    answers = {normalise(text): word for text, word in table.sheet.words.items()}
+    answer = answers.get(normalise(cell.text), "")
+    return "" if answer == UNANSWERED else answer
+
+
+def _read_answered(
+    table: Table, field: Field, cell: Cell, answer: str, findings: list[Finding]
+) -> Reading:
+    file = table.sheet.answered_in
+    if answer == IGNORE:
+        rule = say("heading.word_ignored", file=file)
+        findings.append(cell.finding(rule, severity="note"))
+        return read_nothing(field, cell)
+    reading = read_cell(replace(cell, value=answer), field, "", findings)
+    if reading.state != "given":
+        return reading
+    word = field.name_word(reading.word)
+    rule = say("heading.word_answered", word=word, file=file)
+    findings.append(cell.finding(rule, severity="note"))
+    return replace(reading, text=cell.text, cell=cell)
+
+
+def _find_sheets(
     workbook: Workbook, plan: SheetPlan, findings: list[Finding]
-) -> Sheet | None:
+) -> list[Sheet]:
     sheets = [
         sheet
         for sheet in workbook.sheets
@@ -107,10 +165,29 @@ def _find_sheet(
     ]
     if not sheets:
         findings.extend(_judge_missing(workbook, plan))
-        return None
-    rule = say("table.second_sheet", name=plan.title, first=sheets[0].name)
-    findings.extend(double.finding(rule) for double in sheets[1:])
-    return sheets[0]
+    else:
+        findings.extend(_ask_for_copies(workbook, plan))
+    return sheets
+
+
+def _ask_for_copies(workbook: Workbook, plan: SheetPlan) -> Iterator[Finding]:
+    """Refuse sheets named as the planned one and something more, until answered."""
+    for name in workbook.unread:
+        is_open = name not in workbook.answers.sheets
+        if is_open and name not in workbook.hidden and plan.begins(name):
+            rule = say("table.copy", name=plan.title)
+            accepted = say("table.copy_accepted", name=plan.title)
+            yield Finding(file=workbook.file, sheet=name, rule=rule, accepted=accepted)
+
+
+def is_about(name: Cell, table: Table) -> bool:
+    """A name may mean an item of a table, though perhaps misspelt or unclear."""
+    lexicon = Lexicon.of(table.plan.items, table.plan)
+    meaning = understand(Title(name), lexicon, table.sheet.answers)
+    is_known = bool(meaning.field or meaning.readings or meaning.answer)
+    start = _MARKS.split(str(name.value))[0]
+    near = (find_item(start, table.plan.items), find_near(start, table.plan.items))
+    return is_known or any(near)
 
 
 def is_near(name: str, plan: SheetPlan) -> bool:
@@ -170,9 +247,13 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
         findings.append(sheet.finding(say("table.hidden_sheet"), severity="note"))
     hidden = [
         *(
-            (sheet.row(row)[0], say("table.hidden_row"))
+            (sheet.row(row)[0], rule)
+            for rule, rows in (
+                (say("table.hidden_row"), sheet.hidden_rows),
+                (say("table.struck_row"), sheet.struck_rows),
+            )
             for row in table.rows
-            if row in sheet.hidden_rows
+            if row in rows
         ),
         *(
             (sheet.cell(table.heading_row, number), say("table.hidden_column"))
@@ -189,7 +270,8 @@ def _note_lines_above(table: Table) -> Iterator[Finding]:
     """Lines above the headings: a title block, or lines of a table put too high."""
     for row in range(1, table.heading_row):
         cells = table.sheet.row(row)
-        if len(cells) < 2 or row in table.group_rows:
+        is_read = any(one.name.row == row for one in table.above)
+        if len(cells) < 2 or row in table.group_rows or is_read:
             continue
         item = find_item(str(cells[0].value), table.plan.items)
         yield cells[0].finding(
@@ -211,7 +293,7 @@ def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> Non
             if cover:
                 rule = say("table.below_merged", range=cover.text)
                 findings.append(cell.finding(rule, say("table.heading_each")))
-            elif table.sheet.is_delimited or table.plan.items:
+            elif table.sheet.is_delimited or (table.plan.items and table.titles):
                 # a delimiter too many: what stands here may belong to the left of it
                 rule = say("table.no_heading")
                 findings.append(cell.finding(rule, say("table.as_many_cells")))

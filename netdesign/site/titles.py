@@ -92,9 +92,14 @@ def list_titles(sheet: Sheet, row: int) -> list[Title]:
 
 
 def _find_group(sheet: Sheet, row: int, column: int) -> str:
-    """Text of a cell just above that is merged across this column and others."""
+    """Text of a cell just above that is merged across this column and others.
+
+    Across all of them it is the title of the table, and groups nothing.
+    """
+    columns = [cell.column for cell in sheet.row(row)]
     for merged in sheet.merged:
         is_wide = merged.last_column > merged.column and merged.last_row == row - 1
-        if is_wide and merged.covers(row - 1, column):
+        is_title = all(merged.covers(row - 1, one) for one in columns[:-1])
+        if is_wide and not is_title and merged.covers(row - 1, column):
             return str(sheet.cell(merged.row, merged.column).value or "")
     return ""

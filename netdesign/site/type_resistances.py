@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from netdesign.outcome import ModelError
@@ -19,18 +20,22 @@ from netdesign.resistance.post import (
     compute_bearing_resistance,
     compute_buckling_resistance,
 )
+from netdesign.resistance.products import find_product
 from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
-from netdesign.site.readings import Row, refuse
+from netdesign.site.columns.unit_names import from_si
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
-_ALONE = "ground"  # says something without the columns beside it
+# What says something without the columns beside it.
+_ALONE = ("ground", "bar_strength", "yield_strength")
 _DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
 _BENT, _SOLID = ("bar", "micropile"), "bar"
 SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
+_OF_GROUND = ("pull_out", "bearing")  # worked out from tables that are a floor
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
 
 
@@ -90,17 +95,16 @@ def check_tests(row: Row, findings: list[Finding]) -> None:
 
 
 def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
+    governing = _find_governing(rule, row)
+    if governing:
+        _tell_governing(rule, governing, row, findings)
+        return row
     if not _is_ready(row, rule.needed, findings):
         return row
     first = row[rule.needed[0]]
     if any(row[key].state == "faulty" for key in rule.optional):
         return row
     if rule.key == "tendon" and lacks_inner(row):  # may be a tube: not known
-        return row
-    if row[rule.key].state == "given":
-        given = row[rule.key]
-        beside = say("type.beside", name=given.field.name, place=given.place)
-        refuse(first, beside, say("accepted.one_of_two"), findings)
         return row
     try:
         value, derivation = rule.compute(row)
@@ -117,13 +121,77 @@ def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
     return {**row, rule.key: computed}
 
 
+def _find_governing(rule: _Rule, row: Row) -> Reading | None:
+    """Reading that governs over dimensions: the resistance itself, or tests of it."""
+    tests = TEST_COLUMNS if rule.key == "pull_out" else ()
+    given = (row[key] for key in (rule.key, *tests) if row[key].state == "given")
+    return next(given, None)
+
+
+def _tell_governing(
+    rule: _Rule, governing: Reading, row: Row, findings: list[Finding]
+) -> None:
+    """Say that dimensions beside a resistance are kept, and do not count."""
+    beside = next((row[key] for key in rule.needed if row[key].state == "given"), None)
+    if beside and beside.field.key not in _ALONE:
+        name, place = governing.field.name, governing.place
+        rule_text = say("type.governs", name=name, place=place)
+        refuse(beside, rule_text, "", findings, severity="note")
+
+
+def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
+    """Resistances of steel and ropes as given, with what their dimensions give [N]."""
+    for rule in _RULES:
+        given = row.get(rule.key)
+        if given is None or given.state != "given" or given.derivation:
+            continue
+        needed = [row[key] for key in (*rule.needed, *rule.optional)]
+        is_whole = all(row[key].state == "given" for key in rule.needed)
+        is_tube = rule.key == "tendon" and lacks_inner(row)
+        if rule.key in _OF_GROUND or not is_whole or is_tube:
+            continue
+        if not any(one.state == "faulty" for one in needed):
+            with suppress(ModelError):  # no resistance at all: nothing to compare
+                yield given, rule.compute(row)[0]
+
+
+def fill_in_section(row: Row) -> Row:
+    """Line of sheet Posts with the section that its name means, where none is typed.
+
+    The weaker axis counts, and the wider side against the snow.
+    """
+    columns = {key: one.field.of_product for key, one in row.items()}
+    is_post = "buckling_length" in row
+    if not is_post or row["compression"].state == "given":
+        return row
+    product = find_product(row["id"].word)
+    if product is None or product.family != "section":
+        return row
+    filled = dict(row)
+    how = say("derivation.product", product=product.id, sources=product.sources)
+    for key, names in columns.items():
+        spans = [product.values[one] for one in names if one in product.values]
+        if not spans or row[key].state != "blank":
+            continue
+        is_width = key == "post_width"
+        value = max(high for _, high in spans) if is_width else min(spans)[0]
+        filled[key] = replace(
+            row[key],
+            state="given",
+            value=from_si(value, row[key].field.unit),
+            derivation=how,
+            cell=row["id"].cell,
+        )
+    return filled
+
+
 def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
     """All columns are given; some without the others are a finding.
 
-    A ground may stand alone: it says where a type was tested, too.
+    A ground may stand alone, and says where a type was tested; so may a steel.
     """
     present = [row[key] for key in keys if key in row]
-    asking = [row[key] for key in keys if key in row and key != _ALONE]
+    asking = [row[key] for key in keys if key in row and key not in _ALONE]
     given = [reading for reading in asking if reading.state == "given"]
     if any(reading.state == "faulty" for reading in present) or not given:
         return False

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from datetime import date, datetime
+from datetime import date
 from pathlib import Path
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding, fold_findings
+from netdesign.site.cells.numbers import read_moment
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
@@ -180,7 +181,7 @@ def _read_day(reading: Reading, findings: list[Finding]) -> date | None:
     if reading.state != "given":
         return None
     try:
-        return datetime.fromisoformat(reading.word).date()
+        return read_moment(reading.word).date()
     except ValueError:
         rule, accepted = say("winter_sheet.no_date"), say("winter_sheet.such_as")
         refuse(reading, rule, accepted, findings)

@@ -150,10 +150,11 @@ def test_so_is_that_of_a_workbook(sheets, save, refused, name):
     assert (finding.sheet, finding.cell) == (name, "")
 
 
-def test_a_second_sheet_of_a_like_name_is_only_noted(sheets, save):
+def test_a_second_sheet_of_a_like_name_is_asked_about(sheets, save, refused):
     sheets["Anchors old"] = [["id"], ["A9"]]
-    (note,) = map(str, read_site(save(sheets)).notes)
-    assert "Anchors old: the sheet has no part in the check" in note
+    (finding,) = refused(save(sheets))
+    assert finding.sheet == "Anchors old"
+    assert 'is named like sheet "Anchors"' in str(finding.rule)
 
 
 def test_items_above_their_headings_are_refused(tmp_path):

@@ -131,8 +131,6 @@ def test_dimensions_in_other_languages_and_units(sheets, save, columns):
 @pytest.mark.parametrize(
     ("columns", "told"),
     [
-        ({"bar diameter [mm]": 28}, "needs more beside it: bar strength"),
-        (BOND, "is given beside the pull-out resistance in Anchors!C2"),
         (
             BOND | {"ground": "gravle"},
             "is not a known word (ground); accepted: clay-soft",
@@ -171,13 +169,19 @@ TESTS = {
 }
 
 
-def test_tests_beside_the_dimensions_of_a_bond_are_refused(sheets, save, refused):
-    """The computed value would else be used, and shown as tested."""
+def test_tests_govern_over_the_dimensions_of_a_bond(sheets, save):
+    """Both are kept, as every supplier's table has them; which one counts is told."""
     sheets["Anchors"][1][2:] = [None, None]
     add_columns(sheets, "Anchors", **TESTS, **BOND)
-    (finding,) = refused(save(sheets))
-    assert finding.text == "3"
-    assert "is given beside the pull-out resistance in Anchors!I2" in str(finding)
+    site = read_site(save(sheets))
+    (pulled,) = {
+        one
+        for one in site.rows[0].resistances
+        if (one.member, one.mode) == ("foot_anchor", "pull_out")
+    }
+    assert (pulled.tests.count, pulled.value) == (3, None)
+    told = [one for one in site.findings if one.rule.key == "type.governs"]
+    assert "number of tests in Anchors!E2 governs" in str(told[0])
 
 
 @pytest.mark.parametrize(

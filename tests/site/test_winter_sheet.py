@@ -73,7 +73,7 @@ def test_blank_height_is_a_day_without_a_reading(sheets, save):
     [
         (days(0, -1), "B3", "accepted: 0 to 8 m"),
         (days(0, 801), "B3", "accepted: 0 to 8 m"),
-        ([["1.2.2003", 0, None]], "A2", "is no date"),
+        ([["1/2/2003", 0, None]], "A2", "is no date"),
         ([*days(0, 20), ["2003-02-02", 21, None]], "A4", "second reading on its day"),
         ([*days(0, 20), ["2003-02-01", 21, None]], "A4", "before the line above"),
         ([*days(0, 20), ["2003-02-07", 21, None]], "A4", "4 days without a reading"),

@@ -42,6 +42,9 @@ class Answers:
     headings : mapping of str to mapping of str to str
         By sheet as typed, then heading or item as typed: a heading with its unit, or
         ``ignore``.
+    words : mapping of str to mapping of str to str
+        By sheet as typed, then text of a cell: one of the words of its column, or
+        ``ignore``.
     decimal_mark : str
         Of numbers stored as text.
     """
@@ -50,6 +53,7 @@ class Answers:
     sha256: str = ""
     sheets: Mapping[str, str] = field(default_factory=dict)
     headings: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    words: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     decimal_mark: DecimalMark = ""
 
 
@@ -159,10 +163,12 @@ class Sheet:
     rows: Mapping[int, Mapping[int, Cell]]
     merged: tuple[MergedRange, ...] = ()
     hidden_rows: frozenset[int] = frozenset()
+    struck_rows: frozenset[int] = frozenset()
     hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
     is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
     answers: Mapping[str, str] = field(default_factory=dict)  # by heading as typed
+    words: Mapping[str, str] = field(default_factory=dict)  # answers, by text
     answered_in: str = ""  # the file of the answers
 
     def cell(self, row: int, column: int) -> Cell:
@@ -200,6 +206,7 @@ class Workbook:
     sha256: str
     sheets: tuple[Sheet, ...]
     unread: tuple[str, ...]
+    hidden: frozenset[str] = frozenset()  # those of the unread that nobody sees
     answers: Answers = UNASKED
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
 

@@ -14,7 +14,11 @@ from netdesign.words.message import Message, say
 Severity = Literal["error", "question", "note"]
 
 _LONGEST_QUOTE = 60
-_OF_SHEETS = ("table.lacks_sheet", "table.close_to_missing", "table.second_sheet")
+_OF_SHEETS = (
+    *("table.lacks_sheet", "table.close_to_missing", "table.second_sheet"),
+    "table.copy",
+)
+_OF_WORDS = ("cell.unknown_word",)
 _ALIKE = ("number.ambiguous",)  # rules that repeat the text of their cell
 _MOST_ALIKE = 12  # named after the first
 
@@ -81,7 +85,7 @@ class Finding:
         """An answer in a file beside the workbook can settle it."""
         area = self.rule.key.partition(".")[0]
         return self.severity == "error" and (
-            area in ("heading", "item") or self.rule.key in _OF_SHEETS
+            area in ("heading", "item") or self.rule.key in (*_OF_SHEETS, *_OF_WORDS)
         )
 
     def __str__(self) -> str:

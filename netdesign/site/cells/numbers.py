@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass
+from datetime import datetime
 from typing import Literal
 
 from netdesign.site.cells.findings import Refusal
@@ -248,3 +249,46 @@ def split_range(text: str) -> tuple[str, str, str] | None:
     if low_unit and low_unit != high_unit:
         return None
     return low, high, high_unit
+
+
+_PAIR = r"(\d{3,4})\s?/\s?\d{3,4}"  # yield and ultimate strength
+_GRADE = re.compile(
+    rf"(?:[A-Za-z]+\s?)?{_PAIR}|[SB]\s?(\d{{3,4}})(?:\s?[A-Z][A-Z\d+]{{0,5}}|\+[A-Z]+)?"
+)
+_LEAST_GRADE = 200.0  # [MPa]; "St 37" is of another kind
+
+
+def read_grade(value: object) -> float | None:
+    """Yield strength that a steel grade names [MPa]; None of any other text.
+
+    >>> read_grade("S 355 J2"), read_grade("500/550"), read_grade("GEWI")
+    (355.0, 500.0, None)
+    """
+    match = _GRADE.fullmatch(value.strip()) if isinstance(value, str) else None
+    strength = float(match[1] or match[2]) if match else 0.0
+    return strength if strength >= _LEAST_GRADE else None
+
+
+_DOTTED = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})\b(.*)", re.DOTALL)
+
+
+def read_moment(text: str) -> datetime:
+    """Date, perhaps with a time: ISO 8601, or day, month and year with points.
+
+    Points are never American, so nothing is guessed.
+
+    Raises
+    ------
+    ValueError
+        If the text is no date.
+
+    Examples
+    --------
+    >>> read_moment("1.11.2023 06:00").isoformat()
+    '2023-11-01T06:00:00'
+    """
+    dotted = _DOTTED.fullmatch(text.strip())
+    if dotted:
+        day, month, year, rest = dotted.groups()
+        text = f"{year}-{int(month):02}-{int(day):02}{rest}"
+    return datetime.fromisoformat(text.strip())

@@ -31,6 +31,7 @@ _TEXT = "{urn:oasis:names:tc:opendocument:xmlns:text:1.0}"
 _STYLE = "{urn:oasis:names:tc:opendocument:xmlns:style:1.0}"
 _CALCEXT = "{urn:org:documentfoundation:names:experimental:calc:xmlns:calcext:1.0}"
 
+_STRUCK = f"{_STYLE}text-line-through-style"
 _ERROR = re.compile(r"#[A-Z/0?!]+|Err:[0-9]+")
 _TIME = re.compile(r"PT([0-9]+)H([0-9]+)M([0-9.]+)S")
 _LARGEST_WHOLE = 1e15
@@ -49,6 +50,7 @@ class _OpenSheet:
     cells: list[Cell] = field(default_factory=list)
     merged: list[MergedRange] = field(default_factory=list)
     hidden_rows: set[int] = field(default_factory=set)
+    struck_rows: set[int] = field(default_factory=set)
     columns: int = 0  # described so far
     hidden_columns: set[int] = field(default_factory=set)
 
@@ -60,6 +62,7 @@ class _OpenSheet:
             rows=group_by_row(self.cells),
             merged=tuple(self.merged),
             hidden_rows=frozenset(self.hidden_rows),
+            struck_rows=frozenset(self.struck_rows),
             hidden_columns=frozenset(self.hidden_columns),
             is_hidden=self.is_hidden,
         )
@@ -70,8 +73,8 @@ def read_ods(
     content: bytes,
     is_wanted: Callable[[str], bool],
     decimal_mark: DecimalMark,
-) -> tuple[tuple[Sheet, ...], tuple[str, ...]]:
-    """Wanted sheets and the names of the others.
+) -> tuple[tuple[Sheet, ...], tuple[str, ...], frozenset[str]]:
+    """Wanted sheets, names of the others, and of all that nobody sees.
 
     Raises
     ------
@@ -84,7 +87,9 @@ def read_ods(
 
     sheets: list[Sheet] = []
     unread: list[str] = []
+    hidden: set[str] = set()
     hidden_styles: set[str] = set()
+    struck_styles: set[str] = set()
     sheet: _OpenSheet | None = None
     with (
         zipfile.ZipFile(BytesIO(content)) as archive,
@@ -97,8 +102,10 @@ def read_ods(
                 name = element.get(f"{_TABLE}name", "")
                 style = element.get(f"{_TABLE}style-name", "")
                 sheet = _OpenSheet(file, name, style in hidden_styles, decimal_mark)
+                hidden |= {name} if sheet.is_hidden else set()
             elif event == "end" and element.tag == f"{_STYLE}style":
                 hidden_styles |= _name_hidden_style(element)
+                struck_styles |= _name_struck_style(element)
             elif event == "end" and sheet is not None:
                 if element.tag == f"{_TABLE}table":
                     if is_wanted(sheet.name):
@@ -107,8 +114,8 @@ def read_ods(
                         unread.append(sheet.name)
                     sheet = None
                 elif is_wanted(sheet.name):
-                    _take_element(sheet, element)
-    return tuple(sheets), tuple(unread)
+                    _take_element(sheet, element, struck_styles)
+    return tuple(sheets), tuple(unread), frozenset(hidden)
 
 
 def _name_hidden_style(style: Any) -> set[str]:
@@ -117,9 +124,15 @@ def _name_hidden_style(style: Any) -> set[str]:
     return {style.get(f"{_STYLE}name", "")} if is_hidden else set()
 
 
-def _take_element(sheet: _OpenSheet, element: Any) -> None:
+def _name_struck_style(style: Any) -> set[str]:
+    properties = style.find(f"{_STYLE}text-properties")
+    line = None if properties is None else properties.get(_STRUCK)
+    return {style.get(f"{_STYLE}name", "")} if line not in (None, "none") else set()
+
+
+def _take_element(sheet: _OpenSheet, element: Any, struck_styles: set[str]) -> None:
     if element.tag == f"{_TABLE}table-row":
-        _take_row(sheet, element)
+        _take_row(sheet, element, struck_styles)
         element.clear()
     elif element.tag == f"{_TABLE}table-column":
         count = _read_count(element, "number-columns-repeated")
@@ -129,13 +142,18 @@ def _take_element(sheet: _OpenSheet, element: Any) -> None:
             sheet.hidden_columns.update(range(first, last + 1))
 
 
-def _take_row(sheet: _OpenSheet, element: Any) -> None:
+def _take_row(sheet: _OpenSheet, element: Any, struck_styles: set[str]) -> None:
     count = _read_count(element, "number-rows-repeated")
     filled = list(_filled_cells(element))
+    is_struck = bool(filled) and all(
+        cell.get(f"{_TABLE}style-name") in struck_styles for _, cell in filled
+    )
     for row in range(sheet.row + 1, sheet.row + count + 1) if filled else ():
         require_rows(sheet.file, sheet.name, row)
         if _is_hidden(element):
             sheet.hidden_rows.add(row)
+        if is_struck:
+            sheet.struck_rows.add(row)
         for column, cell in filled:
             _note_merge(sheet, cell, row, column)
             sheet.cells += _take_cell(sheet, cell, row, column)

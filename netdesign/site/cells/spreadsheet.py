@@ -34,7 +34,9 @@ _ACCEPTED_FILE = say("accepted.file")
 _TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
 _MACRO_PARTS = ("xl/vbaProject.bin", "Basic/", "Scripts/")
 
-_Content = tuple[tuple[Sheet, ...], tuple[str, ...], tuple[Finding, ...]]
+_Content = tuple[
+    tuple[Sheet, ...], tuple[str, ...], frozenset[str], tuple[Finding, ...]
+]
 
 
 def read_workbook(
@@ -78,7 +80,7 @@ def read_workbook(
         if not paths:
             raise refuse_file(path.name, say("book.no_csv"), say("book.nets_csv"))
         contents = _read_texts(path.name, paths)
-        read = read_delimited(
+        sheets, unread, remarks = read_delimited(
             contents,
             is_wanted,
             is_name or is_wanted,
@@ -86,6 +88,7 @@ def read_workbook(
             text_format,
             by_name=is_folder,
         )
+        read: _Content = sheets, unread, frozenset(), remarks
         content = b"".join(contents.values())
     else:
         content = _read_file(path, MAX_FILE_BYTES)
@@ -95,7 +98,8 @@ def read_workbook(
         sha256=hashlib.sha256(content).hexdigest(),
         sheets=read[0],
         unread=read[1],
-        remarks=read[2],
+        hidden=read[2],
+        remarks=read[3],
     )
 
 

@@ -75,8 +75,8 @@ def read_xlsx(
     content: bytes,
     is_wanted: Callable[[str], bool],
     decimal_mark: DecimalMark,
-) -> tuple[tuple[Sheet, ...], tuple[str, ...]]:
-    """Wanted sheets and the names of the others; macros are never looked at."""
+) -> tuple[tuple[Sheet, ...], tuple[str, ...], frozenset[str]]:
+    """Wanted sheets, names of the others, those that nobody sees; never macros."""
     with warnings.catch_warnings():
         # openpyxl warns of features that it would drop on saving; nothing is saved.
         warnings.simplefilter("ignore")
@@ -99,7 +99,8 @@ def read_xlsx(
             )
             for name, layout in layouts.items()
         )
-    return sheets, tuple(name for name in names if not is_wanted(name))
+    hidden = {one.title for one in stored.worksheets if one.sheet_state != "visible"}
+    return sheets, tuple(one for one in names if not is_wanted(one)), frozenset(hidden)
 
 
 def _read_formulas(typed: Any, layout: _Layout) -> dict[tuple[int, int], str]:
@@ -129,8 +130,10 @@ def _read_sheet(
         )
         for (row, column), formula in formulas.items()
     }
+    struck: dict[int, bool] = {}
     for cell in _filled_cells(stored, layout.last_row):
         place = (cell.row, cell.column)
+        struck[cell.row] = struck.get(cell.row, True) and _is_struck(cell)
         cells[place] = _take_cell(file, cell, formulas.get(place, ""), decimal_mark)
     require_columns(file, stored.title, cells.values())
     return Sheet(
@@ -139,6 +142,7 @@ def _read_sheet(
         rows=group_by_row(cells.values()),
         merged=layout.merged,
         hidden_rows=layout.hidden_rows,
+        struck_rows=frozenset(row for row, is_struck in struck.items() if is_struck),
         hidden_columns=layout.hidden_columns,
         is_hidden=stored.sheet_state != "visible",
     )
@@ -189,6 +193,11 @@ class _Layout:
     hidden_rows: frozenset[int]
     hidden_columns: frozenset[int]
     has_formulas: bool
+
+
+def _is_struck(cell: Any) -> bool:
+    """Text of a cell is struck out."""
+    return bool(cell.has_style and cell.font and cell.font.strike)
 
 
 def _scan_layout(sheet: Any) -> _Layout:

@@ -32,7 +32,7 @@ READ_LANGUAGES = (*LANGUAGES, "it")  # Italian is read, though not spoken
 _ELSEWHERE = {"key", "table", "headings", "notes", "spellings", "named"}
 _KEYS = {one.name for one in fields(Field)} - _ELSEWHERE
 _OF_COLUMN = {"units", "bounds", "usual", "zero_says_none"}  # a range has them too
-_SHEET_KEYS = {"required", "one_of", "items"}
+_SHEET_KEYS = {"required", "one_of", "items", "site_wide"}
 
 
 @lru_cache
@@ -52,13 +52,14 @@ def read_plan(data: Data, name: str) -> SheetPlan:
     """
     entry = data["sheets"][name]
     _require_known(entry, _SHEET_KEYS, f"sheets.{name}")
-    for key in entry.get("one_of", ()):
+    for key in (*entry.get("one_of", ()), *entry.get("site_wide", ())):
         _find(data[name], key, f"sheets.{name}")
     return SheetPlan(
         name=name,
         fields=read_fields(data, name),
         required=entry.get("required", False),
         one_of=tuple(entry.get("one_of", ())),
+        site_wide=tuple(entry.get("site_wide", ())),
         unclear=_list_unclear(name),
         names=_list_names(f"sheet.{name}", "sheets", name),
         items=read_fields(data, entry["items"]) if "items" in entry else (),
@@ -193,8 +194,11 @@ def _load_headings(language: str) -> Data:
     return load_file(f"headings/{language}")
 
 
-PROJECT = read_plan(load_file("columns"), "Project")
 NETS = read_plan(load_file("columns"), "Nets")
+PROJECT = read_plan(load_file("columns"), "Project")
+# As offices type it, also with what holds for all net rows; the template does not offer
+# that.
+PROJECT_AS_TYPED = replace(PROJECT, items=(*PROJECT.items, *NETS.list_site_wide()))
 # As offices type it, also with both ends in one cell; the template does not offer that.
 RANGES_AS_TYPED = read_plan(load_file("columns"), "Ranges")
 RANGES = replace(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Container, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Literal
 
@@ -16,6 +16,7 @@ from netdesign.words.message import Message, say
 Kind = Literal["number", "count", "word", "id", "text"]
 _LONGEST_HEADING = 100
 _NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
+_STRUCTURE = re.compile(r"[A-Za-z]|[IVX]{1,4}|\d{1,2}|[A-Za-z]\d")
 _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 
 
@@ -68,6 +69,8 @@ class Field:
         Value of an empty cell, in the first unit.
     words : tuple of str
         Accepted words.
+    is_grade : bool
+        Whether a cell may name a steel grade instead of its strength.
     refers_to : str
         Sheet that defines the id, for ids of another sheet.
     alternative_to : str
@@ -104,6 +107,7 @@ class Field:
     instead: tuple[str, ...] = ()
     default: float | None = None
     words: tuple[str, ...] = ()
+    is_grade: bool = False
     refers_to: str = ""
     alternative_to: str = ""
     column: str = ""
@@ -187,10 +191,22 @@ class SheetPlan:
     # Accepted names by language, the sheet's own first; as the headings of a field.
     names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     items: tuple[Field, ...] = ()  # what the lines of a table of items may name
+    # Keys of columns that may stand once instead, for all lines of the sheet.
+    site_wide: tuple[str, ...] = ()
 
     def matches(self, sheet_name: str) -> bool:
         """A workbook's sheet of this name is the planned one."""
         return is_one_of(sheet_name, self.raw_names)
+
+    def is_structure(self, sheet_name: str) -> bool:
+        """A name is that of the planned sheet with a letter or number: "Nets A"."""
+        start, _, last = sheet_name.strip().rpartition(" ")
+        return bool(_STRUCTURE.fullmatch(last)) and self.matches(start)
+
+    def begins(self, sheet_name: str) -> bool:
+        """A name begins with that of the planned sheet: "Nets (old)"."""
+        words = re.split(r"[\s_(\[-]+", sheet_name.strip())
+        return any(self.matches(" ".join(words[:n])) for n in range(1, len(words)))
 
     @property
     def raw_names(self) -> tuple[str, ...]:
@@ -215,6 +231,23 @@ class SheetPlan:
         most = 1 if language == "en" else None
         names = (name for one in self.fields for name in one.headings[language][:most])
         return set(map(normalise, names))
+
+    def free(self, keys: Container[str]) -> SheetPlan:
+        """Plan without the need for some columns, which are given elsewhere."""
+        fields = tuple(
+            replace(one, required=False, default=None) if one.key in keys else one
+            for one in self.fields
+        )
+        return replace(self, fields=fields)
+
+    @property
+    def has_pairs(self) -> bool:
+        """Its lines are names with a value, which need no headings."""
+        return [one.key for one in self.fields] == ["item", "value"]
+
+    def list_site_wide(self) -> tuple[Field, ...]:
+        """Columns that may stand once."""
+        return tuple(one for one in self.fields if one.key in self.site_wide)
 
     def find_unclear(self, name: str) -> tuple[Field, ...]:
         """Fields that a normalised heading may mean, if it is an unclear one."""

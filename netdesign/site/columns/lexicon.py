@@ -28,6 +28,7 @@ _SYMBOL = re.compile(
 # What stands between two languages, the surest first; a stroke may also be part of
 # a name: "Frottement neige/filet".
 _BETWEEN = (r"\n|\s+[/|–—-]\s+|;", r"\n|\s+[/|–—-]\s+|;|/")
+_NUMBER_SIGN = re.compile("[Nn][°º]|#")  # names the ids; a plain N is a glide factor
 # Wherever a word may stand apart from the others: "de / high", "high (de)", "de, high".
 _APART = re.compile(r"\s+[–—-]\s+|[\n/|,;:()\[\]]")
 
@@ -101,6 +102,16 @@ def split_languages(text: str) -> Iterator[tuple[Part, ...]]:
         pieces = [one for one in re.split(between, without_units) if one.strip()]
         if len(pieces) > 1:
             yield tuple(map(read_part, pieces))
+
+
+def has_no_part(text: str) -> bool:
+    """A heading stands for what no check needs.
+
+    >>> has_no_part("Remarques :"), has_no_part("Remarques N")
+    (True, False)
+    """
+    words = load_file("signs")["no_part"]["words"]
+    return normalise(text) in set(map(normalise, words))
 
 
 def is_small(text: str) -> bool:
@@ -306,6 +317,8 @@ class Lexicon:
 
     def _match_alone(self, text: str) -> Meaning:
         own, bracket = split_heading(text)
+        if "id" in self.fields and _NUMBER_SIGN.fullmatch(text.strip()):
+            return Meaning(self.fields["id"])
         before = re.split(r"[\[(]", text)[0]  # where its signs do not count: "? / high"
         if own in self.names and not find_words_apart(before):
             found = self._conclude(self.names[own])

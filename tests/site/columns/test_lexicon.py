@@ -190,7 +190,7 @@ def test_a_symbol_or_group_of_another_quantity_is_asked_for(heading, group, cont
 @pytest.mark.parametrize(
     "heading",
     [
-        *("HK [m]", "Hk", "H", "D [m]", "N", "HS", "Hext", "hauteur", "Höhe H"),
+        *("HK [m]", "Hk", "H", "D [m]", "N", "hauteur", "Höhe H"),
         *("Werkhöhe", "hauteur d'ouvrage [m]", "altezza rete [m]", "Neigung [°]"),
         *("snow depth [m]", "altezza neve", "longueur", "distance", "amont", "Seil"),
         *("Schneehöhe rechtwinklig [m]", "post height [m]", "Stützenhöhe"),
@@ -306,7 +306,7 @@ def test_headings_of_offices_are_known(sheet, heading, key):
     assert LEXICA[sheet].match(heading).field.key == key
 
 
-@pytest.mark.parametrize("heading", ["Hs", "Werkabstand", "Reihenabstand"])
+@pytest.mark.parametrize("heading", ["Werkabstand", "Reihenabstand"])
 def test_a_heading_that_is_not_sure_is_asked_for(heading):
     meaning = LEXICA["Nets"].match(heading)
     assert meaning.field is None
