@@ -22,12 +22,13 @@ from netdesign.commands.options import (
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.causes import explain_with_file
 from netdesign.outcome import OutputError, SiteDataError
-from netdesign.words.catalogue import Language
+from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site
+    from netdesign.site.questions import Question
     from netdesign.words.catalogue import Language
 
 # Options of every site that is read; `open_site` takes them.
@@ -210,19 +211,29 @@ def init(site_file: Path, *, example: bool, language: Language, force: bool) -> 
     tell(say("cli.wrote", path=str(site_file)), language, err=True)
 
 
+def _put(question: Question, language: Language) -> str:
+    """One question on the terminal; an empty answer leaves it open."""
+    hints = "; ".join(render(one, language) for one in question.hints if one)
+    place = " › ".join(one for one in (question.sheet, question.asked) if one)
+    click.echo(f"{place}\n  {hints}", err=True)
+    answer: str = click.prompt(f"  {question.answer}", default="", show_default=False)
+    return answer
+
+
 @click.command(name="map")
 @click.argument("site_file", type=click.Path(path_type=Path))
 @text_options
+@click.option("--ask", is_flag=True, help="Ask one after another on the terminal.")
 @language_option("Of the comments in the file.")
 @force_option
 def map_headings(
-    site_file: Path, *, language: Language, force: bool, **reading: Any
+    site_file: Path, *, ask: bool, language: Language, force: bool, **reading: Any
 ) -> None:
     """Write SITE.map.toml: which headings mean what, to be answered.
 
     \b
     netdesign map site.xlsx
-    netdesign map chantier.xlsx --language fr
+    netdesign map chantier.xlsx --ask --language fr
     netdesign map site.xlsx --force      again, with the answers given so far
 
     Every question mark in the file asks for an answer: a heading of the workbook with
@@ -235,7 +246,9 @@ def map_headings(
     refuse_delimiter(site_file, language=language)
     place = name_map(site_file)
     require_free([place], overwrite=force)
-    text, missing = write_questions(site_file, build_text_format(**reading), language)
+    put = partial(_put, language=language) if ask else None
+    form = build_text_format(**reading)
+    text, missing = write_questions(site_file, form, language, put)
     write_files({place: text.encode()}, overwrite=force)
     tell(say("cli.wrote", path=str(place)), language, err=True)
     if missing:

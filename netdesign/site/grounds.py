@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.type_resistances import lacks_ground
 from netdesign.words.message import say
 
 _ANCHORS = "Anchors"
@@ -105,7 +106,5 @@ def _choose(
 
 def _has_bond(line: Row) -> bool:
     """A bond is to be worked out, once its ground is known."""
-    known, open_ = ("drill_diameter", "bond_length"), ("pull_out", "test_count")
-    return all(line[key].state == "given" for key in known) and all(
-        line[key].state == "blank" for key in open_
-    )
+    is_open = all(line[key].state == "blank" for key in ("pull_out", "test_count"))
+    return is_open and lacks_ground(line)

@@ -13,7 +13,13 @@ from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number, read_grade
 from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
-from netdesign.site.columns.lexicon import Lexicon, Meaning, fold
+from netdesign.site.columns.lexicon import (
+    UNANSWERED,
+    Lexicon,
+    Meaning,
+    fold,
+    says_sag,
+)
 from netdesign.site.columns.unit_names import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
@@ -29,7 +35,6 @@ _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 # How alike a heading must be to a missing one to count as that, misspelt.
 _MISSPELT = 0.8
-_LIKELY = 0.55
 _EXAMPLES = 3  # cells that show how a column is written
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
@@ -317,12 +322,15 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
                 file = table.sheet.answered_in
                 rule = say("heading.answered", name=field.name, file=file)
                 findings.append(cell.finding(rule, severity="note"))
+                if field.key == "slack" and says_sag(title.text):
+                    rule = say("heading.is_sag")
+                    findings.append(cell.finding(rule, severity="note"))
     plan = table.plan
     missing = [field for field in plan.fields if field.key not in columns]
-    judged = _judge_all_unknown(unknown, missing)
+    judged = _judge_all_unknown(table, unknown, missing)
     findings.extend(finding for finding, _ in judged)
     claimed |= {field.key for _, field in judged if field}
-    _report_missing(table, unknown, {*columns, *claimed}, findings)
+    _report_missing(table, {*columns, *claimed}, findings)
     findings.extend(_refuse_unused_answers(table))
     return columns
 
@@ -360,6 +368,9 @@ def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
     """Reason why a heading is not read; None where nobody knows it."""
     if meaning.is_ignored:
         return Refusal(say("heading.ignored", file=sheet.answered_in))
+    if UNANSWERED in meaning.answer:
+        rule = say("heading.unanswered", file=sheet.answered_in)
+        return Refusal(rule, say("heading.unanswered_wanted"))
     if meaning.is_wrong_answer:
         rule = say("heading.wrong_answer", answer=quote(meaning.answer))
         return Refusal(rule, say("heading.answer_wanted", file=sheet.answered_in))
@@ -384,7 +395,7 @@ def _refuse_unused_answers(table: Table) -> Iterator[Finding]:
 
 
 def _judge_all_unknown(
-    unknown: list[Title], missing: list[Field]
+    table: Table, unknown: list[Title], missing: list[Field]
 ) -> list[tuple[Finding, Field | None]]:
     """Judge columns that are not read, each with the missing field it may be.
 
@@ -392,7 +403,10 @@ def _judge_all_unknown(
     """
     judged = [_judge_unknown(title.cell, missing) for title in unknown]
     first = next((n for n, (one, _) in enumerate(judged) if one.severity == "note"), -1)
-    needed = [field for field in missing if field.required]
+    given = {field.key for field in table.plan.fields} - {one.key for one in missing}
+    needed = [
+        field for field in missing if field.required and not _has_instead(field, given)
+    ]
     if first >= 0 and needed:
         names = tuple(quote_title(field) for field in needed)
         known = say("heading.known", headings=names)
@@ -539,41 +553,17 @@ def _describe_reading(typed: tuple[float, str], own: tuple[float, str]) -> Messa
     )
 
 
-def _report_missing(
-    table: Table, unknown: list[Title], known: set[str], findings: list[Finding]
-) -> None:
+def _report_missing(table: Table, known: set[str], findings: list[Finding]) -> None:
     plan = table.plan
     for field in plan.fields:
         is_given = field.key in known or _has_instead(field, known)
         if field.required and not is_given:
             rule = say("heading.lacks", heading=field.title)
-            accepted = _name_likely(unknown, field)
-            findings.append(table.sheet.finding(rule, accepted))
+            findings.append(table.sheet.finding(rule))
     if plan.one_of and known.isdisjoint(plan.one_of):
         fields = [field for field in plan.fields if field.key in plan.one_of]
         rule = say("heading.lacks_one_of", headings=tuple(map(quote_title, fields)))
-        likely = (_name_likely(unknown, field) for field in fields)
-        accepted = next((one for one in likely if one), "")
-        findings.append(table.sheet.finding(rule, accepted))
-
-
-def _name_likely(unknown: list[Title], field: Field) -> Message | str:
-    """The column that may hold a missing field under another name, if one may."""
-    ranked = sorted(unknown, key=lambda title: -compute_likeness(title.text, field))
-    if not ranked or compute_likeness(ranked[0].text, field) < _LIKELY:
-        return ""
-    cell = ranked[0].cell
-    return say("heading.perhaps", cell=cell.address, text=quote(cell.text))
-
-
-def compute_likeness(text: str, field: Field) -> float:
-    """Share of letters that a text has in common with a field's likest heading."""
-    own = fold(text)
-    ratios = (
-        difflib.SequenceMatcher(None, own, fold(name)).ratio()
-        for name in field.raw_names
-    )
-    return max(ratios, default=0.0)
+        findings.append(table.sheet.finding(rule))
 
 
 def _has_instead(field: Field, found: set[str]) -> bool:

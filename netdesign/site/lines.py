@@ -91,7 +91,8 @@ def refuse_unknown_ids(
         if reading.word in told:
             continue
         told.add(reading.word)
-        sheet = say(f"sheet.{reading.field.refers_to}")
+        typed = next((one.partition("!")[0] for one in places.values()), "")
+        sheet = typed or say(f"sheet.{reading.field.refers_to}")
         accepted = add_nearest(say(key, sheet=sheet), reading.word, places)
         refuse(reading, say("nets.no_id", sheet=sheet), accepted, findings)
 

@@ -29,7 +29,7 @@ from netdesign.site.cells.findings import (
 )
 from netdesign.site.columns.all_tables import NETS, SHEETS
 from netdesign.site.columns.fields import SheetPlan, normalise
-from netdesign.site.columns.lexicon import IGNORE
+from netdesign.site.columns.lexicon import IGNORE, UNANSWERED
 from netdesign.words.message import Message, say
 
 SCHEMA = "netdesign.map/1"
@@ -108,23 +108,28 @@ def _find_fault(table: Mapping[str, Any]) -> Message | None:
 
 def _find_wrong_sheet(sheets: Mapping[str, str]) -> Message | None:
     for name, answer in sheets.items():
-        if answer != IGNORE and find_plan(answer) is None:
+        if answer not in (IGNORE, UNANSWERED) and find_plan(answer) is None:
             return say("map.no_sheet", answer=quote(answer), key=quote(name))
     return None
 
 
 def find_plan(name: str) -> SheetPlan | None:
     """Planned sheet of that name, in any language."""
-    return next((plan for plan in SHEETS if plan.matches(name)), None)
+    return next((plan for plan in SHEETS if _is_named(name, plan)), None)
+
+
+def _is_named(name: str, plan: SheetPlan) -> bool:
+    """A name is that of the planned sheet; of net rows, also of one structure."""
+    is_structure = plan.name == NETS.name and plan.is_structure(name)
+    return is_structure or plan.matches(name)
 
 
 def is_meant(name: str, plan: SheetPlan, answers: Answers) -> bool:
     """A sheet is the planned one: as answered, else by its name."""
-    answer = answers.sheets.get(name)
-    if answer is None:
-        is_one = plan.name == NETS.name and plan.is_structure(name)
-        return is_one or plan.matches(name)
-    return answer != IGNORE and plan.matches(answer)
+    answer = answers.sheets.get(name, UNANSWERED)
+    if answer == UNANSWERED:
+        return _is_named(name, plan)
+    return answer != IGNORE and _is_named(answer, plan)
 
 
 def give_answers(workbook: Workbook, answers: Answers) -> Workbook:

@@ -62,6 +62,7 @@ from netdesign.structure.layout import (
 )
 from netdesign.words.message import Message, say
 
+_ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
 _GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
 
 
@@ -123,6 +124,8 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
         return None
     if thickness is None or ground is None:
         return None
+    row = _round_net_height(row, thickness, findings)
+    line = {**line, "net_height": row["net_height"]}
     if is_overtopped(row["net_height"].si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
         refuse(row["net_height"], rule, "", findings, severity="note")
@@ -134,6 +137,16 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
         snow=(thickness, layers, ground),
         inputs=(*echoes, *echo_layers(snow), *echo_ends(end)),
     )
+
+
+def _round_net_height(row: Row, thickness: float, findings: list[Finding]) -> Row:
+    """Row whose net is as high as snow that is a rounding thicker; that is told."""
+    height = row["net_height"]
+    if not 0.0 < thickness - height.si <= _ROUNDING:
+        return row
+    how = say("nets.rounded", typed=height.si, thickness=thickness)
+    refuse(height, how, "", findings, severity="note")
+    return {**row, "net_height": replace(height, value=thickness, derivation=how)}
 
 
 def _is_faulty(named: list[Row], unreadable: Iterable[str]) -> bool:

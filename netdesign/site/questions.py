@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from netdesign.edge.given_files import make_printable
@@ -23,7 +23,7 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
 )
 from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.columns.lexicon import UNANSWERED, has_no_part
+from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, has_no_part
 from netdesign.site.headings import Table, count_known
 from netdesign.site.mapping import SCHEMA, is_meant
 from netdesign.site.reader import read_cells, read_site
@@ -46,6 +46,7 @@ _OF_NAMES = (
 # A heading that is not understood is asked for where the sheet lacks one.
 _OF_WORDS = "cell.unknown_word"
 _UNREAD, _LACKING = "heading.unknown", ("heading.lacks", "heading.lacks_one_of")
+_MARK = "decimal_mark"
 _LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one
 _EXPECTED = (NETS, RANGES_AS_TYPED, ANCHORS, ROPES, POSTS)
 
@@ -73,7 +74,10 @@ class Question:
 
 
 def write_questions(
-    path: Path, text_format: TextFormat = UNDECLARED, language: Language = "en"
+    path: Path,
+    text_format: TextFormat = UNDECLARED,
+    language: Language = "en",
+    ask: Callable[[Question], str] | None = None,
 ) -> tuple[str, int]:
     """Text of the file of answers, and how many of them are missing.
 
@@ -85,6 +89,8 @@ def write_questions(
         As for reading.
     language : str
         Of the comments and headings.
+    ask : callable, optional
+        Gives the answer to a question, or an empty text; without it all stay open.
 
     Raises
     ------
@@ -96,16 +102,32 @@ def write_questions(
     found = [table for plan in SHEETS for table in _find(workbook, plan)]
     questions = [*_ask_sheets(path, text_format, workbook)]
     questions += _ask_names(found, findings)
+    mark = Question("", _MARK, UNANSWERED, (say("map.mark"),))
     asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
+    if asks_mark:
+        mark = _answer(mark, ask)
+    questions = [_answer(one, ask) for one in questions]
     lines = [
-        *_begin(path, workbook, asks_mark=asks_mark, language=language),
+        *_begin(path, workbook, mark.answer if asks_mark else "", language),
         *_list_sheets(workbook, questions, language),
     ]
     for table in found:
         lines += _list_headings(table, workbook, questions, language)
         lines += [*_list_unread(table, questions, findings), ""]
         lines += _list_words(table, workbook, questions, language)
-    return "\n".join(lines) + "\n", len(questions) + asks_mark
+    open_ones = [one for one in questions if UNANSWERED in one.answer]
+    is_mark_open = asks_mark and mark.answer == UNANSWERED
+    return "\n".join(lines) + "\n", len(open_ones) + is_mark_open
+
+
+def _answer(question: Question, ask: Callable[[Question], str] | None) -> Question:
+    """Question with what somebody answers to it, if somebody is asked."""
+    typed = ask(question).strip() if ask else ""
+    if not typed:
+        return question
+    is_whole = typed == IGNORE or question.answer == UNANSWERED
+    answer = typed if is_whole else question.answer.replace(UNANSWERED, typed)
+    return replace(question, answer=answer)
 
 
 def _find(workbook: Workbook, plan: SheetPlan) -> tuple[Table, ...]:
@@ -125,12 +147,14 @@ def _ask_sheets(
     path: Path, text_format: TextFormat, workbook: Workbook
 ) -> Iterator[Question]:
     """Sheets whose headings are those of a planned sheet that is missing."""
-    open_names = {*workbook.unread} - {*workbook.answers.sheets}
+    given = workbook.answers.sheets
+    open_names = {one for one in workbook.unread if given.get(one, "?") == UNANSWERED}
     missing = [plan for plan in _EXPECTED if not _has(workbook, plan)]
     for name in sorted(open_names - workbook.hidden):
         copied = next((one for one in SHEETS if one.begins(name)), None)
-        if copied and copied not in missing:
-            hints = (say("table.copy_accepted", name=copied.title),)
+        first = _name_first(workbook, copied) if copied else ""
+        if first:
+            hints = (say("table.copy_accepted", name=first),)
             yield Question("", name, UNANSWERED, hints)
     if not missing or not open_names:
         return
@@ -145,10 +169,14 @@ def _ask_sheets(
             yield Question("", sheet.name, UNANSWERED, hints)
 
 
+def _name_first(workbook: Workbook, plan: SheetPlan) -> str:
+    """Name of the first sheet of a plan, as typed; empty where there is none."""
+    names = (one.name for one in workbook.sheets)
+    return next((one for one in names if is_meant(one, plan, workbook.answers)), "")
+
+
 def _has(workbook: Workbook, plan: SheetPlan) -> bool:
-    return any(
-        is_meant(sheet.name, plan, workbook.answers) for sheet in workbook.sheets
-    )
+    return bool(_name_first(workbook, plan))
 
 
 def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Question]:
@@ -228,22 +256,23 @@ def _name_field(table: Table, address: str) -> str:
 
 
 def _begin(
-    path: Path, workbook: Workbook, *, asks_mark: bool, language: Language
+    path: Path, workbook: Workbook, mark: str, language: Language
 ) -> Iterator[str]:
     yield from _comment(say("map.head", file=path.name), language)
     yield f'schema = "{SCHEMA}"'
     yield f"workbook = {_quote(path.name)}"
-    mark = {",": "comma", ".": "point"}.get(workbook.answers.decimal_mark)
-    if mark or asks_mark:
-        yield f'decimal_mark = "{mark or UNANSWERED}"  # "comma", "point"'
+    given = {",": "comma", ".": "point"}.get(workbook.answers.decimal_mark)
+    if given or mark:
+        yield f'{_MARK} = "{given or mark}"  # "comma", "point"'
     yield ""
 
 
 def _list_sheets(
     workbook: Workbook, questions: Sequence[Question], language: Language
 ) -> Iterator[str]:
-    given = workbook.answers.sheets
     asked = [one for one in questions if not one.sheet]
+    again = {one.asked for one in asked}
+    given = {k: v for k, v in workbook.answers.sheets.items() if k not in again}
     if not given and not asked:
         return
     yield "[sheets]"

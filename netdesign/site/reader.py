@@ -132,7 +132,7 @@ def read_site(
     declared, confirmed = read_declared(said, workbook, lines.places, findings)
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
-        raise SiteDataError(findings, fold_findings(findings))
+        raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(list(map(_shorten, findings)))
     questions = ask(lines, confirmed, findings)
     rows = tuple(

@@ -29,6 +29,7 @@ from netdesign.site.type_resistances import (
     SECTION,
     compute_buckling,
     find_tests,
+    lacks_ground,
     lacks_inner,
     read_inner,
 )
@@ -183,7 +184,7 @@ def _describe_type(
         basis = "computed"
     is_strut = is_derived and mode == "compression"
     place = kind["test_least"].place if tests else resistance.place
-    is_open = mode == "tendon" and not is_given and lacks_inner(kind)
+    key = _find_lacking(kind, mode) if not (is_given or tests) else ""
     return Resistance(
         member=member,
         mode=mode,
@@ -193,10 +194,17 @@ def _describe_type(
         source=place or sheet,
         derivation=resistance.derivation if is_given else None,
         tests=tests,
-        lack=say("type.no_inner", id=kind["id"].word) if is_open else None,
+        lack=say(key, id=kind["id"].word) if key else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
         ground=kind["ground"].word if "ground" in kind else "",
     )
+
+
+def _find_lacking(kind: Row, mode: str) -> str:
+    """Text of what an anchor's dimensions lack for a resistance; empty of others."""
+    if mode == "tendon" and lacks_inner(kind):
+        return "type.no_inner"
+    return "type.no_ground" if mode == "pull_out" and lacks_ground(kind) else ""
 
 
 def _bend_anchor(

@@ -61,8 +61,8 @@ def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
         findings.append(cell.finding(rule, severity="note"))
     for above, row in pairwise((first_row - 1, *filled)):
         is_at_part = above in passed or row in passed
-        is_whole = plan.has_pairs or (not plan.items and _is_whole(table, row))
-        if row == above + 1 or is_at_part:
+        is_whole = not plan.items and _is_whole(table, row)
+        if row == above + 1 or is_at_part or not table.titles:
             continue
         empty = sheet.cell(above + 1, 1)
         if is_whole:

@@ -166,17 +166,19 @@ def _find_sheets(
     if not sheets:
         findings.extend(_judge_missing(workbook, plan))
     else:
-        findings.extend(_ask_for_copies(workbook, plan))
+        findings.extend(_ask_for_copies(workbook, plan, sheets[0].name))
     return sheets
 
 
-def _ask_for_copies(workbook: Workbook, plan: SheetPlan) -> Iterator[Finding]:
+def _ask_for_copies(
+    workbook: Workbook, plan: SheetPlan, first: str
+) -> Iterator[Finding]:
     """Refuse sheets named as the planned one and something more, until answered."""
     for name in workbook.unread:
-        is_open = name not in workbook.answers.sheets
+        is_open = workbook.answers.sheets.get(name, UNANSWERED) == UNANSWERED
         if is_open and name not in workbook.hidden and plan.begins(name):
-            rule = say("table.copy", name=plan.title)
-            accepted = say("table.copy_accepted", name=plan.title)
+            rule = say("table.copy", name=first)
+            accepted = say("table.copy_accepted", name=first)
             yield Finding(file=workbook.file, sheet=name, rule=rule, accepted=accepted)
 
 

@@ -99,6 +99,8 @@ def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
     if governing:
         _tell_governing(rule, governing, row, findings)
         return row
+    if rule.key == "pull_out" and lacks_ground(row):  # a net row may give it
+        return row
     if not _is_ready(row, rule.needed, findings):
         return row
     first = row[rule.needed[0]]
@@ -363,6 +365,14 @@ def lacks_inner(line: Row) -> bool:
         line["bar_diameter"].state == "given"
         and line["inner_diameter"].state != "given"
         and not is_solid
+    )
+
+
+def lacks_ground(line: Row) -> bool:
+    """Lack of nothing but the ground for the bond of an anchor."""
+    bond = ("drill_diameter", "bond_length")
+    return line["ground"].state == "blank" and all(
+        line[key].state == "given" for key in bond
     )
 
 

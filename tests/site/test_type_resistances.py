@@ -270,12 +270,17 @@ def test_a_ground_alone_says_where_a_type_was_tested(
     assert {one.ground for one in site.catalogue if one.mode == "rope"} == {""}
 
 
-def test_a_drilled_hole_asks_for_its_ground(sheets, save, refused):
+def test_a_drilled_hole_asks_for_its_ground(sheets, save):
+    """The ground of the net row would do, too: without either nothing is proven."""
     sheets["Anchors"][1][2:] = [None, None]
-    columns = {key: value for key, value in BOND.items() if key != "ground"}
-    add_columns(sheets, "Anchors", **columns)
-    (finding,) = refused(save(sheets))
-    assert "needs more beside it: ground" in str(finding)
+    add_columns(sheets, "Anchors", **{k: v for k, v in BOND.items() if k != "ground"})
+    (pulled,) = {
+        one
+        for one in read_site(save(sheets)).rows[0].resistances
+        if (one.member, one.mode) == ("foot_anchor", "pull_out")
+    }
+    assert pulled.value is None
+    assert "the ground of type" in str(pulled.lack)
 
 
 def test_a_bond_in_a_ground_without_bond_stress_is_refused(sheets, save, refused):

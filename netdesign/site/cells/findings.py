@@ -100,7 +100,9 @@ class Finding:
         return say("finding.the_sheet" if self.sheet else "finding.the_file")
 
 
-def fold_findings(findings: Sequence[Finding]) -> tuple[Message, ...]:
+def fold_findings(
+    findings: Sequence[Finding], site_file: str = ""
+) -> tuple[Message, ...]:
     """Lines of what is wrong, faults first; what is wrong alike is told once.
 
     Alike are findings of one rule: in one column, or in one sheet if they are remarks.
@@ -115,8 +117,17 @@ def fold_findings(findings: Sequence[Finding]) -> tuple[Message, ...]:
         group = alike.setdefault(key, [])
         group.append(finding)
     asked = [one for one in findings if one.is_asked]
-    offers = [say("finding.ask_map", file=one.file) for one in asked[:1]]
-    return (*map(_describe_alike, alike.values()), *offers)
+    offers = [say("finding.ask_map", file=site_file or one.file) for one in asked[:1]]
+    faults, notes = (
+        [_describe_alike(group) for key, group in alike.items() if is_of(key)]
+        for is_of in (_is_fault, lambda key: not _is_fault(key))
+    )
+    between = [say("finding.beside")] if faults and notes else []
+    return (*faults, *offers, *between, *notes)
+
+
+def _is_fault(key: tuple[object, ...]) -> bool:
+    return key[0] == "error"
 
 
 def _describe_alike(findings: list[Finding]) -> Message:

@@ -114,6 +114,16 @@ def has_no_part(text: str) -> bool:
     return normalise(text) in set(map(normalise, words))
 
 
+def says_sag(text: str) -> bool:
+    """A heading speaks of sag, which is several times the slack.
+
+    >>> says_sag("Flèche du filet"), says_sag("Mou")
+    (True, False)
+    """
+    words = load_file("signs")["sag"]["words"]
+    return any(fold(word) in fold(text) for word in words)
+
+
 def is_small(text: str) -> bool:
     """A text has nothing but articles and prepositions.
 

@@ -48,6 +48,8 @@ def draw_lines(seed):
         "Snow": _draw_snow(draw, net),
         "Declared": _draw_declared(draw),
     }
+    if draw.random() < 0.5:
+        _stand_in_ground(draw, lines)
     if net.get("row_end") == "continuous":
         lines["Nets"].append({**net, "id": "R2", "neighbour": "R1"})
         lines["Snow"] += [{**one, "row": "R2"} for one in lines["Snow"]]
@@ -281,6 +283,21 @@ def _draw_anchors(draw):
         "ground": ground,
         "grouting": "A" if ground == "limestone" else "B",
     }
+
+
+def _stand_in_ground(draw, lines):
+    """Let the row say its ground; its types have it, too, or lines in two grounds."""
+    (net,) = lines["Nets"]
+    grounds = [one["ground"] for one in lines["Anchors"] if "ground" in one]
+    net["ground"] = grounds[0]
+    other = {"limestone": "scree", "gravel": "rock"}[net["ground"]]
+    for one in list(lines["Anchors"]):
+        if one["id"] == "drilled" and draw.random() < 0.5:
+            del one["ground"]  # the row's is that of the bond
+        elif one["id"] == "tried":
+            one["ground"] = net["ground"]
+            lines["Anchors"].append({**one, "ground": other, "test_least": 900.0})
+            lines["Anchors"][-1]["test_mean"] = 950.0
 
 
 def _draw_ropes(draw):
