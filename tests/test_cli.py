@@ -279,14 +279,18 @@ def test_dry_run_counts_and_writes_nothing(home, checked, tmp_path):
     assert listing(tmp_path) == set()
 
 
-def test_existing_outputs_are_refused_before_solving(home, checked):
-    before = (home / "out" / "study.json").read_bytes()
-    result = call_program("check", "site.xlsx", "--out", "out", *QUICK, cwd=home)
+def test_outputs_that_somebody_changed_are_refused_before_solving(
+    home, checked, tmp_path
+):
+    copy = tmp_path / "home"
+    shutil.copytree(home, copy)
+    (copy / "out" / "study.json").write_text("mine", encoding="utf-8")
+    result = call_program("check", "site.xlsx", "--out", "out", *QUICK, cwd=copy)
     assert result.code == 2
     assert "exists already" in result.err
     assert "--force" in result.err
     assert "cases" not in result.err
-    assert (home / "out" / "study.json").read_bytes() == before
+    assert (copy / "out" / "study.json").read_text(encoding="utf-8") == "mine"
 
 
 def test_force_replaces_outputs(home, checked, tmp_path):

@@ -73,6 +73,13 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
     type=click.Choice(["guideline", "none"]),
     help="What no demand lies below [the limit profile's]; told on the first page.",
 )
+@click.option(
+    "--row",
+    "rows",
+    multiple=True,
+    metavar="ID",
+    help="Check this net row only; repeatable.",
+)
 @what_if_options
 @solving_options
 @out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
@@ -91,6 +98,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     netdesign check site.xlsx --annotate site-marked.xlsx --dry-run
     netdesign check site.csv --delimiter ";" --decimal-mark comma
     netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
+    netdesign check site.xlsx --row R1 --row R3 --out some
     netdesign check site.xlsx --size --out sized
     netdesign check site.xlsx --what-if Nets.P8=A40 --out what-if
     netdesign check site.xlsx --json > study.json
@@ -163,7 +171,16 @@ def _read_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
     site = open_site(site_file, instead=instead, **reading)
     bare = reading | {"annotate": None}
     require_effect(instead, lambda cells: open_site(site_file, instead=cells, **bare))
-    return site
+    return _take_rows(site, asked["rows"])
+
+
+def _take_rows(site: Site, ids: Sequence[str]) -> Site:
+    """Site with the net rows that are asked for; all of them where none is named."""
+    given = tuple(row.id for row in site.rows)
+    strange = tuple(one for one in ids if one not in given)
+    if strange:
+        raise UsageRefusal(say("usage.no_row", rows=strange, given=given))
+    return site.take_rows(ids) if ids else site
 
 
 def _read_replaced(

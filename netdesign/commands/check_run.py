@@ -78,7 +78,7 @@ def carry_out(task: Check, site_name: str) -> int:
         files = render_outputs(task.outputs, studies, sized, begun)
     lines = print_sizes(sized, studies, language)
     failed = print_faults(runner.faults, language)
-    write_files(files, overwrite=asked["force"])
+    write_files(files, overwrite=asked["force"], is_recorded=True)
     if as_json:
         print_json(_write_documents(studies))
         return failed or find_exit_code(studies)

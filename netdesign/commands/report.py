@@ -120,7 +120,7 @@ def report(
     require_free(names[0], overwrite=force)
     require_sound(study, study_file, site_file, standard, language)
     files = render_files([study], names, style)
-    write_files(files, overwrite=force)
+    write_files(files, overwrite=force, is_recorded=True)
     report_places(names, language, quiet=False)
     sys.exit(find_exit_code([study]))
 

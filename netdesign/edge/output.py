@@ -1,7 +1,9 @@
-"""Writes outputs whole or not at all, and never over an existing file unasked."""
+"""Writes outputs whole or not at all, and over no file but its own unasked."""
 
 from __future__ import annotations
 
+import hashlib
+import json
 import os
 import re
 import tempfile
@@ -18,6 +20,9 @@ from netdesign.words.message import say
 STUDY_FILE = "study.json"
 PROFILES_FILE = "profiles.html"  # the page that compares several profiles
 WHAT_IF_MARK = "what-if-"  # before the name of every file of a what-if
+
+# What a folder of reports remembers of the files that were written there: their hashes.
+RECORD_FILE = ".netdesign.json"
 
 _OLD = ".old"
 _RANDOM_END = re.compile(r"\.[a-z0-9_]{8}(\.old)?")  # what mkstemp adds to a name
@@ -60,7 +65,8 @@ def _require_files(paths: list[Path]) -> None:
 
 
 def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> None:
-    taken = tuple(str(path) for path in paths if path.exists())
+    own = {one for folder in {p.parent for p in paths} for one in _list_own(folder)}
+    taken = tuple(str(path) for path in paths if path.exists() and path not in own)
     if taken and not overwrite and may_force:
         raise OutputError(say("output.exists_force", paths=taken))
     if taken and not overwrite:
@@ -77,12 +83,68 @@ def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> Non
             raise OutputError(say("output.not_writable", path=str(nearest)))
 
 
-def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:
+def _list_own(folder: Path) -> list[Path]:
+    """Files of a folder that an earlier run wrote there and nobody changed since."""
+    return [
+        folder / name
+        for name, digest in _read_record(folder).items()
+        if _hash_file(folder / name) == digest
+    ]
+
+
+def _read_record(folder: Path) -> dict[str, str]:
+    """Hashes of the files that were written to a folder, by their names."""
+    try:
+        found = json.loads((folder / RECORD_FILE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    is_record = isinstance(found, dict) and all(
+        isinstance(name, str) and isinstance(digest, str)
+        for name, digest in found.items()
+    )
+    return found if is_record else {}
+
+
+def _hash_file(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+
+
+def _write_records(contents: Mapping[Path, bytes]) -> dict[Path, bytes]:
+    """Record of each folder, with these files in the place of older ones."""
+    records: dict[Path, bytes] = {}
+    for folder in {path.parent for path in contents}:
+        kept = {
+            path.name: digest
+            for path in _list_own(folder)
+            if (digest := _hash_file(path))
+        }
+        written = {
+            path.name: hashlib.sha256(content).hexdigest()
+            for path, content in contents.items()
+            if path.parent == folder
+        }
+        text = json.dumps(kept | written, indent=1, sort_keys=True)
+        records[folder / RECORD_FILE] = text.encode()
+    return records
+
+
+def write_files(
+    contents: Mapping[Path, bytes], *, overwrite: bool, is_recorded: bool = False
+) -> None:
     """Write all files under temporary names, then put them all in place.
 
     Of two runs that write to one folder at once, one waits for the other. Old files
     leave before the first new one comes: whenever a run is killed, the files that are
     there are whole, and of one run. What a killed run left is removed by the next.
+
+    Parameters
+    ----------
+    contents : mapping of Path to bytes
+        By their places.
+    overwrite : bool
+        Whether files of others may be replaced.
+    is_recorded : bool
+        Whether the next run may replace these files, as long as nobody changes them.
 
     Raises
     ------
@@ -98,7 +160,8 @@ def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:
             require_free(list(contents), overwrite=overwrite)
             if is_alone:
                 _remove_leftovers(contents)
-            _exchange(contents)
+            records = _write_records(contents) if is_recorded else {}
+            _exchange({**contents, **records})
     except OSError as error:
         raise OutputError(
             say("output.cannot_write", cause=explain_with_file(error))

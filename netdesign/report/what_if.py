@@ -27,6 +27,13 @@ def name_study(study: Study) -> str:
 def mark_verdict(study: Study, words: Words) -> VerdictWords:
     """Verdict of a study in words; that of a what-if is never read without its mark."""
     plain = show_verdict(study.verdict, words)
+    if study.left_out:
+        rest = words("left_out.meaning", rows=words.join(list(study.left_out)))
+        plain = replace(
+            plain,
+            word=words("left_out.verdict", verdict=plain.word),
+            meaning=f"{plain.meaning} {rest}",
+        )
     if not study.what_if:
         return plain
     return replace(
@@ -46,9 +53,9 @@ def describe_overall(study: Study, words: Words) -> str:
 
 def mark_title(study: Study, title: str, words: Words) -> str:
     """Line that runs along with the pages, which says what no page may leave open."""
-    if not study.what_if:
-        return title
-    return " · ".join(one for one in (words("what_if.mark"), title) if one)
+    marks = [words("what_if.mark")] if study.what_if else []
+    marks += [words("left_out.mark")] if study.left_out else []
+    return " · ".join(one for one in (*marks, title) if one)
 
 
 def _list(study: Study) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import get_args
@@ -114,6 +114,7 @@ class Resistance:
     dimensions: AnchorType | PostSection | BaseFriction | None = None
     lack: Message | None = None  # why there is no value, where that needs more words
     buckling_length: float | None = None  # of a post, with which it was computed [m]
+    drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
 
 
@@ -211,6 +212,8 @@ class NetRow:
     resistances: tuple[Resistance, ...] = field(hash=False)
     inputs: tuple[InputEcho, ...] = field(default=(), hash=False)
     layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
+    length: float | None = None  # from the first post to the last [m]
+    post_count: int | None = None  # None where neither number nor length is given
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     glide_factor: float | None = None  # as typed, of sliding ground
@@ -455,6 +458,13 @@ class Site:
     winter: StationWinter | None = None
     catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not
     what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
+    left_out: tuple[str, ...] = ()  # ids of net rows that are not to be checked
+
+    def take_rows(self, ids: Container[str]) -> Site:
+        """Site with some of its net rows; it says which were left out."""
+        kept = tuple(row for row in self.rows if row.id in ids)
+        left_out = tuple(row.id for row in self.rows if row.id not in ids)
+        return replace(self, rows=kept, left_out=left_out)
 
     @property
     def questions(self) -> tuple[Message, ...]:

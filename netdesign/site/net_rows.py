@@ -62,6 +62,7 @@ from netdesign.structure.layout import (
 )
 from netdesign.words.message import Message, say
 
+_CLOSE = 0.02  # of a post spacing, by which a length may be longer without one more
 _ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
 _GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
 
@@ -112,6 +113,7 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     law = {"ground_law": _read_ground_law(row)}
     line, row = {**line, **law}, {**row, **law}
     check_statements(row, snow, end, findings)
+    _check_length(row, findings)
     layers = build_layers(snow, row["slope_angle"], findings)
     is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
     thickness = _understand_thickness(row, snow, layers, findings, is_ranged=is_ranged)
@@ -188,6 +190,8 @@ def _compose_net_row(
         end_resistances=find_end_resistances(at_end, types) if is_other else None,
         end_anchors=read_anchor_types(at_end, types) if is_other else None,
         inputs=inputs,
+        length=_find_length(row),
+        post_count=_count_posts(row),
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
         glide_factor=row["glide_factor"].given_si,
@@ -200,6 +204,43 @@ def _compose_net_row(
         panel_lack=panel_lack,
         unsaid=list_unsaid(row),
     )
+
+
+def _find_length(row: Row) -> float | None:
+    """Length of the row [m]; by its posts where only their number is given."""
+    length, count = row["row_length"].given_si, row["post_count"]
+    if length is None and count.state == "given":
+        return (count.number - 1.0) * row["post_spacing"].si
+    return length
+
+
+def _count_posts(row: Row) -> int | None:
+    """Posts of the row; by its length where their number is not given."""
+    length, count = row["row_length"].given_si, row["post_count"]
+    if count.state == "given":
+        return int(count.number)
+    return None if length is None else 1 + math.ceil(_divide(length, row) - _CLOSE)
+
+
+def _divide(length: float, row: Row) -> float:
+    """Length of a row in post spacings."""
+    return length / row["post_spacing"].si
+
+
+def _check_length(row: Row, findings: list[Finding]) -> None:
+    """Refuse a length that does not have room for the posts, or for more."""
+    length, count, spacing = row["row_length"], row["post_count"], row["post_spacing"]
+    if any(one.state != "given" for one in (length, count, spacing)):
+        return
+    fields = count.number - 1.0
+    if not fields - 1.0 < _divide(length.si, row) < fields + 1.0:
+        rule = say(
+            "nets.other_length",
+            count=int(count.number),
+            place=count.place,
+            length=fields * spacing.si,
+        )
+        refuse(length, rule, say("nets.length_of_posts"), findings)
 
 
 def _fill_in_distances(row: Row) -> Row:

@@ -184,6 +184,7 @@ def _describe_type(
         basis = "computed"
     is_strut = is_derived and mode == "compression"
     place = kind["test_least"].place if tests else resistance.place
+    is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
     return Resistance(
         member=member,
@@ -196,7 +197,8 @@ def _describe_type(
         tests=tests,
         lack=say(key, id=kind["id"].word) if key else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
-        ground=kind["ground"].word if "ground" in kind else "",
+        drilled_length=kind["drilled_length"].given_si if is_anchor else None,
+        ground=kind["ground"].word if is_anchor else "",
     )
 
 

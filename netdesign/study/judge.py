@@ -28,6 +28,7 @@ from netdesign.study.notes import (
     list_reasons,
     list_site_notes,
 )
+from netdesign.study.parts import list_parts
 from netdesign.study.pulls import record_pulls
 from netdesign.study.record_envelope import record_case, record_envelope, record_extreme
 from netdesign.study.record_guideline import (
@@ -52,6 +53,7 @@ from netdesign.study.records import (
     RowStudy,
     Study,
     list_verdicts,
+    merge_rows,
 )
 from netdesign.study.row_checks import check_row, distrust
 from netdesign.study.row_to_check import RowToCheck
@@ -107,7 +109,7 @@ def gather_study(
     """Study of a site whose rows are judged, in their order."""
     return Study(
         schema=SCHEMA,
-        verdict=merge_verdicts(row.verdict for row in rows),
+        verdict=merge_rows(rows, site.left_out),
         project=site.project,
         profile=record_profile(standard),
         rows=list(rows),
@@ -115,6 +117,7 @@ def gather_study(
         notes=list_site_notes(site, run.creep_law, run.settings.accuracy),
         provenance=record_provenance(site, run),
         what_if=list(site.what_if),
+        left_out=list(site.left_out),
     )
 
 
@@ -165,6 +168,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         extremes=_record_extremes(extremes),
         cases=cases,
         inputs=list(row.inputs),
+        parts=list_parts(row, site.ranges["inclination"]),
         drawing=record_drawing(row, governing),
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),

@@ -7,7 +7,7 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import ClassVar, Literal
@@ -20,7 +20,7 @@ from netdesign.edge.json_text import (
     list_fields,
     write_part,
 )
-from netdesign.outcome import Verdict
+from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import (
     CasePoint,
@@ -31,6 +31,7 @@ from netdesign.study.case_records import (
     ForceRecord,
     GuidelineRecord,
 )
+from netdesign.study.parts import PartRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
@@ -283,6 +284,12 @@ class IndependentRecord:
     is_met: bool
 
 
+def merge_rows(rows: Iterable[RowStudy], left_out: Sequence[str]) -> Verdict:
+    """Verdict of a study: of all its net rows, those that were left out not proven."""
+    missing = [Verdict.NOT_PROVEN] if left_out else []
+    return merge_verdicts([*(row.verdict for row in rows), *missing])
+
+
 def list_verdicts(
     checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
 ) -> list[Verdict]:
@@ -322,6 +329,7 @@ class RowStudy:
     slab: SlabRecord | None = None  # closed form, for comparison
     model_form: ModelFormRecord | None = None  # None where nothing governs
     end_effects: list[EndEffectRecord] = field(default_factory=list)
+    parts: list[PartRecord] = field(default_factory=list)  # that it is built of
 
     @cached_property
     def written(self) -> JsonPart:
@@ -386,6 +394,7 @@ class Study:
     schema: Literal["netdesign.study/3"]
     verdict: Verdict
     what_if: list[ReplacedCell] = field(default_factory=list)  # of no site as built
+    left_out: list[str] = field(default_factory=list)  # net rows that were not checked
     project: Project
     profile: ProfileRecord
     rows: list[RowStudy]

@@ -71,11 +71,17 @@ def test_a_damaged_row_is_told_and_calculated_again(place, call, judged):
     assert judged == ["R1.1"] * 2
 
 
-def test_what_is_there_is_not_overwritten_unasked(place, call, judged):
+def test_its_own_files_are_replaced_and_no_others(place, call, judged):
     call(*SITE)
+    assert call(*SITE).code != 2
+    page = place / "netdesign-out" / "report.html"
+    page.write_text("signed", encoding="utf-8")
     refused = call(*SITE)
     assert refused.code == 2
     assert "--force" in refused.err
+    assert "report.html" in refused.err
+    assert "study.json" not in refused.err
+    assert page.read_text(encoding="utf-8") == "signed"
     assert judged == ["R1.1"]
 
 

@@ -50,7 +50,7 @@ def move_to_project(lines, keys):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_a_column_that_stands_once_reads_as_one_in_every_row(tmp_path, seed):
-    lines = draw_lines(seed)
+    lines = draw_lines(seed, is_placed=True)
     given = [key for key in KEYS if key in lines["Nets"][0]]
     keys = random.Random(seed).sample(given, k=min(4, len(given)))
     moved = move_to_project(lines, keys)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from netdesign.report.blocks.block import Part, section
 from netdesign.report.blocks.table import (
     Cell,
     Column,
@@ -31,12 +30,6 @@ _END = "edge"
 _PER_POST = "schedule.per_post"
 _MID_ANCHORS = say("column.Nets.mid_anchors")
 _SIDES = ("uphill", "downhill")
-
-
-def show_schedule(study: Study, words: Words) -> Part:
-    """Section with the schedule of all rows."""
-    table = build_schedule(study, words)
-    return section("schedule", words("heading.schedule"), table.shown("schedule"))
 
 
 def build_schedule(study: Study, words: Words) -> Table:
@@ -81,7 +74,7 @@ def _list_lines(row: RowStudy, words: Words) -> Iterator[tuple[Cell, ...]]:
             text_cell(_show_pulls(row, member, words)),
             *_show_forces([one for one in checks if one.position != _END], words),
             *_show_forces([one for one in checks if one.position == _END], words),
-            text_cell(_describe_needed(checks, words)),
+            text_cell(describe_needed(checks, words)),
         )
 
 
@@ -145,13 +138,17 @@ def _show_pulls(row: RowStudy, member: str, words: Words) -> str:
 def _show_forces(checks: Sequence[CheckRecord], words: Words) -> Iterator[Cell]:
     """Largest characteristic and design force of checks at one place [kN]."""
     for symbol in ("E_k", "E_d"):
-        found = [one.read_band(symbol)[1] for one in checks]
-        known = [one for one in found if one is not None]
-        largest = max(known) if known and len(known) == len(found) else None
-        yield number_cell(words, "demand_kN", largest)
+        yield number_cell(words, "demand_kN", find_largest(checks, symbol))
 
 
-def _describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
+def find_largest(checks: Sequence[CheckRecord], symbol: str) -> float | None:
+    """Largest upper end of a force of some checks [kN]; None unless all are known."""
+    found = [one.read_band(symbol)[1] for one in checks]
+    known = [one for one in found if one is not None]
+    return max(known) if known and len(known) == len(found) else None
+
+
+def describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
     """Least characteristic resistance that carries the design forces, by modes [kN].
 
     One number where all modes need the same.

@@ -15,7 +15,7 @@ from netdesign.report.sections import (
     model,
     profile,
     quality,
-    schedule,
+    quantities,
     verify,
     worked,
 )
@@ -57,7 +57,7 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
         decision.show_decision(study, words, has_rows=is_full),
         _list_contents(study, words, is_full=is_full),
         basis.show_basis(study, words),
-        schedule.show_schedule(study, words),
+        quantities.show_schedule(study, words),
         *(_list_rows(study, words) if is_full else ()),
         inputs.show_inputs(study, words),
         *(_list_annexes(study, words) if is_full else ()),

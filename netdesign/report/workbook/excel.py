@@ -23,6 +23,7 @@ from netdesign.report.sections.quality import (
     build_extremes,
     stack_tables,
 )
+from netdesign.report.sections.quantities import build_quantities
 from netdesign.report.sections.schedule import build_schedule
 from netdesign.report.sections.verify import build_provenance
 from netdesign.report.sections.whole import title_pages
@@ -109,8 +110,7 @@ def _add_sheets(book: Book, study: Study) -> None:
     parts = list_inputs(study, words)
     profile = build_profile(study, words)
     add_summary_sheet(book, study)
-    title = words("heading.schedule")
-    book.add_table_sheet("schedule", title, [build_schedule(study, words)])
+    _add_schedule(book, study)
     stacked = stack_tables(words("heading.typed_and_understood"), parts, words)
     book.add_table_sheet(
         "inputs", words("heading.inputs"), [*([above] if above else []), stacked]
@@ -129,6 +129,25 @@ def _add_sheets(book: Book, study: Study) -> None:
     cells.watch()
     link_sheets(book, SHEETS[1:])
     book.end_pages()
+
+
+def _add_schedule(book: Book, study: Study) -> None:
+    """Sheet of what is built and what is ordered, with room for prices."""
+    from xlsxwriter.utility import xl_rowcol_to_cell
+
+    words = book.words
+    built = build_schedule(study, words)
+    ordered = build_quantities(study, words, has_prices=True)
+    title = words("heading.schedule")
+    sheet = book.add_table_sheet("schedule", title, [built, ordered])
+    first = _FIRST_LINE + len(built.rows) + _BETWEEN
+    number, total, price = (len(ordered.columns) - one for one in (5, 3, 2))
+    for line, cells in enumerate(ordered.rows, first):
+        by_piece = cells[number].number is not None
+        counted = xl_rowcol_to_cell(line, number if by_piece else total)
+        paid = xl_rowcol_to_cell(line, price)
+        formula = f'=IF({paid}="","",{counted}*{paid})'
+        sheet.write_formula(line, price + 1, formula, None, "")
 
 
 def list_inputs(study: Study, words: Words) -> list[tuple[str, Table]]:

@@ -33,12 +33,19 @@ from netdesign.study.judgement import (
 from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import span_variants
 from netdesign.study.notes import list_judged_notes, list_reasons, list_site_notes
+from netdesign.study.parts import list_parts
 from netdesign.study.pulls import AnchorPull, build_pull, read_pulls, record_pulls
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.record_guideline import compare_case, find_row_floor, record_floor
 from netdesign.study.record_independent import compare_slab
 from netdesign.study.record_support import record_panel
-from netdesign.study.records import CheckRecord, RowStudy, Study, list_verdicts
+from netdesign.study.records import (
+    CheckRecord,
+    RowStudy,
+    Study,
+    list_verdicts,
+    merge_rows,
+)
 from netdesign.study.rejudge.cases import (
     Spans,
     find_largest,
@@ -79,6 +86,8 @@ def judge_again(
     """
     law, is_steady = _find_law(study), is_of_steady_states(study)
     stored = [row.id for row in study.rows]
+    if study.left_out:
+        site = site.take_rows(stored)
     given = [row.id for row in site.rows]
     if stored != given:
         yield say("audit.other_rows", stored=repr(stored), given=repr(given))
@@ -88,6 +97,7 @@ def judge_again(
         ("notes", study.notes, list_site_notes(site, law, _find_accuracy(study))),
         ("site_file", study.provenance.site_file, site.file_name),
         ("what_if", study.what_if, list(site.what_if)),
+        ("left_out", study.left_out, list(site.left_out)),
     )
     for name, one, other in parts:
         yield from report_differences(
@@ -126,11 +136,13 @@ def _compare_inputs(
     stored = {
         "inputs": row.inputs,
         "questions": row.questions,
+        "parts": row.parts,
         "panel": row.panel and _leave_out_forces(row.panel),
     }
     again = {
         "inputs": list(given.inputs),
         "questions": list(given.questions),
+        "parts": list_parts(given, site.ranges["inclination"]),
         "panel": record_panel(given),
     }
     yield from report_differences("audit.row_otherwise", stored, again, place=place)
@@ -369,7 +381,7 @@ def rejudge(
         from netdesign.study.rejudge.study import judge_again
 
         found += judge_again(study, site, standard)
-    verdict = merge_verdicts(row.verdict for row in study.rows)
+    verdict = merge_rows(study.rows, study.left_out)
     if study.verdict is not verdict:
         found.append(report_verdict(say("audit.study"), study.verdict, verdict))
     return found

@@ -29,8 +29,11 @@ def write_lines(path, lines):
         template.write_site_workbook(path, example=True, overwrite=True)
 
 
-def draw_lines(seed):
-    """Lines of all sheets; three densities, one friction angle and inclination."""
+def draw_lines(seed, *, is_placed=False):
+    """Lines of all sheets; three densities, one friction angle and inclination.
+
+    A row that is placed may say its ground.
+    """
     draw = random.Random(seed)
     net = _draw_net(draw)
     lines = {
@@ -48,7 +51,7 @@ def draw_lines(seed):
         "Snow": _draw_snow(draw, net),
         "Declared": _draw_declared(draw),
     }
-    if draw.random() < 0.5:
+    if is_placed and draw.random() < 0.5:
         _stand_in_ground(draw, lines)
     if net.get("row_end") == "continuous":
         lines["Nets"].append({**net, "id": "R2", "neighbour": "R1"})

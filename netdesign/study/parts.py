@@ -1,0 +1,164 @@
+"""Parts that a net row is built of: how many of each type, how long."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from netdesign.envelope.ranges import Interval
+from netdesign.site.model import NetRow, Resistance
+from netdesign.structure.layout import SupportPoints, place_support
+from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
+
+_INCLINATION = "inclination"
+_PER_SUPPORT = (
+    *(Member.FOOT_ANCHOR, Member.UPHILL_GUY, Member.UPHILL_ANCHOR),
+    *(Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR, Member.POST),
+)
+_BESIDE_GUYS = (
+    *(Member.UPHILL_GUY, Member.UPHILL_ANCHOR),
+    *(Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR),
+)
+_ENDS = 2  # of a row
+
+
+@dataclass(frozen=True, kw_only=True)
+class PartRecord:
+    """Parts of one type in one place of a net row.
+
+    Attributes
+    ----------
+    part : str
+        A member, "mid_anchor", "ridge_rope", "lower_rope" or "net".
+    type_id : str
+        Empty where none is named, and of the net.
+    count : int or None
+        None where neither the row's length nor its posts are given.
+    size : float or None
+        Length of one [m], of the net its area [m2]; None where it is not given.
+    """
+
+    part: str
+    type_id: str
+    count: int | None
+    size: float | None
+
+
+def list_parts(row: NetRow, inclination: Interval) -> list[PartRecord]:
+    """Parts of a net row that somebody has to order.
+
+    Parameters
+    ----------
+    row : NetRow
+        Its length or number of posts gives the numbers.
+    inclination : Interval
+        Of the net, from the slope normal [rad]: the longest guys and the largest net.
+    """
+    heads = [
+        place_support(row.layout, (row.net_height * math.tan(one), row.net_height))
+        for one in (inclination.low, inclination.high)
+    ]
+    found: dict[tuple[str, str, float | None], int | None] = {}
+    for position, supports in _count_supports(row):
+        for one in _list_of_support(row, heads, position, supports):
+            key = (one.part, one.type_id, one.size)
+            before = found.get(key, 0)
+            is_known = one.count is not None and before is not None
+            found[key] = (before or 0) + (one.count or 0) if is_known else None
+    of_supports = (
+        PartRecord(part=part, type_id=kind, count=count, size=size)
+        for (part, kind, size), count in found.items()
+    )
+    return [*of_supports, *_list_along(row, inclination), *_list_ends(row)]
+
+
+def _count_supports(row: NetRow) -> Iterator[tuple[Position, int | None]]:
+    """Supports by position; the first and last ones alone where they differ."""
+    count = row.post_count
+    if row.end_resistances is None:
+        yield "intermediate", count
+        return
+    yield "intermediate", None if count is None else max(0, count - _ENDS)
+    yield "edge", None if count is None else min(_ENDS, count)
+
+
+def _list_of_support(
+    row: NetRow, heads: list[SupportPoints], position: Position, supports: int | None
+) -> Iterator[PartRecord]:
+    types = _index(row.resistances_at(position))
+    for member in _PER_SUPPORT:
+        if member not in types:
+            continue
+        each = row.guys.count if member in _BESIDE_GUYS else 1
+        yield PartRecord(
+            part=member,
+            type_id=types[member].type_id,
+            count=None if supports is None else each * supports,
+            size=_measure(row, member, heads) or types[member].drilled_length,
+        )
+
+
+def _measure(row: NetRow, member: str, heads: list[SupportPoints]) -> float | None:
+    """Longest length of a guy or post between its points [m]; None of anchors."""
+    if member == Member.POST:
+        return max(one.post_length for one in heads)
+    if member not in (Member.UPHILL_GUY, Member.DOWNHILL_GUY):
+        return None
+    is_uphill = member == Member.UPHILL_GUY
+    flat = max(
+        math.dist(one.head, one.uphill_anchor if is_uphill else one.downhill_anchor)
+        for one in heads
+    )
+    return flat / math.cos(row.guys.splay or 0.0)
+
+
+def _list_along(row: NetRow, inclination: Interval) -> Iterator[PartRecord]:
+    """Net, border ropes, and foot anchors between the posts."""
+    length, count = row.length, row.post_count
+    built = row.net_height / math.cos(inclination.high)
+    yield PartRecord(
+        part="net",
+        type_id="",
+        count=None if length is None else 1,
+        size=None if length is None else length * built,
+    )
+    if row.panel is None:
+        return
+    for part, rope in (
+        ("ridge_rope", row.panel.upper),
+        ("lower_rope", row.panel.lower),
+    ):
+        yield PartRecord(
+            part=part,
+            type_id=rope.type_id,
+            count=None if length is None else 1,
+            size=length,
+        )
+    if all(one.has_mid_anchors for one in row.panels):
+        foot = _index(row.resistances)[Member.FOOT_ANCHOR]
+        yield PartRecord(
+            part="mid_anchor",
+            type_id=foot.type_id,
+            count=None if count is None else count - 1,
+            size=foot.drilled_length,
+        )
+
+
+def _list_ends(row: NetRow) -> Iterator[PartRecord]:
+    """Members that hold the row along itself; a row that goes on has none."""
+    if row.row_end is None:
+        return
+    for member, one in _index(row.row_end.resistances).items():
+        if one.type_id:
+            size = one.drilled_length
+            yield PartRecord(part=member, type_id=one.type_id, count=_ENDS, size=size)
+
+
+def _index(resistances: Iterable[Resistance]) -> dict[str, Resistance]:
+    """First resistance of each member."""
+    found: dict[str, Resistance] = {}
+    for one in resistances:
+        found.setdefault(one.member, one)
+    return found
