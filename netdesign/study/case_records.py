@@ -225,6 +225,8 @@ class GuidelineRecord:
     solved_foot_anchor_kN: float
     cases: list[GuidelineCase]
     sentence: Text  # why the two differ
+    # Height above the slope [m] and pressure of the snow [kPa] of the coupled solve.
+    along_net: list[tuple[float, float]] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

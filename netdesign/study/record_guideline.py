@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Literal
 
 from netdesign.checks import Standard
@@ -40,6 +41,7 @@ from netdesign.study.effects import (
     load_guideline,
 )
 from netdesign.study.record_envelope import record_point
+from netdesign.study.record_support import list_pressures
 from netdesign.units import (
     given_degree_from_radian,
     kilonewton_from_newton,
@@ -140,6 +142,7 @@ def _record_force(one: FloorForce) -> FloorForceRecord:
     )
 
 
+_DECIMALS = 3  # of heights on the net [m]
 _OTHER_DENSITY = 0.1  # share from which another density is told as a cause
 # Why the two differ, by the kind of ground.
 _SENTENCES = {
@@ -159,7 +162,12 @@ def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
         return None
     load = solution.foot.x + solution.head.x
     foot = result.member_forces[Member.FOOT_ANCHOR].value
-    return compare_case(row, result.case, load=load, foot=foot)
+    heights = solution.net_curve[1].round(_DECIMALS).tolist()
+    pairs = zip(heights, list_pressures(solution), strict=True)
+    return replace(
+        compare_case(row, result.case, load=load, foot=foot),
+        along_net=[(y, pressure) for y, pressure in pairs if pressure is not None],
+    )
 
 
 def compare_case(

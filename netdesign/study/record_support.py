@@ -271,11 +271,11 @@ def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
         uphill_anchor_m=points.uphill_anchor,
         downhill_anchor_m=points.downhill_anchor,
         arrows=_list_arrows(points, anchors),
-        pressure_kPa=_list_pressures(solution),
+        pressure_kPa=list_pressures(solution),
     )
 
 
-def _list_pressures(net: NetState) -> list[float | None]:
+def list_pressures(net: NetState) -> list[float | None]:
     """Pressure of the snow on each net point [kPa]; None where it is not known."""
     face = find_net_face(net, friction=None)
     pressure, _ = face.tractions

@@ -2,7 +2,10 @@
 
 import openpyxl
 import pytest
+from click.testing import CliRunner
 
+from netdesign.commands.site_input import map_headings
+from netdesign.site.reader import read_site
 from tests.short_example import write_short_example
 from tests.site.messy import swiss
 
@@ -73,3 +76,19 @@ def test_a_heading_that_nothing_needs_is_listed_as_left_out(call, tmp_path):
     assert "nothing is left" in call("map", path).err
     text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
     assert '# "colour of the post" = "ignore"' in text
+
+
+def test_answers_typed_at_the_terminal_are_in_the_file(site, tmp_path):
+    ended = CliRunner().invoke(map_headings, [str(site), "--ask"], input="ignore\n")
+    assert ended.exit_code == 0, ended.output
+    assert "nothing is left to be answered" in ended.output
+    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
+    assert '= "?"' not in text
+    assert read_site(site).rows
+
+
+def test_an_empty_answer_leaves_the_question(site, tmp_path):
+    ended = CliRunner().invoke(map_headings, [str(site), "--ask"], input="\n")
+    assert "1 to be answered" in ended.output
+    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
+    assert '= "?"' in text

@@ -21,8 +21,9 @@ from netdesign.report.words import (
     show_member,
 )
 from netdesign.structure.members import EndMember
+from netdesign.study.find_input import find_input
 from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 from netdesign.words.names import name_mode
 
 _PUSHED = ("post", "post_base")
@@ -85,12 +86,12 @@ def _describe_place(row: RowStudy, member: str, words: Words) -> str:
     side = next((one for one in _SIDES if member.startswith(one)), None)
     if side is None:
         return words(_name_foot(row) if member == "foot_anchor" else _PER_POST, count=1)
-    count = _find_input(row, "guy_count")
+    count = find_input(row, "guy_count")
     if "guy" in member:
         return words(
             "schedule.per_post", count=MISSING if count is None else f"{count:.0f}"
         )
-    distance = _find_input(row, f"{side}_anchor_distance")
+    distance = find_input(row, f"{side}_anchor_distance")
     return words(
         f"schedule.per_post_{side}",
         count=MISSING if count is None else f"{count:.0f}",
@@ -105,15 +106,6 @@ def _name_foot(row: RowStudy) -> str:
     if _MID_ANCHORS in row.panel.assumed:
         return "schedule.mid_not_given"
     return "schedule.with_mid" if row.panel.has_mid_anchors else _PER_POST
-
-
-def _find_input(row: RowStudy, column: str) -> float | None:
-    """Number of a column of sheet Nets, as understood; None where it is empty."""
-    for echo in row.inputs:
-        label = echo.label
-        if isinstance(label, Message) and label.key == f"column.Nets.{column}":
-            return echo.value if isinstance(echo.value, float | int) else None
-    return None
 
 
 def _name_force(check: CheckRecord) -> str:

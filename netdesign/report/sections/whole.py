@@ -11,6 +11,7 @@ from netdesign.report.gate import require_consistent
 from netdesign.report.sections import (
     basis,
     decision,
+    guideline,
     inputs,
     model,
     profile,
@@ -56,6 +57,7 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
         decision.show_title(study, words),
         decision.show_decision(study, words, has_rows=is_full),
         _list_contents(study, words, is_full=is_full),
+        *filter(None, [guideline.show_difference(study, words)]),
         basis.show_basis(study, words),
         quantities.show_schedule(study, words),
         *(_list_rows(study, words) if is_full else ()),

@@ -1,0 +1,68 @@
+"""``check --row``: some net rows alone, never taken for the whole site."""
+
+import json
+
+import pytest
+
+from netdesign.words.catalogue import LANGUAGES
+from tests.short_example import write_short_example
+
+QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet", "--no-excel")
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory):
+    return tmp_path_factory.mktemp("store") / "cases.sqlite"
+
+
+@pytest.fixture
+def site(tmp_path, monkeypatch, store):
+    monkeypatch.setenv("NETDESIGN_STORE", str(store))
+    write_short_example(tmp_path / "site.xlsx", ["R1", "R6"])
+    return tmp_path
+
+
+def read_study(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_row_that_passes_leaves_the_site_not_proven(site, call, language):
+    ended = call(
+        *("check", "site.xlsx", *QUICK, "--row", "R1", "--out", "a"),
+        *("--language", language),
+    )
+    assert ended.code == 4, ended.err
+    study = read_study(site / "a" / "study.json")
+    assert [row["id"] for row in study["rows"]] == ["R1"]
+    assert study["rows"][0]["verdict"] == "pass"
+    assert (study["verdict"], study["left_out"]) == ("not_proven", ["R6"])
+    marks = {"en": "Not checked", "fr": "Non vérifiées ici", "de": "Hier nicht"}
+    assert f"{marks[language]}" in ended.out
+    page = (site / "a" / "report.html").read_text(encoding="utf-8")
+    assert marks[language] in page
+
+
+def test_its_report_is_sound_and_an_altered_one_is_refused(site, call):
+    call("check", "site.xlsx", *QUICK, "--row", "R1", "--out", "a", "--no-html")
+    options = ("--site", "site.xlsx", "--no-excel", "--detail", "summary")
+    assert call("report", "a/study.json", *options, "--out", "b").code == 4
+    study = read_study(site / "a" / "study.json")
+    for altered in ({"left_out": []}, {"left_out": [], "verdict": "pass"}):
+        (site / "c.json").write_text(json.dumps(study | altered), encoding="utf-8")
+        refused = call("report", "c.json", *options, "--out", "d")
+        assert refused.code == 3, refused.err
+
+
+def test_rows_are_those_of_the_whole_study(site, call):
+    call("check", "site.xlsx", *QUICK, "--out", "whole", "--no-html")
+    call("check", "site.xlsx", *QUICK, "--row", "R6", "--out", "one", "--no-html")
+    whole, one = (read_study(site / n / "study.json") for n in ("whole", "one"))
+    assert one["rows"] == [row for row in whole["rows"] if row["id"] == "R6"]
+
+
+def test_a_row_that_is_not_there_is_named_with_those_that_are(site, call):
+    refused = call("check", "site.xlsx", "--row", "R7", "--row", "R1")
+    assert refused.code == 2
+    assert "R7: no net row of the site; its net rows: R1, R6" in refused.err
+    assert not (site / "netdesign-out").exists()
