@@ -4,6 +4,12 @@
 ``import X as X`` says to type checkers that the name is public.
 """
 
+from netdesign.api import check as check
+from netdesign.api import find_anchor_forces as find_anchor_forces
+from netdesign.api import find_envelope as find_envelope
+from netdesign.api import find_guideline_load as find_guideline_load
+from netdesign.api import read_study as read_study
+from netdesign.api import write_reports as write_reports
 from netdesign.cable.net import Net as Net
 from netdesign.checks import Standard as Standard
 from netdesign.checks import list_standards as list_standards
@@ -31,6 +37,7 @@ from netdesign.panel.solution import FailedPanel as FailedPanel
 from netdesign.panel.solution import PanelSolution as PanelSolution
 from netdesign.panel.solve import solve_panel as solve_panel
 from netdesign.search.maxima import SearchSettings as SearchSettings
+from netdesign.site.model import Site as Site
 from netdesign.site.reader import read_site as read_site
 from netdesign.site.template.workbook import write_site_workbook as write_site_workbook
 from netdesign.snow.ground import GroundLaw as GroundLaw
@@ -43,9 +50,12 @@ from netdesign.snow.snowpack import build_layered_snowpack as build_layered_snow
 from netdesign.snow.wall import Wall as Wall
 from netdesign.snowpack.follow import follow_heights as follow_heights
 from netdesign.solving.runner import Runner as Runner
+from netdesign.structure.anchors import AnchorForces as AnchorForces
+from netdesign.structure.head import FailedSupport as FailedSupport
 from netdesign.structure.layout import SupportLayout as SupportLayout
 from netdesign.study.check_run import CheckRun as CheckRun
 from netdesign.study.check_site import check_site as check_site
+from netdesign.study.records import Study as Study
 from netdesign.winter.day import DaySolver as DaySolver
 from netdesign.winter.day import WinterRow as WinterRow
 from netdesign.winter.fit import FitTask as FitTask

@@ -49,7 +49,8 @@ accuracy = 0.1
 
 
 def listing(folder):
-    return {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
+    files = (p for p in folder.rglob("[!.]*") if p.is_file())
+    return {str(p.relative_to(folder)) for p in files}
 
 
 @pytest.fixture(scope="module")
@@ -218,7 +219,7 @@ def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
 
 
 def test_outputs_are_in_their_folder_and_nothing_else_is(home, checked):
-    outputs = {path.name for path in (home / "out").iterdir()}
+    outputs = {path.name for path in (home / "out").glob("[!.]*")}
     assert outputs == {"study.json", "report.html", "report.xlsx"}
     (wrote,) = [one for one in checked.err.splitlines() if one.startswith("wrote ")]
     assert wrote.endswith(" in out")
@@ -600,7 +601,7 @@ def test_report_renders_the_same_bytes_without_a_solver(home, checked, tmp_path)
     for name in ("report.html", "report.xlsx"):
         expected = (home / "out" / name).read_bytes()
         assert (tmp_path / "again" / name).read_bytes() == expected
-    assert {path.name for path in (tmp_path / "again").iterdir()} == {
+    assert {path.name for path in (tmp_path / "again").glob("[!.]*")} == {
         "report.html",
         "report.xlsx",
     }

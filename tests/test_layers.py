@@ -46,7 +46,9 @@ ROWS = (
     {"report.drawing"},
     {"report.sections"},
     {"report.page", "report.workbook", "report.document"},
-    {"report", "public", "examples"},  # examples see the public names only
+    {"report"},
+    {"api"},
+    {"public", "examples"},  # examples see the public names only
     {"evidence"},
     {"evidence.verification", "evidence.paper", "evidence.benchmark"},
     {"evidence.validation"},
@@ -109,8 +111,11 @@ THIRD_PARTY = {
     "weasyprint": ("report.page.pdf",),
     "docx": ("report.document.*",),
     "PIL": ("report.drawing.raster",),  # matplotlib writes PNG by it
-    "matplotlib": (*("report.drawing.*", "evidence.*", "examples.*"),),
-    "pandas": ("report.case_table",),
+    "matplotlib": (
+        *("report.drawing.*", "evidence.*", "examples.*"),
+        "coupling.solution",  # plots itself
+    ),
+    "pandas": ("report.case_table", "study.records"),
     "click": ("cli", "commands.*"),
     "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),
 }

@@ -12,6 +12,8 @@ from netdesign.outcome import require_positive, require_within
 
 LARGEST_INCLINATION = math.radians(80.0)
 LARGEST_SLACK = 0.5
+# Far beyond what is built; a number of kN/m falls below [N/m].
+STIFFNESSES = (1e5, 1e15)
 LARGEST_FRICTION_ANGLE = math.radians(60.0)
 
 
@@ -45,7 +47,7 @@ class Net:
         require_within(
             "net inclination", self.inclination, 0.0, LARGEST_INCLINATION, "rad"
         )
-        require_positive("net stiffness", self.stiffness_per_m, "N/m")
+        require_within("net stiffness", self.stiffness_per_m, *STIFFNESSES, "N/m")
         require_within("slack", self.slack, 0.0, LARGEST_SLACK)
         require_within(
             "friction angle", self.friction_angle, 0.0, LARGEST_FRICTION_ANGLE, "rad"

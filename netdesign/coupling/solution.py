@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from netdesign.outcome import Fault, Outcome
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.words.message import Message, say
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # What a reader must know of a net that was to hold the snow on both sides.
 RELEASED = say("balance.released")
@@ -213,6 +217,40 @@ class Solution:
     def outcome(self) -> Outcome:
         """Always converged: anything else is a ``FailedSolution``."""
         return Outcome.CONVERGED
+
+    def plot(self, path: str | Path | None = None) -> Figure:
+        """Draw the net in its section, with its pulls on what holds it.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where the picture goes, as PNG, SVG or PDF by its ending.
+
+        Returns
+        -------
+        Figure
+            Of matplotlib.
+        """
+        from matplotlib.figure import Figure
+
+        x, y = self.net_curve
+        figure = Figure(figsize=(5.0, 3.4), layout="constrained")
+        axes = figure.subplots()
+        axes.plot(x, y, "k.-", label="net")
+        longest = max(self.foot.size, self.head.size)
+        for end, pull in ((0, self.foot), (-1, self.head)):
+            scale = 0.5 * self.scene.net.height_normal / longest
+            tip = x[end] + scale * pull.x, y[end] + scale * pull.y
+            arrow = {"width": 1, "facecolor": "0.7"}
+            axes.annotate("", tip, (x[end], y[end]), arrowprops=arrow)
+            axes.text(*tip, f"  {pull.size / 1e3:.1f} kN/m", va="top")
+        axes.axhline(0.0, color="black", linewidth=2.0)
+        axes.set(xlabel="downslope [m]", ylabel="above the ground [m]")
+        axes.axis("equal")
+        axes.legend(loc="upper left")
+        if path is not None:
+            figure.savefig(path)
+        return figure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

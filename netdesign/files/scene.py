@@ -163,9 +163,11 @@ class GivenScene:
     support: GivenSupport | None
 
 
-def read_scene(path: Path, method: Method | None = None) -> tuple[Scene, Settings]:
+def read_scene(
+    path: str | Path, method: Method | None = None
+) -> tuple[Scene, Settings]:
     """Scene and settings of a scene file, as ``read_scene_file`` gives them."""
-    given = read_scene_file(path, method)
+    given = read_scene_file(Path(path), method)
     return given.scene, given.settings
 
 

@@ -92,7 +92,7 @@ _TYPE_PLANS = (ANCHORS, ROPES, POSTS)
 
 
 def read_site(
-    path: Path,
+    path: str | Path,
     text_format: TextFormat = UNDECLARED,
     instead: Mapping[str, str] = MappingProxyType({}),
 ) -> Site:
@@ -100,7 +100,7 @@ def read_site(
 
     Parameters
     ----------
-    path : Path
+    path : str or Path
         An xlsx, xlsm, ods or csv file, or a folder of csv files, laid out as
         `netdesign.site.columns.all_tables` says.
     text_format : TextFormat
@@ -119,7 +119,7 @@ def read_site(
     SiteDataError
         With all findings of all sheets, if any of them is an error.
     """
-    workbook, replaced = replace_cells(read_cells(path, text_format), instead)
+    workbook, replaced = replace_cells(read_cells(Path(path), text_format), instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     on_cover = _read_project(find_table(workbook, PROJECT_AS_TYPED, findings), findings)
     tables, nets, ranges = _find_tables(workbook, on_cover.site_wide, findings)

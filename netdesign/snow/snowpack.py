@@ -17,6 +17,7 @@ from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.words.message import say
 
 GRAVITY = 9.81  # [m/s2]
+LIGHTEST_SNOW = 10.0  # new and dry; a number of g/cm3 falls below [kg/m3]
 STEEPEST_SLOPE = math.radians(80.0)  # beyond it no snowpack of this shape stands
 
 GravityMode = Literal["full", "parallel"]
@@ -218,12 +219,13 @@ def compute_mean_density(layers: tuple[Layer, ...]) -> float:
 
 def _require_snow_density(name: str, density: float) -> None:
     densest = DENSEST_SNOW * ICE_DENSITY
-    if not 0 < density <= densest:
+    if not LIGHTEST_SNOW <= density <= densest:
         raise ModelError(
             say(
                 "snow.density_limit",
                 name=name_quantity(name),
                 density=density,
+                lightest=LIGHTEST_SNOW,
                 densest=densest,
                 ice=ICE_DENSITY,
             )

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from netdesign.calculation.steps import Step
 from netdesign.edge.json_text import (
@@ -44,6 +44,9 @@ from netdesign.study.support_records import (
 )
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -412,6 +415,39 @@ class Study:
             for name, value in without.items()
         }
         return join_members(parts, 0)
+
+    def to_frame(self) -> DataFrame:
+        """Checks of all net rows as a table of pandas, one line each.
+
+        Returns
+        -------
+        DataFrame
+            ``row``, ``member``, ``mode``, ``position`` and ``type`` say which check;
+            ``verdict``, ``utilisation`` with its ends ``utilisation_low`` and
+            ``utilisation_high`` [-], ``demand_kN`` and ``resistance_kN`` what it gives,
+            None where it is not known.
+        """
+        from pandas import DataFrame
+
+        return DataFrame(
+            [
+                {
+                    "row": row.id,
+                    "member": one.member,
+                    "mode": one.mode,
+                    "position": one.position,
+                    "type": one.resistance_type,
+                    "verdict": one.verdict.value,
+                    "utilisation": one.utilisation,
+                    "utilisation_low": one.utilisation_band[0],
+                    "utilisation_high": one.utilisation_band[1],
+                    "demand_kN": one.demand_kN,
+                    "resistance_kN": one.resistance_kN,
+                }
+                for row in self.rows
+                for one in row.checks
+            ]
+        )
 
     @cached_property
     def written_rows(self) -> JsonPart:

@@ -49,7 +49,7 @@ PRICES = ("price", "amount")
 
 @dataclass(slots=True)
 class _Line:
-    """What is ordered of one type."""
+    """Parts of one type, its net rows and the checks of its forces."""
 
     parts: list[PartRecord] = field(default_factory=list)
     rows: dict[str, None] = field(default_factory=dict)

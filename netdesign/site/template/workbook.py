@@ -73,7 +73,7 @@ class _Book:
 
 
 def write_site_workbook(
-    path: Path,
+    path: str | Path,
     *,
     example: bool = False,
     overwrite: bool = False,
@@ -83,7 +83,7 @@ def write_site_workbook(
 
     Parameters
     ----------
-    path : Path
+    path : str or Path
         The xlsx file to write.
     example : bool
         Fill in the example site; otherwise only the names of project items and
@@ -101,6 +101,7 @@ def write_site_workbook(
     """
     import xlsxwriter
 
+    path = Path(path)
     require_free([path], overwrite=overwrite)
     lines = load_example() if example else _starting_lines()
     content = BytesIO()

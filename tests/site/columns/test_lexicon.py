@@ -208,7 +208,7 @@ def test_what_may_be_several_quantities_is_asked_for(heading):
         *("Hauteur de poteau [m]", "Entraxe rangées [m]", "Pente filet [°]", "Dk min"),
         *("longueur amont du hauban [m]", "Raideur câble [kN/m]", "D vertical [m]"),
         *("Anker bergseitig Länge [m]", "Dk Hk", "Poids N", "inclinaison filet [°]"),
-        *("épaisseur de glace [m]", "résistance Rd [kN]", "Nb de poteaux", "Masse"),
+        *("épaisseur de glace [m]", "résistance Rd [kN]", "Masse"),
         *("hauteur de neige (normale à la pente) [m]", "net height vertical [m]"),
         *("Schneehöhe (hangnormal) [m]", "Dk min. vertical", "post type old"),
     ],
