@@ -10,6 +10,7 @@ import openpyxl
 import pytest
 
 from netdesign.words.catalogue import load_texts
+from tests.short_example import write_short_example
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -104,7 +105,7 @@ def test_both_installs_make_the_same_environment():
     (posix,) = [block for block in blocks("sh") if "pip install" in block]
     (windows,) = [b for b in blocks("powershell", USAGE) if "pip install" in b]
     assert posix.splitlines()[0] == "python3 -m venv .venv"
-    assert windows.splitlines()[0] == "py -3 -m venv .venv"
+    assert windows.splitlines()[0] == "py -3.13 -m venv .venv"
     assert posix.splitlines()[-1] == windows.splitlines()[-1] == "pip install ."
 
 
@@ -169,9 +170,23 @@ def test_scene_file_is_solved(tmp_path):
 
 
 def test_python_block_prints_what_is_shown(capsys):
-    (block,) = blocks("python", USAGE)
+    block, _ = blocks("python", USAGE)
     exec(compile(block, "USAGE.md", "exec"), {})
     assert capsys.readouterr().out == PULLS
+
+
+def test_python_lines_check_a_site_as_printed(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    write_short_example(tmp_path / "site.xlsx", ["R6"])
+    (readme,) = blocks("python")
+    exec(compile(readme, "README.md", "exec"), {})
+    assert "foot_anchor" in capsys.readouterr().out
+    assert (tmp_path / "reports" / "report.html").exists()
+    _, usage = blocks("python", USAGE)
+    names = {}
+    exec(compile(usage, "USAGE.md", "exec"), names)
+    assert names["again"].rows == names["study"].rows
+    assert (tmp_path / "reports" / "report.docx").exists()
 
 
 def test_profile_of_ones_own_is_used_as_printed(tmp_path):
