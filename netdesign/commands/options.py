@@ -304,8 +304,7 @@ report_options = join(
     choice(
         "--detail",
         ["summary", "full"],
-        "Of report.html, report.docx: summary leaves out the pages of net rows and "
-        "the annexes.",
+        "Of report.html, report.docx: summary has two pages for the client.",
         default="full",
     ),
     language_option("Of the reports; numbers, symbols and keys stay."),

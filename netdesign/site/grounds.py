@@ -6,6 +6,7 @@ with the line of its own ground.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -15,6 +16,7 @@ from netdesign.site.type_resistances import lacks_ground
 from netdesign.words.message import say
 
 _ANCHORS = "Anchors"
+_WITH_GROUND = re.compile(r"(.+) \(([^()]*)\)")
 _ByGround = dict[str, Row]  # lines of one type, by word of their ground; "" for none
 
 
@@ -67,12 +69,33 @@ def place_in_ground(
     for row in rows:
         ground = grounds.get(row.get("row", row.get("id")).word)  # type: ignore[union-attr]
         named = {
-            key: _choose(one, by_id[one.word], ground, made, findings)
+            key: _resolve(one, by_id, ground, made, findings)
             for key, one in row.items()
-            if one.field.refers_to == _ANCHORS and one.word in by_id
+            if one.field.refers_to == _ANCHORS
         }
         placed.append({**row, **named})
     return placed, list(made.values())
+
+
+def _resolve(
+    named: Reading,
+    by_id: Mapping[str, _ByGround],
+    ground: Reading | None,
+    made: dict[str, Row],
+    findings: list[Finding],
+) -> Reading:
+    """Cell that names a type, alone or with its ground: "A32 (scree)"."""
+    whole = _WITH_GROUND.fullmatch(named.word)
+    if named.word in by_id or whole is None or whole[1] not in by_id:
+        known = by_id.get(named.word)
+        return _choose(named, known, ground, made, findings) if known else named
+    bare = replace(named, value=whole[1])
+    chosen = _choose(bare, by_id[whole[1]], ground, made, findings)
+    if chosen.state == "faulty" or chosen.word == named.word:
+        return chosen
+    rule = say("nets.other_ground", id=quote(whole[1]), ground=chosen.word)
+    refuse(named, rule, quote(chosen.word), findings)
+    return replace(named, state="faulty")
 
 
 def _choose(

@@ -216,6 +216,7 @@ class NetRow:
     post_count: int | None = None  # None where neither number nor length is given
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
+    ground_type: str = ""  # where its anchors stand; "" where nobody says it
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
     axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]

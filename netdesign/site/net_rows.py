@@ -194,6 +194,7 @@ def _compose_net_row(
         post_count=_count_posts(row),
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
+        ground_type=row["ground"].word,
         glide_factor=row["glide_factor"].given_si,
         guys=read_guys(row),
         axes=read_axes(row),

@@ -27,6 +27,7 @@ from netdesign.site.columns.all_tables import (
     ROPES,
     SHEETS,
     SNOW,
+    TESTS,
     WINTER,
 )
 from netdesign.site.columns.fields import SheetPlan, split_heading
@@ -59,6 +60,7 @@ from netdesign.site.ranges import (
 )
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.replaced import mark_replaced, replace_cells
+from netdesign.site.single_tests import count_in_tests
 from netdesign.site.site_wide import (
     SiteWide,
     fill_in_site_wide,
@@ -223,6 +225,10 @@ def _read_lines(
     ends_table, anchors_table = tables[ENDS.name], tables[ANCHORS.name]
     ends = list(read_rows(ends_table, findings)) if ends_table else []
     anchors = list(read_rows(anchors_table, findings)) if anchors_table else []
+    tests_table = tables[TESTS.name]
+    if tests_table:
+        tests = list(read_rows(tests_table, findings))
+        anchors = count_in_tests(anchors, tests, findings)
     grounds = {
         row["id"].word: row["ground"] for row in nets if row["ground"].state == "given"
     }

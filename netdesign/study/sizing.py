@@ -158,7 +158,7 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
             checks.setdefault((column, *place), []).append(check)
     for (column, cell, was), members in checks.items():
         if any(one.verdict in _OPEN for one in members):
-            holding = _compare_grounds(site, column, was)
+            holding = _compare_grounds(site, given, column, was)
             yield _Slot(
                 row_id=row.id,
                 column=column,
@@ -173,9 +173,11 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
             )
 
 
-def _compare_grounds(site: Site, column: Column, was: str) -> dict[str, bool | None]:
-    """Other types of a column's sheet: whether each holds in the ground of that one."""
-    ground = find_ground(site, was)
+def _compare_grounds(
+    site: Site, row: NetRow, column: Column, was: str
+) -> dict[str, bool | None]:
+    """Other types of a column's sheet: whether each holds in the ground of the row."""
+    ground = row.ground_type or find_ground(site, was)
     return {
         one.type_id: holds_in_ground(column, ground, one)
         for one in site.catalogue

@@ -1,4 +1,4 @@
-"""The weakest type that would do: of the workbook, or a rope of the catalogue."""
+"""The weakest type that would do: of the workbook, or a part of the catalogue."""
 
 from __future__ import annotations
 
@@ -6,15 +6,13 @@ import math
 from dataclasses import dataclass
 
 from netdesign.checks import Standard, find_resistance
-from netdesign.resistance.catalogue import find_rope_factor, find_termination
-from netdesign.resistance.steel import compute_rope_resistance
 from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
 from netdesign.structure.members import EndMember, Member
+from netdesign.study.catalogue_sizes import find_size
 from netdesign.study.dependent import find_short_post
 from netdesign.study.records import ChangeRecord
-from netdesign.units import kilonewton_from_newton, kilonewton_if_known
+from netdesign.units import kilonewton_if_known
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 _ANCHORS = (
     *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
@@ -50,10 +48,6 @@ def holds_in_ground(member: str, now: str, other: Resistance) -> bool | None:
     return now == other.ground if now and other.ground else None
 
 
-_CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
-_DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
-
-
 @dataclass(frozen=True, slots=True, order=True, kw_only=True)
 class _Enough:
     """A type that reaches a demand, in the order in which types are offered.
@@ -71,8 +65,8 @@ def find_type_change(
 ) -> ChangeRecord | None:
     """Type whose design resistance reaches the design ``demand`` [kN].
 
-    First the weakest type of the workbook, whether a net row uses it or not; else, for
-    ropes, a diameter of the catalogue. None where the type that is there does, where
+    First the weakest type of the workbook, whether a net row uses it or not; else the
+    smallest part of the catalogue. None where the type that is there does, where
     it is that of another member, or nothing is known that would.
 
     An anchor type of another ground is none of them. One whose ground is not known, or
@@ -89,10 +83,10 @@ def find_type_change(
         if enough[weakest].is_asked:
             told = say("change.type_to_ask", type=weakest)
         return _record(told, enough[weakest].characteristic, given)
-    factor = standard.find_resistance_factor(given.mode, "declared")
-    if given.mode != "rope" or factor is None:
-        return None
-    return _find_rope(demand * factor.value_si, given)
+    basis = "computed" if given.mode == "pull_out" else "declared"
+    factor = standard.find_resistance_factor(given.mode, basis)
+    size = find_size(given, demand * factor.value_si) if factor else None
+    return _record(size.told, size.resistance, given) if size else None
 
 
 def _list_enough(
@@ -101,7 +95,8 @@ def _list_enough(
     """Types of the workbook that reach a demand [kN]; none of another ground."""
     found = {}
     for other in site.catalogue:
-        fits = holds_in_ground(given.member, given.ground, other)
+        ground = row.ground_type or given.ground
+        fits = holds_in_ground(given.member, ground, other)
         is_other = other.mode != given.mode or fits is False
         if is_other or find_short_post(other, row, site.ranges):
             continue
@@ -116,30 +111,6 @@ def _list_enough(
                 characteristic=value,
             )
     return found
-
-
-def _find_rope(needed: float, given: Resistance) -> ChangeRecord | None:
-    factor = find_rope_factor(_CONSTRUCTION, "K")
-    loss = find_termination(_TERMINATION)
-    for diameter in _DIAMETERS_MM:
-        value = compute_rope_resistance(
-            diameter=diameter / 1e3,
-            grade=_GRADE,
-            breaking_factor=factor.value,
-            termination=loss.value,
-        )
-        value = kilonewton_from_newton(value)
-        if value >= needed:
-            rope = say(
-                "change.rope",
-                diameter=diameter,
-                construction=_CONSTRUCTION,
-                grade=_GRADE / 1e6,
-                termination=name("termination", _TERMINATION),
-                status=name("status", loss.status),
-            )
-            return _record(rope, value, given)
-    return None
 
 
 def _record(quantity: Message, value: float, given: Resistance) -> ChangeRecord:

@@ -44,10 +44,7 @@ def show_basis(study: Study, words: Words) -> Part:
     defaults = list_defaults(study, words)
     notes = list_notes(study, words)
     listed: dict[str, tuple[Block, ...]] = {
-        "scope": (
-            Paragraph(text=words("scope.treated")),
-            _tabulate_scope(words),
-        ),
+        "scope": list_scope(words),
         "limit_profile": tuple(_show_profile(study, words)),
         "ranges": (show_ranges(study, words).shown("inputs"),),
         "not_typed": (_list(defaults, words),),
@@ -60,6 +57,11 @@ def show_basis(study: Study, words: Words) -> Part:
     )
     heading = Heading(text=words("heading.basis"), level=2)
     return Part(kind="article", id="basis", blocks=(heading, *sections))
+
+
+def list_scope(words: Words) -> tuple[Block, ...]:
+    """Statements of what is treated, and who must check what is not."""
+    return Paragraph(text=words("scope.treated")), _tabulate_scope(words)
 
 
 def _list(sentences: Sequence[str], words: Words) -> Block:

@@ -10,6 +10,7 @@ from netdesign.report.governing import find_shown, is_far_from_limit
 from netdesign.report.words import MISSING, Words, name_heading, show_check, show_text
 from netdesign.study.records import ChangeRecord, CheckRecord, HoldRecord, RowStudy
 
+_FAR = 2.0  # times today's value, or its half: beyond it nobody would build
 _SENSES = {
     "at least": "show.change_at_least",
     "at most": "show.change_at_most",
@@ -52,7 +53,19 @@ def _list_room(row: RowStudy, words: Words) -> Iterator[str]:
 def list_flips(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
     """Changes that turn one check, in short; none where no change alone does."""
     changes = check.changes if check else []
-    return tuple(describe_flip(c, words) for c in changes if c.bound is not None)
+    return tuple(describe_flip(one, words) for one in changes if is_useful(one))
+
+
+def is_useful(change: ChangeRecord) -> bool:
+    """Somebody may build it: a resistance or type, or a number near today's.
+
+    A post spacing of 0.3 m in the place of 3.5 m is none.
+    """
+    if change.bound is None:
+        return False
+    if change.unit == "kN" or not change.now:
+        return True
+    return 1.0 / _FAR <= change.bound / change.now <= _FAR
 
 
 def describe_flip(change: ChangeRecord, words: Words) -> str:
@@ -109,6 +122,7 @@ def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[
         )
         for row, check in rows
         for change in check.changes
+        if is_useful(change)
     ]
     if found:
         return found

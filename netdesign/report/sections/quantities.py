@@ -66,6 +66,12 @@ def show_schedule(study: Study, words: Words) -> Part:
     )
 
 
+def show_quantities(study: Study, words: Words) -> Part:
+    """Section with what is ordered of each type alone."""
+    table = build_quantities(study, words).shown("schedule quantities")
+    return section("quantities", words("quantities.heading"), table)
+
+
 def build_quantities(study: Study, words: Words, *, has_prices: bool = False) -> Table:
     """Types of all net rows with their largest design force, numbers and metres.
 

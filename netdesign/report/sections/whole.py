@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
-from netdesign.report.blocks.block import Block, Contents
+from netdesign.report.blocks.block import Block, Contents, section
 from netdesign.report.blocks.text import Content, Piece, link
 from netdesign.report.gate import require_consistent
 from netdesign.report.sections import (
@@ -25,7 +25,7 @@ from netdesign.report.what_if import mark_title
 from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 
-Detail = Literal["summary", "full"]  # without net rows and annexes, and with them
+Detail = Literal["summary", "full"]  # two pages for the client, and everything
 _ROW = ("drawing", "checks", "worked", "envelope", "changes")
 _PARTS = ("basis", "schedule")
 _ANNEXES = (
@@ -44,7 +44,7 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
     words : Words
         Of the language.
     detail : str
-        ``summary`` leaves out the pages of net rows and the annexes.
+        ``summary`` has two pages for the client: decision, quantities, scope.
 
     Raises
     ------
@@ -52,17 +52,23 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
         If the study contradicts its own numbers.
     """
     require_consistent(study)
-    is_full = detail == "full"
-    return (
+    begun = (
         decision.show_title(study, words),
-        decision.show_decision(study, words, has_rows=is_full),
-        _list_contents(study, words, is_full=is_full),
-        *filter(None, [guideline.show_difference(study, words)]),
+        decision.show_decision(study, words, has_rows=detail == "full"),
+    )
+    answered = filter(None, [guideline.show_difference(study, words)])
+    if detail == "summary":
+        scope = section("scope", words("heading.scope"), *basis.list_scope(words))
+        return *begun, *answered, quantities.show_quantities(study, words), scope
+    return (
+        *begun,
+        _list_contents(study, words),
+        *answered,
         basis.show_basis(study, words),
         quantities.show_schedule(study, words),
-        *(_list_rows(study, words) if is_full else ()),
+        *_list_rows(study, words),
         inputs.show_inputs(study, words),
-        *(_list_annexes(study, words) if is_full else ()),
+        *_list_annexes(study, words),
     )
 
 
@@ -80,14 +86,13 @@ def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
     yield verify.show_verification(study, words)
 
 
-def _list_contents(study: Study, words: Words, *, is_full: bool) -> Contents:
+def _list_contents(study: Study, words: Words) -> Contents:
     """Links to all parts, and to the rows."""
-    annexes = _ANNEXES if is_full else ()
     named = {name: words(f"heading.{name}") for name in _PARTS}
     named["inputs"] = words("heading.inputs_of_rows")
-    named |= {name: words(f"heading.{name.replace('-', '_')}") for name in annexes}
+    named |= {name: words(f"heading.{name.replace('-', '_')}") for name in _ANNEXES}
     lines = [_list_links(named)]
-    if study.rows and is_full:
+    if study.rows:
         label = words("show.label", label=words("heading.net_rows"), text="")
         rows = {f"row-{k}": show_text(row.id) for k, row in enumerate(study.rows, 1)}
         lines.append((Piece(label), *_list_links(rows)))
@@ -109,8 +114,10 @@ def list_sections(study: Study, detail: Detail) -> list[str]:
         for number in range(1, len(study.rows) + 1)
         for name in _ROW
     ]
+    if detail == "summary":
+        return ["decision", "todo", "quantities", "scope"]
     of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs"]
-    return of_page if detail == "summary" else [*of_page, *of_rows, *_ANNEXES]
+    return [*of_page, *of_rows, *_ANNEXES]
 
 
 def title_pages(study: Study, words: Words) -> str:

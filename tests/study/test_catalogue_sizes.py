@@ -1,0 +1,93 @@
+"""Parts of the catalogue that bear a force: the next smaller one does not."""
+
+import math
+import random
+
+import pytest
+
+from netdesign.site.model import Resistance
+from netdesign.study.catalogue_sizes import find_size
+from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.message import say
+
+BAR = say("derivation.bar", diameter=25.0, strength=670.0)
+BOND = say(
+    "derivation.bond",
+    diameter=90.0,
+    length=3.0,
+    stress=120.0,
+    ground=say("choice.ground.scree"),
+    grouting="B",
+    origin="",
+)
+BUCKLING = say(
+    "derivation.buckling",
+    **{"reduction": 0.5, "area": 34.0, "strength": 235.0, "slenderness": 1.0},
+    **{"curve": "d", "imperfection": 0.76, "critical": 400.0, "modulus": 210000},
+    **{"second_moment": 318.0, "length": 3.2, "origin": ""},
+)
+
+
+def build(mode, derivation=None, type_id="HEB 120"):
+    return Resistance(
+        member="foot_anchor",
+        mode=mode,
+        source="Anchors!B2",
+        value=1e5,
+        type_id=type_id,
+        derivation=derivation,
+    )
+
+
+def test_a_bar_is_the_next_of_the_catalogue_of_its_steel():
+    rng = random.Random(11)
+    for _ in range(40):
+        needed = rng.uniform(20.0, 1500.0)
+        found = find_size(build("tendon", BAR), needed)
+        diameter = found.told.arguments["diameter"]
+        assert found.resistance == pytest.approx(
+            math.pi / 4.0 * diameter**2 * 0.67, rel=1e-9
+        )
+        assert found.resistance >= needed
+        smaller = find_size(build("tendon", BAR), 0.6 * needed)
+        assert smaller.resistance <= found.resistance
+    assert find_size(build("tendon", BAR), 5000.0) is None
+
+
+def test_a_bond_has_the_half_metre_that_bears_the_force():
+    rng = random.Random(12)
+    per_metre = math.pi * 0.09 * 120.0
+    for _ in range(40):
+        needed = rng.uniform(40.0, 14.9 * per_metre)
+        found = find_size(build("pull_out", BOND), needed)
+        length = found.told.arguments["length"]
+        assert length == pytest.approx(math.ceil(2 * needed / per_metre - 1e-9) / 2)
+        assert found.resistance == pytest.approx(length * per_metre)
+    assert find_size(build("pull_out", BOND), 15.1 * per_metre) is None
+    assert find_size(build("pull_out"), 10.0) is None  # no ground is known
+
+
+def test_a_section_stays_in_its_series():
+    names = []
+    for needed in (50.0, 150.0, 400.0, 900.0):
+        found = find_size(build("compression", BUCKLING), needed)
+        assert found.resistance >= needed
+        names.append(found.told.arguments["name"])
+    assert all(one.startswith("HEB") for one in names)
+    sizes = [int(one.removeprefix("HEB")) for one in names]
+    assert sizes == sorted(sizes)
+    assert sizes[0] < sizes[-1]
+    unknown = build("compression", BUCKLING, type_id="timber post")
+    assert find_size(unknown, 50.0) is None
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(
+    ("mode", "how"),
+    [("tendon", BAR), ("pull_out", BOND), ("compression", BUCKLING), ("rope", None)],
+)
+def test_each_part_has_its_sentence(mode, how, language):
+    found = find_size(build(mode, how), 120.0)
+    text = render(found.told, language)
+    assert any(sign.isdigit() for sign in text)
+    assert "{" not in text
