@@ -49,7 +49,7 @@ ACCEPTED = [
     ("height_normal", 1e-9),
     ("inclination", 0.0),
     ("inclination", LARGEST_INCLINATION),
-    ("stiffness_per_m", 1e-9),
+    ("stiffness_per_m", 1e5),
     ("slack", 0.0),
     ("slack", LARGEST_SLACK),
     ("friction_angle", 0.0),

@@ -181,7 +181,7 @@ def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
             2,
             "100250 cases: at most 100000 in a grid",
         ),
-        (("--density", "250:950"), 3, "snow density = 950.0: must lie above 0"),
+        (("--density", "250:950"), 3, "snow density = 950.0: must lie from 10 to 908"),
         (("--friction", "15:80"), 3, "friction"),
         (
             ("--glide", "1:50"),

@@ -397,5 +397,5 @@ def test_an_address_without_host_and_port_is_refused(address):
 
 def test_without_the_extra_the_way_to_it_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(ClusterError, match=r"pip install 'netdesign\[dask\]'"):
+    with pytest.raises(ClusterError, match=r"pip install \"netdesign\[dask\]\""):
         DaskCluster("127.0.0.1:9")

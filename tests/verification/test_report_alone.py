@@ -126,10 +126,10 @@ def twelve(studies):
 @pytest.mark.parametrize(
     ("detail", "language", "most"),
     [
-        ("full", "en", 38),
-        pytest.param("full", "fr", 38, marks=pytest.mark.long),
-        ("summary", "en", 6),
-        pytest.param("summary", "de", 6, marks=pytest.mark.long),
+        ("full", "en", 40),
+        pytest.param("full", "fr", 40, marks=pytest.mark.long),
+        ("summary", "en", 3),
+        pytest.param("summary", "de", 3, marks=pytest.mark.long),
     ],
 )
 def test_twelve_rows_have_few_pages(twelve, tmp_path, detail, language, most):

@@ -126,5 +126,5 @@ def test_a_template_that_is_not_there_or_too_large_is_refused(tmp_path, monkeypa
 
 def test_without_the_library_the_wish_is_refused(monkeypatch):
     monkeypatch.setattr(template, "find_spec", lambda _name: None)
-    with pytest.raises(OutputError, match=r"pip install 'netdesign\[docx\]'"):
+    with pytest.raises(OutputError, match=r"pip install \"netdesign\[docx\]\""):
         require_docx()

@@ -10,7 +10,7 @@ from tests.report.build_study import build_study
 
 def test_without_the_library_the_wish_is_refused(monkeypatch):
     monkeypatch.setattr(pdf, "find_spec", lambda _name: None)
-    with pytest.raises(NetDesignError, match=r"pip install 'netdesign\[pdf\]'"):
+    with pytest.raises(NetDesignError, match=r'pip install "netdesign\[pdf\]"'):
         pdf.require_pdf()
 
 
