@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import groupby
 
 from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent
@@ -30,6 +32,8 @@ from netdesign.report.words import (
 from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
 from netdesign.words.names import name_check
+
+_FEW_IDS = 3  # net rows that one line names
 
 
 def build_summary(
@@ -63,7 +67,7 @@ def build_summary(
             utilisation=words("heading.utilisation"),
             reason=words("heading.reason"),
         ),
-        rows=tuple(_show_row(row, words) for row in study.rows),
+        rows=tuple(_fold([_show_row(row, words) for row in study.rows])),
         mark=words("what_if.mark") if study.what_if else "",
         lines=tuple(_list_lines(study, words, is_short=not explain)),
         overall=words("show.overall", verdict=""),
@@ -72,6 +76,22 @@ def build_summary(
         meaning=verdict.meaning,
         changes=further,
     )
+
+
+def _fold(lines: Sequence[RowLine]) -> Iterator[RowLine]:
+    """Lines of the terminal; those that say the same without a number are one."""
+    for _, group in groupby(lines, key=_tell_alike):
+        first, *others = group
+        ids = [first.id, *(one.id for one in others)]
+        few = len(ids) <= _FEW_IDS
+        name = ", ".join(ids) if few else f"{ids[0]} … {ids[-1]} ({len(ids)})"
+        yield replace(first, id=name)
+
+
+def _tell_alike(line: RowLine) -> tuple[str, ...]:
+    """Things that lines in one must share; of one with a number its own name."""
+    own = "" if line.utilisation == MISSING and line.reason else line.id
+    return own, line.verdict, line.check, line.reason
 
 
 def _show_row(row: RowStudy, words: Words) -> RowLine:

@@ -39,8 +39,20 @@ def test_a_summary_has_few_lines_and_explain_has_the_rest():
     assert len(short.lines) == 2
     assert short.changes == ()
     assert whole.lines[0] == short.lines[0]
-    assert len(whole.lines) > 6
+    assert len(whole.lines) > 4
     assert whole.changes
+
+
+def test_rows_that_say_the_same_without_a_number_are_one_line():
+    row = build_study().rows[2]
+    names = [f"N{number}" for number in range(6)]
+    rows = [replace(row, id=name) for name in names]
+    study = replace(build_study(), rows=rows, verdict=row.verdict)
+    lines = build_summary(study).rows
+    if find_governing(row.checks).utilisation is None:
+        assert [line.id for line in lines] == ["N0 … N5 (6)"]
+    else:
+        assert [line.id for line in lines] == names
 
 
 def test_summary_in_french_has_the_same_numbers():

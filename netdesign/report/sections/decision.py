@@ -43,6 +43,7 @@ from netdesign.report.sections.checks import (
     name_few,
     show_used,
 )
+from netdesign.report.sections.inputs import DEFAULT
 from netdesign.report.sections.profile import count_assumed, name_profile
 from netdesign.report.what_if import build_what_if, mark_verdict, name_study
 from netdesign.report.words import (
@@ -53,11 +54,13 @@ from netdesign.report.words import (
     show_member,
     show_text,
 )
+from netdesign.site.model import InputEcho
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember
 from netdesign.study.document import compute_digest
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.message import Message
 
+_STIFFNESS = "column.quantities.net_stiffness"
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
 _OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
 
@@ -203,13 +206,24 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     panels = [row.id for row in study.rows if row.panel and row.panel.assumed]
     if panels:
         yield words("todo.panels", rows=name_rows(panels, study, words))
+    if any(_is_assumed_stiffness(echo) for echo in study.range_inputs):
+        yield words("todo.stiffness")
     defaults = count_defaults(study, words)
     if defaults:
         yield words("todo.defaults", count=defaults)
 
 
+def _is_assumed_stiffness(echo: InputEcho) -> bool:
+    """An end of the range of stiffnesses that nobody gives."""
+    label = echo.label
+    named = label.arguments.get("name") if isinstance(label, Message) else None
+    key = named.key if isinstance(named, Message) else ""
+    return key == _STIFFNESS and echo.cell == DEFAULT
+
+
 def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[str]:
-    """Checks of one verdict by row; those with the same cause share a point."""
+    """Checks of one verdict; checks with one cause, and rows alike, share a point."""
+    points: dict[tuple[str, str], list[str]] = {}
     for row in study.rows:
         causes: dict[str, list[CheckRecord]] = {}
         for check in row.checks:
@@ -220,16 +234,17 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
                 )
                 causes.setdefault(told, []).append(check)
         for cause, checks in causes.items():
-            yield _describe_point(row, checks, cause, words)
+            told = _add_change(checks, cause, words)
+            points.setdefault((name_few(checks, words), told), []).append(row.id)
+    for (named, told), ids in points.items():
+        place = f"{show_text(name_rows(ids, study, words))}, {named}"
+        yield words("show.label", label=place, text=told)
 
 
-def _describe_point(
-    row: RowStudy, checks: list[CheckRecord], cause: str, words: Words
-) -> str:
-    place = f"{show_text(row.id)}, {name_few(checks, words)}"
-    told = words("show.label", label=place, text=cause)
+def _add_change(checks: list[CheckRecord], cause: str, words: Words) -> str:
+    """Cause of a point; of a single check with what makes it pass."""
     flips = list_flips(checks[0], words) if len(checks) == 1 else ()
-    return words("todo.with_change", what=told, change=flips[0]) if flips else told
+    return words("todo.with_change", what=cause, change=flips[0]) if flips else cause
 
 
 def _list_open_rows(study: Study, words: Words) -> Iterator[str]:
