@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -162,12 +163,11 @@ def plan_outputs(
     from netdesign.edge.output import require_free
     from netdesign.report.files import name_files
 
-    kinds, is_what_if = list_wanted(asked), asked["instead"]
-    names = name_files(
-        folder, profiles, mark_names([STUDY_FILE, *kinds], is_what_if=is_what_if)
-    )
+    kinds = list_wanted(asked)
+    mark = partial(mark_names, is_what_if=asked["instead"], is_part=asked["rows"])
+    names = name_files(folder, profiles, mark([STUDY_FILE, *kinds]))
     is_compared = folder is not None and "report.html" in kinds and len(profiles) > 1
-    page = mark_names([PROFILES_FILE], is_what_if=is_what_if)
+    page = mark([PROFILES_FILE])
     outputs = Outputs(
         folder=folder,
         of_studies=names,

@@ -21,7 +21,7 @@ from netdesign.commands.options import (
 from netdesign.commands.running import find_exit_code, report_places
 from netdesign.commands.stored_study import require_sound
 from netdesign.commands.usage import tell
-from netdesign.edge.output import WHAT_IF_MARK
+from netdesign.edge.output import PART_MARK, WHAT_IF_MARK
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
@@ -33,9 +33,12 @@ DEFAULT_FOLDER = "netdesign-out"
 _TURNED = 1
 
 
-def mark_names(names: Sequence[str], *, is_what_if: object) -> list[str]:
-    """Names of outputs; those of a what-if say so."""
-    return [f"{WHAT_IF_MARK}{name}" if is_what_if else name for name in names]
+def mark_names(
+    names: Sequence[str], *, is_what_if: object, is_part: object
+) -> list[str]:
+    """Names of outputs; those of a what-if, or of some net rows, say so."""
+    mark = (WHAT_IF_MARK if is_what_if else "") + (PART_MARK if is_part else "")
+    return [f"{mark}{name}" for name in names]
 
 
 def list_wanted(asked: Mapping[str, Any]) -> list[str]:
@@ -114,7 +117,9 @@ def report(
 
     study = load_study(study_file)
     language: Language = options["language"]
-    wanted = mark_names(list_wanted(options), is_what_if=study.what_if)
+    wanted = mark_names(
+        list_wanted(options), is_what_if=study.what_if, is_part=study.left_out
+    )
     names = name_files(out, [study.profile.id], wanted)
     style = choose_style(options)
     require_free(names[0], overwrite=force)

@@ -213,11 +213,21 @@ def init(site_file: Path, *, example: bool, language: Language, force: bool) -> 
 
 def _put(question: Question, language: Language) -> str:
     """One question on the terminal; an empty answer leaves it open."""
+    from netdesign.site.questions import is_accepted
+
     hints = "; ".join(render(one, language) for one in question.hints if one)
     place = " › ".join(one for one in (question.sheet, question.asked) if one)
     click.echo(f"{place}\n  {hints}", err=True)
-    answer: str = click.prompt(f"  {question.answer}", default="", show_default=False)
-    return answer
+    while True:
+        try:
+            answer: str = click.prompt(
+                f"  {question.answer}", default="", show_default=False
+            )
+        except click.Abort:  # what was answered before is kept
+            return ""
+        if not answer.strip() or is_accepted(question, answer.strip()):
+            return answer
+        tell(say("map.not_accepted", answer=answer.strip()), language, err=True)
 
 
 @click.command(name="map")

@@ -142,6 +142,8 @@ def _verify_study(
     study = load_study(path)
     run = build_run(study, jobs or os.cpu_count() or 1)
     site = read_own_site(study, path, site_file)
+    if study.left_out:
+        site = site.take_rows([row.id for row in study.rows])
     profile = load_own_profile(study.profile, standard)
     show, made = _Shown(language), study.provenance
     hashes = [

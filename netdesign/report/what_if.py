@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from netdesign.edge.output import STUDY_FILE, WHAT_IF_MARK
+from netdesign.edge.output import PART_MARK, STUDY_FILE, WHAT_IF_MARK
 from netdesign.report.blocks.table import Table, name_columns, text_cell
 from netdesign.report.words import (
     MISSING,
@@ -21,7 +21,8 @@ from netdesign.study.sizing import SizedCell
 
 def name_study(study: Study) -> str:
     """Name of a study's file, as ``check`` writes it."""
-    return f"{WHAT_IF_MARK if study.what_if else ''}{STUDY_FILE}"
+    mark = WHAT_IF_MARK if study.what_if else ""
+    return f"{mark}{PART_MARK if study.left_out else ''}{STUDY_FILE}"
 
 
 def mark_verdict(study: Study, words: Words) -> VerdictWords:

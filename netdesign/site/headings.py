@@ -28,7 +28,7 @@ from netdesign.site.columns.unit_names import (
 )
 from netdesign.site.readings import IN_CELLS, refuse_stored
 from netdesign.site.titles import Title, is_asked, list_titles, understand
-from netdesign.words.catalogue import Language
+from netdesign.words.catalogue import LANGUAGES, Language
 from netdesign.words.message import Message, say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
@@ -178,6 +178,7 @@ def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
     starts = [cells[0].column for row in sheet.rows if len(cells := sheet.row(row)) > 1]
     first = max(set(starts), key=starts.count, default=1)
     keys = [field.key for field in plan.fields]
+    names = {normalise(sheet.cell(row, first).text) for row in sheet.rows}
     return Table(
         sheet=sheet,
         plan=plan,
@@ -186,11 +187,20 @@ def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
         units_row=None,
         first_data_row=1,
         group_rows=frozenset(),
-        language="en",
+        language=_find_language(names, plan.items),
         columns={
             key: Column(number=first + n, unit="") for n, key in enumerate(keys[:2])
         },
     )
+
+
+def _find_language(names: set[str], items: Iterable[Field]) -> Language:
+    """Language in which most of some names are those of items; English in a tie."""
+    known = {
+        language: {normalise(x) for one in items for x in one.headings[language]}
+        for language in LANGUAGES
+    }
+    return max(LANGUAGES, key=lambda one: len(known[one] & names))
 
 
 def _find_pairs_above(sheet: Sheet, row: int, plan: SheetPlan) -> Iterator[Pair]:

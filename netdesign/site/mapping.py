@@ -33,7 +33,7 @@ from netdesign.site.columns.lexicon import IGNORE, UNANSWERED
 from netdesign.words.message import Message, say
 
 SCHEMA = "netdesign.map/1"
-_MARKS: Mapping[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
+MARKS: Mapping[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
 _KEYS = ("schema", "workbook", "decimal_mark", "sheets", "headings", "words")
 
 
@@ -75,7 +75,7 @@ def read_answers(site_file: Path) -> Answers:
         sheets=table.get("sheets", {}),
         headings=table.get("headings", {}),
         words=table.get("words", {}),
-        decimal_mark=_MARKS[table.get("decimal_mark", "")],
+        decimal_mark=MARKS[table.get("decimal_mark", "")],
     )
 
 
@@ -89,7 +89,7 @@ def _find_fault(table: Mapping[str, Any]) -> Message | None:
         return say("map.unknown_key", key=quote(stranger))
     if table.get("schema", SCHEMA) != SCHEMA:
         return say("map.other_schema", schema=SCHEMA)
-    if table.get("decimal_mark", "") not in _MARKS:
+    if table.get("decimal_mark", "") not in MARKS:
         return say("map.decimal_mark")
     sheets = table.get("sheets", {})
     by_sheet = [table.get(key, {}) for key in ("headings", "words")]
@@ -103,13 +103,6 @@ def _find_fault(table: Mapping[str, Any]) -> Message | None:
         for key, answer in one.items():
             if not isinstance(answer, str) or not answer.strip():
                 return say("map.no_text", key=quote(key))
-    return _find_wrong_sheet(sheets)
-
-
-def _find_wrong_sheet(sheets: Mapping[str, str]) -> Message | None:
-    for name, answer in sheets.items():
-        if answer not in (IGNORE, UNANSWERED) and find_plan(answer) is None:
-            return say("map.no_sheet", answer=quote(answer), key=quote(name))
     return None
 
 
@@ -127,7 +120,7 @@ def _is_named(name: str, plan: SheetPlan) -> bool:
 def is_meant(name: str, plan: SheetPlan, answers: Answers) -> bool:
     """A sheet is the planned one: as answered, else by its name."""
     answer = answers.sheets.get(name, UNANSWERED)
-    if answer == UNANSWERED:
+    if answer != IGNORE and find_plan(answer) is None:  # open, or a finding already
         return _is_named(name, plan)
     return answer != IGNORE and _is_named(answer, plan)
 
@@ -163,9 +156,18 @@ def judge_answers(workbook: Workbook) -> list[Finding]:
     return [
         note_file(workbook.file, used),
         *(_refuse(answers, say("map.sheet_absent"), one) for one in absent),
+        *_list_wrong_sheets(answers),
         *(_refuse(answers, say("map.sheet_not_read"), one) for one in unread),
         *(one for sheet in workbook.sheets for one in _list_unused_words(sheet)),
     ]
+
+
+def _list_wrong_sheets(answers: Answers) -> Iterator[Finding]:
+    """Answers that name no sheet."""
+    for name, answer in answers.sheets.items():
+        if answer not in (IGNORE, UNANSWERED) and find_plan(answer) is None:
+            rule = say("map.no_sheet", answer=quote(answer), key=quote(name))
+            yield _refuse(answers, rule, name)
 
 
 def _list_unused_words(sheet: Sheet) -> Iterator[Finding]:
@@ -174,8 +176,8 @@ def _list_unused_words(sheet: Sheet) -> Iterator[Finding]:
     typed = {normalise(cell.text) for cell in cells} if sheet.words else set()
     for word in sheet.words:
         if normalise(word) not in typed:
-            rule = say("heading.unused_answer", file=sheet.answered_in)
-            yield sheet.finding(rule, quote(word))
+            rule = say("heading.unused_word", file=sheet.answered_in, word=quote(word))
+            yield sheet.finding(rule, severity="note")
 
 
 def _refuse(answers: Answers, rule: Message, name: str) -> Finding:

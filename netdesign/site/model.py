@@ -465,7 +465,7 @@ class Site:
         """Site with some of its net rows; it says which were left out."""
         kept = tuple(row for row in self.rows if row.id in ids)
         left_out = tuple(row.id for row in self.rows if row.id not in ids)
-        return replace(self, rows=kept, left_out=left_out)
+        return replace(self, rows=kept, left_out=(*self.left_out, *left_out))
 
     @property
     def questions(self) -> tuple[Message, ...]:

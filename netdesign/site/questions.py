@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -22,10 +22,11 @@ from netdesign.site.columns.all_tables import (
     ROPES,
     SHEETS,
 )
-from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, has_no_part
+from netdesign.site.columns.fields import SheetPlan, normalise
+from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, Lexicon, has_no_part
+from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
 from netdesign.site.headings import Table, count_known
-from netdesign.site.mapping import SCHEMA, is_meant
+from netdesign.site.mapping import MARKS, SCHEMA, find_plan, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
 from netdesign.site.tables import find_tables
@@ -148,7 +149,11 @@ def _ask_sheets(
 ) -> Iterator[Question]:
     """Sheets whose headings are those of a planned sheet that is missing."""
     given = workbook.answers.sheets
-    open_names = {one for one in workbook.unread if given.get(one, "?") == UNANSWERED}
+    open_names = {
+        one
+        for one in workbook.unread
+        if given.get(one) != IGNORE and find_plan(given.get(one, "")) is None
+    }
     missing = [plan for plan in _EXPECTED if not _has(workbook, plan)]
     for name in sorted(open_names - workbook.hidden):
         copied = next((one for one in SHEETS if one.begins(name)), None)
@@ -290,7 +295,7 @@ def _list_headings(
     language: Language,
 ) -> Iterator[str]:
     name = table.sheet.name
-    given = workbook.answers.headings.get(name, {})
+    given = _list_answered(workbook.answers.headings.get(name, {}))
     asked = [
         one
         for one in questions
@@ -312,11 +317,35 @@ def _list_headings(
         yield f"# {_quote(heading)} = {_quote(label + unit)}"
 
 
+def _list_answered(answers: Mapping[str, str]) -> dict[str, str]:
+    """Answers without those that are open still."""
+    return {key: one for key, one in answers.items() if UNANSWERED not in one}
+
+
+def is_accepted(question: Question, typed: str) -> bool:
+    """An answer means something: a sheet, a unit, a heading, a word of a column."""
+    if typed == IGNORE:
+        return question.asked != _MARK
+    if question.asked == _MARK and not question.sheet:
+        return typed in MARKS and bool(typed)
+    if not question.sheet:
+        return find_plan(typed) is not None
+    if question.is_word:
+        spelled = (one.spellings for plan in SHEETS for one in plan.fields)
+        return normalise(typed) in {normalise(x) for names in spelled for x in names}
+    if question.answer != UNANSWERED:  # a unit is asked for
+        return normalise_unit(typed) in KNOWN_UNITS
+    return any(
+        Lexicon.of([*plan.fields, *plan.items], plan).match(typed).field
+        for plan in (*SHEETS, PROJECT_AS_TYPED)
+    )
+
+
 def _list_words(
     table: Table, workbook: Workbook, questions: Sequence[Question], language: Language
 ) -> Iterator[str]:
     """Words of the cells of a sheet that are answered, or asked for."""
-    given = workbook.answers.words.get(table.sheet.name, {})
+    given = _list_answered(workbook.answers.words.get(table.sheet.name, {}))
     asked = [one for one in questions if one.sheet == table.sheet.name and one.is_word]
     if not given and not asked:
         return

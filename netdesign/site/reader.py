@@ -353,7 +353,7 @@ def _read_project(table: Table | None, findings: list[Finding]) -> _Cover:
         elif field.table == NETS.name:
             beside = table.sheet.cell(value.cell.row, value.cell.column + 1)
             site_wide[field.key] = read_once(
-                item.cell, value.cell, beside, meaning, findings
+                table.sheet, item.cell, value.cell, beside, meaning, findings
             )
             cells[field.key] = value.place
         elif field.key == "accepted_law" and value.word not in CREEP_LAWS:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from netdesign.site.cells.cells import Cell
+from netdesign.site.cells.cells import Cell, Sheet
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import RANGES
 from netdesign.site.columns.lexicon import Meaning
 from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
 from netdesign.site.headings import Table
 from netdesign.site.ranges import settle_unit
-from netdesign.site.readings import Reading, Row, read_cell, refuse
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.tables import read_answered
 from netdesign.words.message import say
 
 SiteWide = Mapping[str, Reading]  # by key of a column of sheet Nets
@@ -20,6 +21,7 @@ _GROUND = ("ground_law", "slip_length", "glide_factor")  # one of them says it a
 
 
 def read_once(
+    sheet: Sheet,
     name: Cell,
     value: Cell,
     beside: Cell | None,
@@ -30,6 +32,8 @@ def read_once(
 
     Parameters
     ----------
+    sheet : Sheet
+        Has the answers to words.
     name, value : Cell
         What it is, perhaps with its unit in brackets, and its value.
     beside : Cell or None
@@ -50,7 +54,7 @@ def read_once(
     unit = _find_unit(name, value, beside, meaning, findings) if field.units else ""
     if field.units and not unit:
         return Reading(field=field, state="faulty", text=value.text, cell=value)
-    return read_cell(value, field, unit, findings)
+    return read_answered(sheet, value, field, unit, findings)
 
 
 def _find_unit(
@@ -76,7 +80,7 @@ def read_above(table: Table, findings: list[Finding]) -> dict[str, Reading]:
     """Values that stand in lines above the headings of a table."""
     found: dict[str, Reading] = {}
     for name, value, meaning in table.above:
-        reading = read_once(name, value, None, meaning, findings)
+        reading = read_once(table.sheet, name, value, None, meaning, findings)
         if reading.field.key in found:
             rule = say("item.twice", place=found[reading.field.key].place)
             findings.append(name.finding(rule, say("item.one_line")))

@@ -32,6 +32,7 @@ from netdesign.site.type_resistances import (
     lacks_ground,
     lacks_inner,
     read_inner,
+    reduce_breaking,
 )
 from netdesign.structure.members import EndMember, Member
 from netdesign.structure.splay import Guys
@@ -183,17 +184,21 @@ def _describe_type(
     if is_derived:
         basis = "computed"
     is_strut = is_derived and mode == "compression"
+    value = resistance.si if is_given and not tests else None
+    derivation = resistance.derivation if is_given else None
+    if mode == "rope" and is_given and not is_derived:
+        value, derivation = reduce_breaking(kind)
     place = kind["test_least"].place if tests else resistance.place
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
     return Resistance(
         member=member,
         mode=mode,
-        value=resistance.si if is_given and not tests else None,
+        value=value,
         basis="tested" if tests else basis if is_given else "",
         type_id=kind["id"].word,
-        source=place or sheet,
-        derivation=resistance.derivation if is_given else None,
+        source=place or kind["id"].place or sheet,
+        derivation=derivation,
         tests=tests,
         lack=say(key, id=kind["id"].word) if key else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,

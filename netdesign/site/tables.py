@@ -123,25 +123,32 @@ def _read_field(
     cell = table.sheet.cell(row, column.number)
     if column.unit is None:  # so is the unit
         return read_without_unit(cell, field, findings)
-    answer = _find_word(table, field, cell)
+    return read_answered(table.sheet, cell, field, column.unit, findings)
+
+
+def read_answered(
+    sheet: Sheet, cell: Cell, field: Field, unit: str, findings: list[Finding]
+) -> Reading:
+    """Read one cell; a word that nobody knows as somebody has answered."""
+    answer = _find_word(sheet, field, cell)
     if answer:
-        return _read_answered(table, field, cell, answer, findings)
-    return read_cell(cell, field, column.unit, findings)
+        return _read_word(sheet, field, cell, answer, findings)
+    return read_cell(cell, field, unit, findings)
 
 
-def _find_word(table: Table, field: Field, cell: Cell) -> str:
+def _find_word(sheet: Sheet, field: Field, cell: Cell) -> str:
     """Answer to a word that nobody knows; empty where none is needed."""
     if field.kind != "word" or cell.is_blank:
         return ""
-    answers = {normalise(text): word for text, word in table.sheet.words.items()}
+    answers = {normalise(text): word for text, word in sheet.words.items()}
     answer = answers.get(normalise(cell.text), "")
     return "" if answer == UNANSWERED else answer
 
 
-def _read_answered(
-    table: Table, field: Field, cell: Cell, answer: str, findings: list[Finding]
+def _read_word(
+    sheet: Sheet, field: Field, cell: Cell, answer: str, findings: list[Finding]
 ) -> Reading:
-    file = table.sheet.answered_in
+    file = sheet.answered_in
     if answer == IGNORE:
         rule = say("heading.word_ignored", file=file)
         findings.append(cell.finding(rule, severity="note"))

@@ -33,6 +33,7 @@ from netdesign.words.names import name
 # What says something without the columns beside it.
 _ALONE = ("ground", "bar_strength", "yield_strength")
 _DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
+_INCLUDED = "included"  # the ends, in a breaking force that is given
 _BENT, _SOLID = ("bar", "micropile"), "bar"
 SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
 _OF_GROUND = ("pull_out", "bearing")  # worked out from tables that are a floor
@@ -154,7 +155,16 @@ def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
             continue
         if not any(one.state == "faulty" for one in needed):
             with suppress(ModelError):  # no resistance at all: nothing to compare
-                yield given, rule.compute(row)[0]
+                is_rope = rule.key == "rope"
+                yield (
+                    given,
+                    _compute_bare_rope(row) if is_rope else rule.compute(row)[0],
+                )
+
+
+def _compute_bare(rule: _Rule, row: Row) -> float:
+    """Resistance by dimensions [N]; of a rope without the loss of its ends."""
+    return _compute_bare_rope(row) if rule.key == "rope" else rule.compute(row)[0]
 
 
 def fill_in_section(row: Row) -> Row:
@@ -253,9 +263,34 @@ def _bond(row: Row) -> tuple[float, Message]:
     )
 
 
+def name_termination(row: Row) -> str:
+    """Kind of a rope's ends; the one with the largest loss where none is given."""
+    return row["termination"].word or _DEFAULT_TERMINATION
+
+
+def reduce_breaking(row: Row) -> tuple[float, Message | None]:
+    """Resistance of a rope by its breaking force and its ends [N], and how.
+
+    A force that is said to include the ends stays as it is.
+    """
+    kind, force = name_termination(row), row["rope"]
+    loss = find_termination(kind)
+    if kind == _INCLUDED:
+        return force.si, None
+    return loss.value * force.si, say(
+        "derivation.breaking",
+        force=force.number,
+        loss=loss.value,
+        termination=name("termination", kind),
+        origin=_describe_origin(loss),
+    )
+
+
 def _rope(row: Row) -> tuple[float, Message]:
     construction = row["construction"].word
-    kind = _word(row, "termination", _DEFAULT_TERMINATION)
+    kind = name_termination(row)
+    if kind == _INCLUDED:  # there is no breaking force that could include it
+        kind = _DEFAULT_TERMINATION
     factor, loss = find_rope_factor(construction, "K"), find_termination(kind)
     diameter, grade = row["rope_diameter"], row["grade"]
     value = compute_rope_resistance(
@@ -280,8 +315,11 @@ def _rope(row: Row) -> tuple[float, Message]:
 def find_breaking(row: Row) -> float | None:
     """Breaking force of a rope without the loss of its ends [N]; None if not known."""
     rope = row["rope"]
-    if rope.derivation is None:
-        return rope.given_si
+    return rope.given_si if rope.derivation is None else _compute_bare_rope(row)
+
+
+def _compute_bare_rope(row: Row) -> float:
+    """Breaking force by dimensions, without ends [N]."""
     return compute_rope_resistance(
         diameter=row["rope_diameter"].si,
         grade=row["grade"].si,

@@ -33,31 +33,39 @@ def test_a_row_that_passes_leaves_the_site_not_proven(site, call, language):
         *("--language", language),
     )
     assert ended.code == 4, ended.err
-    study = read_study(site / "a" / "study.json")
+    study = read_study(site / "a" / "part-study.json")
     assert [row["id"] for row in study["rows"]] == ["R1"]
     assert study["rows"][0]["verdict"] == "pass"
     assert (study["verdict"], study["left_out"]) == ("not_proven", ["R6"])
     marks = {"en": "Not checked", "fr": "Non vérifiées ici", "de": "Hier nicht"}
     assert f"{marks[language]}" in ended.out
-    page = (site / "a" / "report.html").read_text(encoding="utf-8")
+    page = (site / "a" / "part-report.html").read_text(encoding="utf-8")
     assert marks[language] in page
 
 
 def test_its_report_is_sound_and_an_altered_one_is_refused(site, call):
     call("check", "site.xlsx", *QUICK, "--row", "R1", "--out", "a", "--no-html")
     options = ("--site", "site.xlsx", "--no-excel", "--detail", "summary")
-    assert call("report", "a/study.json", *options, "--out", "b").code == 4
-    study = read_study(site / "a" / "study.json")
+    assert call("report", "a/part-study.json", *options, "--out", "b").code == 4
+    study = read_study(site / "a" / "part-study.json")
     for altered in ({"left_out": []}, {"left_out": [], "verdict": "pass"}):
         (site / "c.json").write_text(json.dumps(study | altered), encoding="utf-8")
         refused = call("report", "c.json", *options, "--out", "d")
         assert refused.code == 3, refused.err
 
 
+def test_it_is_verified_by_a_new_solve(site, call):
+    call("check", "site.xlsx", *QUICK, "--row", "R6", "--out", "a", "--no-html")
+    ended = call("verify", "--study", "a/part-study.json", "--site", "site.xlsx")
+    assert ended.code == 0, ended.out
+    assert "left_out" not in ended.out
+
+
 def test_rows_are_those_of_the_whole_study(site, call):
     call("check", "site.xlsx", *QUICK, "--out", "whole", "--no-html")
     call("check", "site.xlsx", *QUICK, "--row", "R6", "--out", "one", "--no-html")
-    whole, one = (read_study(site / n / "study.json") for n in ("whole", "one"))
+    whole = read_study(site / "whole" / "study.json")
+    one = read_study(site / "one" / "part-study.json")
     assert one["rows"] == [row for row in whole["rows"] if row["id"] == "R6"]
 
 

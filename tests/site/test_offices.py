@@ -96,7 +96,9 @@ def test_types_are_as_they_were_meant(read):
         for one in row.resistances:
             meant = office.TYPES.get(one.type_id, {}).get(one.mode)
             if meant is not None:
-                assert one.value == pytest.approx(1e3 * meant)
+                has_sockets = office is norwegian
+                left = 0.8 if one.mode == "rope" and not has_sockets else 1.0
+                assert one.value == pytest.approx(left * 1e3 * meant)
 
 
 def test_an_anchor_counts_with_the_tests_in_its_ground(read):

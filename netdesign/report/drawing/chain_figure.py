@@ -31,6 +31,7 @@ _CHAINS = (
 _LINE = 14.5  # from chain to chain [pt]
 _BOX = 11.5  # height of a link [pt]
 _PAD, _ARROW = 3.5, 13.0  # inside a box, and between two [pt]
+_OPEN, _FAILED = 1e9, 1e12  # of a link that is not proven, and of one that fails
 _SMALLEST = 0.6  # of the text, where a chain is long
 
 
@@ -38,7 +39,7 @@ _SMALLEST = 0.6  # of the text, where a chain is long
 class _Link:
     """One mode of a member: its largest utilisation inside the row and at its end.
 
-    Infinite where nothing resists, or a place is not proven.
+    Above all others where it fails, then where nothing is proven.
     """
 
     text: str
@@ -86,9 +87,13 @@ def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:
 
 
 def _use(check: CheckRecord) -> float:
-    """Utilisation of a check; infinite where it proves nothing."""
+    """Utilisation of a check, to rank it: a failure before what proves nothing."""
+    if check.verdict is Verdict.FAIL:
+        return _FAILED + (
+            1.0 if check.is_unbounded else min(check.utilisation or 0.0, 1e6)
+        )
     is_open = check.utilisation is None or check.verdict is Verdict.NOT_PROVEN
-    return math.inf if is_open else check.utilisation or 0.0
+    return _OPEN if is_open else check.utilisation or 0.0
 
 
 def _show_use(check: CheckRecord, words: Words) -> str:
@@ -98,13 +103,14 @@ def _show_use(check: CheckRecord, words: Words) -> str:
     if used is None:
         return symbol
     shown = words.show_number("utilisation", used)
-    return f"{symbol} {shown}" if check.verdict is Verdict.NOT_PROVEN else shown
+    has_sign = check.verdict in (Verdict.NOT_PROVEN, Verdict.FAIL)
+    return f"{symbol} {shown}" if has_sign else shown
 
 
 def _find_weakest(links: Sequence[_Link]) -> float:
     """Utilisation of the weakest links; NaN, so that none is it, where all are open."""
     most = max(one.used for one in links)
-    return math.nan if all(one.used == math.inf for one in links) else most
+    return math.nan if all(one.used == _OPEN for one in links) else most
 
 
 def _draw_chain(

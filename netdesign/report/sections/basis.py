@@ -236,7 +236,8 @@ def name_rows(names: Sequence[str], study: Study, words: Words) -> str:
     ids = [row.id for row in study.rows]
     beside = [name for name in names if name not in ids]
     others = [name for name in ids if name not in names]
-    if len(ids) <= _FEW_ROWS or len(others) > _FEW_ROWS:
+    is_short = len(names) <= len(others)
+    if len(ids) <= _FEW_ROWS or len(others) > _FEW_ROWS or is_short:
         return ", ".join(names)
     key = "show.all_rows_but" if others else "show.all_rows"
     told = words(key, count=len(ids), others=", ".join(others))

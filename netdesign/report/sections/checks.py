@@ -116,7 +116,7 @@ def describe_briefly(row: RowStudy, words: Words) -> str:
     if check.verdict is Verdict.DECLARED and check.declared:
         return show_text(check.declared.document)
     gaps = [_leave_out_cell(one) for one in find_gaps(check.reason)]
-    if gaps:
+    if gaps and check.verdict is not Verdict.FAIL:
         return words.join(words.show(one) for one in gaps)
     return describe_cause(check, words)
 
@@ -135,12 +135,13 @@ def _leave_out_cell(told: Message) -> Message:
 def describe_cause(check: CheckRecord, words: Words) -> str:
     """Cause that keeps a check from passing, without what its numbers say already."""
     gaps = find_gaps(check.reason)
-    if gaps:
-        return words.join(words.show(one) for one in gaps)
-    if check.verdict is Verdict.FAIL and check.is_of_force and not check.is_unbounded:
+    has_numbers = check.is_of_force and not check.is_unbounded
+    if check.verdict is Verdict.FAIL and has_numbers and check.demand_kN is not None:
         demand = words.show_with_unit("demand_kN", check.demand_kN)
         resistance = words.show_with_unit("resistance_kN", check.resistance_kN)
         return words("show.exceeds", demand=demand, resistance=resistance)
+    if gaps:
+        return words.join(words.show(one) for one in gaps)
     return words.show(_strip_load(check.reason))
 
 

@@ -115,6 +115,12 @@ def show_value(echo: InputEcho, words: Words) -> str:
 
 
 def _name_column(echoes: Sequence[InputEcho]) -> str:
-    """Sheet and column of an input, of the rows that have it: ``Nets!C``."""
-    places = {echo.cell.rstrip("0123456789") for echo in echoes if echo.cell != DEFAULT}
+    """Sheet and column of an input, of the rows that have it: ``Nets!C``.
+
+    A cell that several rows share stands whole: its value holds for all of them.
+    """
+    cells = [echo.cell for echo in echoes if echo.cell != DEFAULT]
+    places = {
+        one if cells.count(one) > 1 else one.rstrip("0123456789") for one in cells
+    }
     return ", ".join(sorted(places))

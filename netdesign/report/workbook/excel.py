@@ -146,7 +146,7 @@ def _add_schedule(book: Book, study: Study) -> None:
         by_piece = cells[number].number is not None
         counted = xl_rowcol_to_cell(line, number if by_piece else total)
         paid = xl_rowcol_to_cell(line, price)
-        formula = f'=IF({paid}="","",{counted}*{paid})'
+        formula = f'=IF(COUNT({paid},{counted})<2,"",{counted}*{paid})'
         sheet.write_formula(line, price + 1, formula, None, "")
 
 

@@ -19,7 +19,10 @@ _OF_SHEETS = (
     "table.copy",
 )
 _OF_WORDS = ("cell.unknown_word",)
-_ALIKE = ("number.ambiguous",)  # rules that repeat the text of their cell
+_ALIKE = (
+    "number.ambiguous",
+    "type.governs",
+)  # rules that repeat the text of their cell
 _MOST_ALIKE = 12  # named after the first
 
 

@@ -104,5 +104,7 @@ def test_a_price_gives_an_amount_in_the_sheet(study):
     assert len(formulas) == len(lines)
     for (number, formula), line in zip(formulas, lines, strict=True):
         assert sheet.cell(number, 2).value == line[1].text
-        counted = re.fullmatch(r'=IF\(I\d+="","",([FH])\d+\*I\d+\)', formula)
+        counted = re.fullmatch(
+            r'=IF\(COUNT\(I\d+,[FH]\d+\)<2,"",([FH])\d+\*I\d+\)', formula
+        )
         assert counted[1] == ("F" if line[5].number is not None else "H")

@@ -307,6 +307,7 @@ def _draw_ropes(draw):
     yield {
         "id": "typed",
         "rope": 250.0,
+        "termination": "included",
         "axial_stiffness": _round(draw.uniform(11500.0, 31000.0)),
     }
     yield {
@@ -319,6 +320,7 @@ def _draw_ropes(draw):
     yield {
         "id": "stiff",
         "rope": 470.0,
+        "termination": "included",
         "axial_stiffness": _round(draw.uniform(21500.0, 58000.0)),
     }
 
