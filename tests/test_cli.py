@@ -209,7 +209,7 @@ def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
         for line in result.out.splitlines()
         if "tendon" in line and "(FAIL)" in line
     ]
-    for quantity in ("characteristic resistance at least", "post spacing"):
+    for quantity in ("characteristic resistance ≥", "post spacing"):
         assert any(quantity in line for line in told), quantity
     assert all("anchor, tendon" in line for line in told)
     assert any("Downhill" in line for line in told)  # by the load along the row alone

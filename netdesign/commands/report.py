@@ -163,13 +163,13 @@ def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
 
 
 def _show(changes: Sequence[Change], language: Language) -> None:
-    from netdesign.report.difference import name_area
+    from netdesign.report.difference import name_area, share_rows
 
     area = ""
-    for change in changes:
+    for change, rows in share_rows(changes):
         if change.area != area:
             area = change.area
             click.echo(name_area(area, language))
-        click.echo(f"  {change.tell(language)}")
+        click.echo(f"  {change.tell(language, rows)}")
     if not changes:
         tell(say("diff.same"), language)

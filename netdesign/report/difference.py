@@ -6,7 +6,6 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from itertools import groupby
 from typing import Any, TypeVar
 
 from netdesign.edge.given_files import make_printable
@@ -16,7 +15,7 @@ from netdesign.report.governing import find_governing
 from netdesign.report.words import Words, find_choice
 from netdesign.site.model import InputEcho
 from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.study.values import ROUNDING, Difference, compare_values
+from netdesign.study.values import ROUNDING, compare_values
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 from netdesign.words.names import as_given, name, name_check, name_member
@@ -51,6 +50,28 @@ _OF_STEPS = {
 _TOLD = ("E_d", "γ_E", "R_k", "γ_R", "R_d", "μ")  # symbols of all of these
 _MOST_DIGITS = 17  # tell any two numbers apart
 _NOTHING = (None, "", "-")
+# In the order of the terminal.
+_AREAS = (
+    *("verdict", "settings", "project", "profile", "range", "input", "governing"),
+    *("check", "other"),
+)
+# What follows from a utilisation, or from a largest force, that is told beside it.
+_FOLLOWS = (
+    *("diff_check.demand_kN", "diff_check.demand_low_kN", "diff_check.demand_high_kN"),
+    "diff.upper_bound",
+)
+# Names of what is told by its count alone.
+_PARTS = {
+    **dict.fromkeys(("cases", "envelope", "extremes", "forces", "statics"), "cases"),
+    **dict.fromkeys(("checks", "reasons", "questions", "unsaid"), "checks"),
+    **dict.fromkeys(("drawing", "anchors", "head", "pulls", "panel"), "forces"),
+    **dict.fromkeys(("guideline", "floor", "slab", "model_form"), "opinions"),
+    **dict.fromkeys(("end_effects", "held_sideways", "tilt", "independent"), "forces"),
+    **dict.fromkeys(("inputs", "range_inputs", "parts"), "inputs"),
+    "rows": "order",
+    **dict.fromkeys(("notes", "monitoring"), "notes"),
+    **dict.fromkeys(("profile", "provenance"), "profile"),
+}
 _Value = TypeVar("_Value")
 Named = Mapping[Message, Any]  # values by their names
 
@@ -93,15 +114,21 @@ class Change:
         """``R1: utilisation: 0.73 -> 0.81``."""
         return self.tell("en")
 
-    def tell(self, language: Language) -> str:
-        """The change on one line, in a language."""
+    def tell(self, language: Language, rows: Sequence[str] = ()) -> str:
+        """The change on one line, in a language; of all rows that share it."""
         words = Words(language)
         pairs = zip(self.names, (self.old, self.new), strict=True)
         old, new = (words.show(name) if name else one for name, one in pairs)
         before, after = _show(old, new, words)
         told = {"what": self.name(words), "old": before, "new": after}
+        names = ", ".join(rows or (self.row,))
+        if self.area == "other":
+            label = {"label": names, "text": told["what"]}
+            return make_printable(
+                words("show.label", **label) if names else label["text"]
+            )
         if self.row:
-            sentence = words("diff.change_of_row", row=self.row, **told)
+            sentence = words("diff.change_of_row", row=names, **told)
         else:
             sentence = words("diff.change", **told)
         return make_printable(sentence.replace("\n", " "))
@@ -152,6 +179,29 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
             )
         ),
     ]
+
+
+def share_rows(changes: Sequence[Change]) -> list[tuple[Change, list[str]]]:
+    """Changes as a terminal tells them, each with the net rows that share it.
+
+    Causes stand before their effects, behind the verdicts; of a check that is used
+    otherwise only its utilisation is told.
+    """
+    shared: dict[object, tuple[Change, list[str]]] = {}
+    told_first = sorted(changes, key=lambda one: _AREAS.index(one.area))
+    for change in filter(_is_told, told_first):
+        is_of_row = bool(change.row) and change.area != "verdict"
+        told = (change.area, change.what, str(change.old), str(change.new))
+        key: object = told if is_of_row else (*told, change.row, len(shared))
+        _, rows = shared.setdefault(key, (change, []))
+        rows.append(change.row)
+    return list(shared.values())
+
+
+def _is_told(change: Change) -> bool:
+    what = change.what.arguments.get("what")
+    key = what.key if isinstance(what, Message) else change.what.key
+    return key not in _FOLLOWS
 
 
 def name_area(area: str, language: Language) -> str:
@@ -240,30 +290,14 @@ def _tell(verdict: str) -> _Word:
 
 
 def _compare_rest(row: str, old: object, new: object) -> Iterator[Change]:
-    """Other values that differ: the first of each part, and how many follow."""
-
-    def name_part(one: Difference) -> str:
-        return one.place.partition(".")[0]
-
-    differences = compare_values(old, new, is_exact=True)
-    for _, found in groupby(sorted(differences, key=name_part), key=name_part):
-        every = list(found)
-        first, more = min(every, key=_tells_little), len(every) - 1
-        what = as_given(first.place)
-        if more:
-            what = say("diff.place_and_more", place=first.place, count=more)
-        yield Change(
-            area="other", row=row, what=what, old=first.stored, new=first.again
-        )
-
-
-def _tells_little(one: Difference) -> int:
-    """Rank among the first to be told: an order, or a part that has no members, last.
-
-    Where a part is there in one study only, its members tell more than itself.
-    """
-    is_empty = not one.stored and not one.again
-    return 2 * is_empty + one.place.endswith("order")
+    """Other values that differ: how many of each part."""
+    counts = Counter(
+        _PARTS.get(one.place.partition(".")[0].partition("[")[0], "other")
+        for one in compare_values(old, new, is_exact=True)
+    )
+    for part, count in counts.items():
+        what = say("diff.values_of", part=name("diff_part", part), count=count)
+        yield Change(area="other", row=row, what=what, old=None, new=count)
 
 
 def _name_verdict(study: Study) -> Named:

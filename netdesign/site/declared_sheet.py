@@ -16,7 +16,7 @@ from netdesign.site.cells.cells import Cell, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
-from netdesign.site.lines import refuse_unknown_ids
+from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids
 from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.replaced import find_cell, split_replacement
@@ -53,7 +53,6 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
     *_OF_GEOMETRY,
 )
 
-_ALL_ROWS = ("all", "alle", "toutes")  # in place of an id
 
 _Subject = tuple[str, str, str]  # member, mode, position of its support or ""
 
@@ -142,7 +141,7 @@ def _read_line(
 
 def _is_of_all(row: Reading, places: Mapping[str, str]) -> bool:
     """A line holds for all net rows, none of which has that name."""
-    return row.word not in places and normalise(row.word) in _ALL_ROWS
+    return row.word not in places and normalise(row.word) in ALL_ROWS
 
 
 def _is_date(text: str) -> bool:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.ranges import RangesSheet
 from netdesign.site.readings import Reading, Row, refuse
@@ -14,6 +15,7 @@ from netdesign.words.message import Message, say
 TYPE_SHEETS = ("Anchors", "Ropes", "Posts")
 Types = Mapping[str, Mapping[str, Row]]  # lines of the type sheets, by name and id
 
+ALL_ROWS = ("all", "alle", "toutes")  # in place of an id, of every net row
 _MOST_PLACES = 5  # named in one finding
 
 
@@ -65,6 +67,23 @@ def index_lines(
         elif reading.word:
             found[reading.word] = line
     return found
+
+
+def spread_over_rows(lines: Sequence[Row], ids: Sequence[str]) -> list[Row]:
+    """Lines of a sheet; one that is of all net rows stands for each without its own.
+
+    A net row of that name is meant before all of them.
+    """
+    named = {line["row"].word for line in lines}
+    spread: list[Row] = []
+    for line in lines:
+        word = line["row"].word
+        if word in ids or normalise(word) not in ALL_ROWS:
+            spread.append(line)
+            continue
+        others = [one for one in ids if one not in named]
+        spread += [{**line, "row": replace(line["row"], value=one)} for one in others]
+    return spread
 
 
 def refuse_unknown_ids(

@@ -39,6 +39,7 @@ from netdesign.site.lines import (
     Lines,
     index_lines,
     refuse_unknown_ids,
+    spread_over_rows,
 )
 from netdesign.site.mapping import (
     give_answers,
@@ -224,6 +225,7 @@ def _read_lines(
     snow = read_layers(tables[SNOW.name], findings)
     ends_table, anchors_table = tables[ENDS.name], tables[ANCHORS.name]
     ends = list(read_rows(ends_table, findings)) if ends_table else []
+    ends = spread_over_rows(ends, [row["id"].word for row in nets])
     anchors = list(read_rows(anchors_table, findings)) if anchors_table else []
     tests_table = tables[TESTS.name]
     if tests_table:

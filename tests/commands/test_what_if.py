@@ -68,7 +68,7 @@ def test_sizing_with_a_ground_that_nobody_gives_asks_and_writes_no_study(
     offers = [line for line in ended.out.splitlines() if "A28-computed" in line]
     assert len(offers) >= 2  # of --explain and of --size
     assert all("?" in line for line in offers)
-    none = {"en": "it is not known", "fr": "rien ne dit", "de": "Niemand sagt"}
+    none = {"en": "it is not known", "fr": "rien ne dit", "de": "Für diese Typen"}
     assert none[language] in ended.out
     assert [path.name for path in (site / "a").glob("[!.]*")] == ["study.json"]
 

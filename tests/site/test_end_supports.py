@@ -98,3 +98,17 @@ def test_sheet_is_read_in_other_languages(with_ends, save, sheet, headings):
     with_ends[sheet] = [headings, ["R1", "A3"]]
     row = read_site(save(with_ends)).rows[0]
     assert values(row.end_resistances)["foot_anchor", "tendon"] == 731e3
+
+
+@pytest.mark.parametrize("word", ["all", "alle", "toutes", "All"])
+def test_one_line_of_all_stands_for_every_row_without_its_own(with_ends, save, word):
+    with_ends["Ends"] = [
+        list(HEADINGS),
+        ["R2", "A2", None, None, None],
+        [word, "A3", None, None, None],
+    ]
+    found = [
+        {one.member: one.type_id for one in row.resistances_at("edge")}["foot_anchor"]
+        for row in read_site(save(with_ends)).rows
+    ]
+    assert found == ["A3", "A2"]

@@ -24,7 +24,7 @@ FAMILIES: tuple[str, ...] = (
     *("fit_page.", "fit_case.", "fit_parameter."),
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
     *("product_source.", "plausible.source_", "opinion.", "schedule."),
-    *("scope.", "todo.", "quantities.", "loads.", "why_more."),
+    *("scope.", "todo.", "quantities.", "loads.", "why_more.", "diff_part."),
     "floor.profile_",
     *("reference.", "case_kind.", "piece.", "verify_table."),
     *("against_figure.", "against_clock.", "against_table."),

@@ -206,11 +206,34 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     panels = [row.id for row in study.rows if row.panel and row.panel.assumed]
     if panels:
         yield words("todo.panels", rows=name_rows(panels, study, words))
+    ropes = _list_border_ropes(study, words)
+    if ropes:
+        yield words("todo.border_ropes", ropes=words.join(ropes))
     if any(_is_assumed_stiffness(echo) for echo in study.range_inputs):
         yield words("todo.stiffness")
     defaults = count_defaults(study, words)
     if defaults:
         yield words("todo.defaults", count=defaults)
+
+
+def _list_border_ropes(study: Study, words: Words) -> list[str]:
+    """Types of border ropes with their largest pull, and what they break at [kN]."""
+    pulls: dict[str, tuple[float, float | None]] = {}
+    for row in study.rows:
+        for rope in row.panel.ropes if row.panel else ():
+            most, _ = pulls.get(rope.type, (0.0, None))
+            pull = max(most, rope.tension_kN or 0.0)
+            pulls[rope.type] = (pull, rope.breaking_kN)
+    return [
+        words(
+            "todo.border_rope" if breaking else "todo.border_rope_alone",
+            type=show_text(kind),
+            tension=words.show_number("demand_kN", pull),
+            breaking=words.show_number("resistance_kN", breaking),
+        )
+        for kind, (pull, breaking) in pulls.items()
+        if pull > 0.0
+    ]
 
 
 def _is_assumed_stiffness(echo: InputEcho) -> bool:

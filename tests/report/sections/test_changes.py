@@ -82,7 +82,7 @@ def test_change_in_words():
         sense="at most",
         solves=9,
     )
-    assert describe_change(change, ENGLISH) == "snow thickness at most 1.26 m"
+    assert describe_change(change, ENGLISH) == "snow thickness ≤ 1.26 m"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
