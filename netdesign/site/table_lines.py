@@ -30,6 +30,7 @@ _SECTION = re.compile(
     r"|zone|los|hang|settore|zona|lotto|tratto|versante)\b",
     re.IGNORECASE,
 )
+_LINE_OVER_SUM = 4  # numbers of a line, at least, for each of a sum
 _WIDE = 3  # columns of a merged cell that heads a part of a table
 
 
@@ -140,17 +141,13 @@ def _is_part(
 
 
 def _is_total(table: Table, row: int) -> bool:
-    """A line sums up others: named so, with less than half of what a line holds."""
+    """A line sums up others: named so, with a quarter of what a line holds at most."""
     first = table.sheet.row(row)[0]
     if not isinstance(first.value, str) or not _TOTAL.match(first.value.strip()):
         return False
-    every = [column.number for column in table.columns.values()]
-    needed = _list_needed(table)
-    blank, lacking = (
-        sum(table.sheet.cell(row, column).is_blank for column in columns)
-        for columns in (every, needed)
-    )
-    return 2 * blank > len(every) and 2 * lacking >= len(needed)
+    columns = [column.number for column in table.columns.values()]
+    filled = sum(not table.sheet.cell(row, column).is_blank for column in columns)
+    return _LINE_OVER_SUM * (filled - 1) <= len(columns)
 
 
 def _is_whole(table: Table, row: int) -> bool:

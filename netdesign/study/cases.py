@@ -36,6 +36,7 @@ _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
 HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take
 CLOSEST_GAP = 1e-3  # of a search, however accurate its cases are
+_USUAL_RANGES, _MORE_CASES = 3, 150  # density, friction, inclination; for each more
 
 
 def count_cases(site: Site) -> int:
@@ -143,6 +144,12 @@ class _RowScenes:
         return build_scene(self.row, case, self.law)
 
 
+def _count_most_cases(ranges: Ranges) -> int:
+    """Cases after which a search ends: more for more quantities that range."""
+    free = sum(interval.low < interval.high for _, interval in ranges.intervals)
+    return SearchSettings().max_cases + _MORE_CASES * max(0, free - _USUAL_RANGES)
+
+
 def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
     is_own = bool(row.layers or ranges.further)
     return RowTask(
@@ -150,7 +157,10 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         ranges=ranges,
         layout=row.layout,
         settings=run.settings,
-        search=SearchSettings(gap=max(run.settings.accuracy, CLOSEST_GAP)),
+        search=SearchSettings(
+            gap=max(run.settings.accuracy, CLOSEST_GAP),
+            max_cases=_count_most_cases(ranges),
+        ),
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
         panels=row.panels,
