@@ -17,7 +17,7 @@ DESIGNATION = re.compile(
     r"\b(EN \d{4,5}(?:-\d+)*|NF P \d\d-\d{3}|ONR \d{5}|UV-\d{4}|FHWA-NHI-\d\d-\d{3})"
 )
 ADDRESS = re.compile(r"\b[a-z]+(?:-[a-z]+)*\.(?:com|info|us|de)\b")
-DOCUMENT = re.compile(r"\b[\w-]+\.md\b")
+DOCUMENT = re.compile(r"\b[\w-]+(?:\.(?:fr|de))?\.md\b")
 SECTIONS = re.compile(r"FACTS\.md, sections? (\d+)(?: and (\d+))?")
 
 # A place or a month before a year is no author.

@@ -200,6 +200,9 @@ def work_out_pull_out(told):
 
 
 def work_out_rope(told):
+    if " kN · " in told:
+        force, loss = list_numbers(told)[:2]
+        return force * loss
     factor, diameter, grade, loss = list_numbers(told)[:4]
     return factor * diameter**2 * grade * loss / 1e3
 

@@ -119,8 +119,19 @@ def test_other_languages_print_the_same_numbers(studies, pages, language):
 def twelve(studies):
     """Twelve rows: the example's, and five of them again under other names."""
     study = studies["example"]
-    again = [replace(row, id=f"{row.id}b") for row in study.rows[:5]]
+    again = [
+        replace(row, id=f"{row.id}b", inputs=move_down(row.inputs))
+        for row in study.rows[:5]
+    ]
     return replace(study, rows=[*study.rows, *again])
+
+
+def move_down(inputs):
+    """Inputs as from other lines of the workbook."""
+    return [
+        replace(one, cell=re.sub(r"\d+$", lambda line: f"{int(line[0]) + 7}", one.cell))
+        for one in inputs
+    ]
 
 
 @pytest.mark.parametrize(
