@@ -47,6 +47,7 @@ from netdesign.site.mapping import (
     judge_answers,
     read_answers,
 )
+from netdesign.site.missing import list_missing
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows
@@ -141,7 +142,7 @@ def read_site(
     rows = tuple(
         replace(
             mark_replaced(row, replaced),
-            unsaid=row.unsaid + ranges.unsaid,
+            unsaid=list_missing(row, row.unsaid + ranges.unsaid),
             questions=questions.get(row.id, ()),
         )
         for row in net_rows

@@ -50,7 +50,8 @@ def list_unsaid(row: Row) -> tuple[Message, ...]:
     needed += ["snow_layers", "guy_count"]
     if row["post_base_distance"].state != "given":
         needed.append("post_tilt")
-    if row["guy_count"].state == "given" and row["guy_count"].number > 1:
+    count = row["guy_count"]
+    if count.state != "given" or count.number > 1:
         needed.append("guy_splay")
     return tuple(row[key].field.name for key in needed if row[key].state != "given")
 

@@ -140,8 +140,11 @@ def check_sideways(
     standard: Standard,
     gap: Message | None,
 ) -> CheckResult:
-    """Check of the load along the row; ``gap`` is that of the cases."""
-    lack = held if isinstance(held, Message) else gap
+    """Check of the load along the row; ``gap`` is that of the cases, or what is unsaid.
+
+    What is unsaid comes first: guys that nobody gives are not a single one.
+    """
+    lack = held if isinstance(held, Message) and not row.unsaid else gap
     share = standard.find(LATERAL_SHARE)
     told = say(
         "sideways.held",

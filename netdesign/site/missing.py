@@ -1,0 +1,84 @@
+"""One list of everything that a verdict on a net row still lacks.
+
+A row is completed in one go: what the forces lack would hide what comes after them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import chain
+
+from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
+from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.model import NAMED_BY, NetRow, Resistance
+from netdesign.structure.members import Member
+from netdesign.words.message import Message, say
+
+_SHEET_BY_MODE = {"rope": ROPES, "compression": POSTS, "bearing": POSTS}
+
+
+def list_missing(row: NetRow, unsaid: Sequence[Message]) -> tuple[Message, ...]:
+    """Lacks of its forces, then those of its checks; empty without the former.
+
+    Parameters
+    ----------
+    row : NetRow
+        As read.
+    unsaid : sequence of Message
+        Names of columns and ranges that every force of it depends on.
+    """
+    if not unsaid:
+        return ()
+    further = chain(_list_of_row(row), _list_of_types(row), _list_of_end(row))
+    return tuple(dict.fromkeys((*unsaid, *further)))
+
+
+def _list_of_row(row: NetRow) -> Iterator[Message]:
+    if row.panel is not None and row.panel_lack is not None:
+        yield _name(NETS, "panel_system")
+    if not row.drills_along_pull and any(
+        row.find_axis(anchor) is None for anchor, _ in row.anchors
+    ):
+        yield _name(NETS, "anchor_axes")
+
+
+def _list_of_types(row: NetRow) -> Iterator[Message]:
+    """Types that no column names, and what those that are named do not say."""
+    for one in row.resistances:
+        if not one.type_id:
+            member = one.member
+            is_base = member == Member.POST_BASE
+            yield _name(NETS, NAMED_BY[Member.POST_BASE] if is_base else member)
+        elif one.value is None and not (one.tests or one.dimensions):
+            yield from _list_lacking(row, one)
+
+
+def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
+    names = one.lack.arguments.get("names", ()) if one.lack else ()
+    if one.mode == "bending":
+        anchor = row.find_anchor_type(Member(one.member))
+        if anchor is None or not anchor.kind:
+            yield _name(ANCHORS, "kind")
+        yield _name(ANCHORS, "lever_arm")
+    elif one.mode == "sliding":
+        yield _name(POSTS, "base_friction")
+    elif isinstance(names, tuple) and names:
+        yield from (one for one in names if isinstance(one, Message))
+    else:
+        yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), one.mode)
+
+
+def _list_of_end(row: NetRow) -> Iterator[Message]:
+    at_end = (*(row.end_resistances or ()), *_list_along(row))
+    if any(one.source == ENDS.name for one in at_end):
+        yield say("check.unsaid_ends")
+    elif row.row_end is not None and row.row_end.guy_angle is None:
+        yield _name(ENDS, "end_guy_angle")
+
+
+def _list_along(row: NetRow) -> tuple[Resistance, ...]:
+    return row.row_end.resistances if row.row_end else ()
+
+
+def _name(plan: SheetPlan, key: str) -> Message:
+    return next(one.name for one in plan.fields if one.key == key)
