@@ -174,6 +174,17 @@ def test_a_dry_run_says_beforehand_that_snow_overtops_a_net(tmp_path):
     assert "is less than the snow thickness of 2.5 m" in note
 
 
+def test_a_dry_run_lists_all_that_a_verdict_lacks(call):
+    shown = call("check", "--example", "--dry-run")
+    lines = [one for one in shown.out.splitlines() if one.startswith("missing")]
+    assert lines == [
+        "missing for a verdict on R3: bearing resistance",
+        "missing for a verdict on R6: pull-out resistance",
+    ]
+    as_json = call("check", "--example", "--dry-run", "--json")
+    assert json.loads(as_json.out)["missing"] == lines
+
+
 def test_a_declared_check_ends_with_6_and_is_named_on_every_output(tmp_path):
     def declare(sheets):
         sheets["Posts"][1][2] = None

@@ -11,6 +11,7 @@ import click
 
 from netdesign.commands.running import print_faults
 from netdesign.commands.usage import tell
+from netdesign.site.missing import list_missing
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -58,6 +59,7 @@ def announce(
                 }
                 for one in phases
             ],
+            "missing": [render(one, language) for one in _list_missing(site)],
             "notes": [render(one, language) for one in site.notes],
             "questions": [render(one, language) for one in site.questions],
         }
@@ -89,8 +91,22 @@ def _show(
             tell(_name_phase(phase), language)
     for note in site.notes:
         tell(say("cli.note", text=note), language)
+    for missing in _list_missing(site):
+        tell(missing, language)
     for question in site.questions:
         tell(say("cli.question", text=question), language)
+
+
+def _list_missing(site: Site) -> list[Message]:
+    """Lines on what the net rows lack for a verdict; rows that lack the same share."""
+    by_lack: dict[tuple[Message, ...], list[str]] = {}
+    for row in site.rows:
+        if names := list_missing(row):
+            by_lack.setdefault(names, []).append(row.id)
+    return [
+        say("plan.missing", rows=tuple(rows), names=names)
+        for names, rows in by_lack.items()
+    ]
 
 
 def _name_phase(phase: Phase) -> Message:

@@ -1,11 +1,8 @@
-"""One list of everything that a verdict on a net row still lacks.
-
-A row is completed in one go: what the forces lack would hide what comes after them.
-"""
+"""One list of everything that a verdict on a net row still lacks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import chain
 
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
@@ -17,20 +14,10 @@ from netdesign.words.message import Message, say
 _SHEET_BY_MODE = {"rope": ROPES, "compression": POSTS, "bearing": POSTS}
 
 
-def list_missing(row: NetRow, unsaid: Sequence[Message]) -> tuple[Message, ...]:
-    """Lacks of its forces, then those of its checks; empty without the former.
-
-    Parameters
-    ----------
-    row : NetRow
-        As read.
-    unsaid : sequence of Message
-        Names of columns and ranges that every force of it depends on.
-    """
-    if not unsaid:
-        return ()
-    further = chain(_list_of_row(row), _list_of_types(row), _list_of_end(row))
-    return tuple(dict.fromkeys((*unsaid, *further)))
+def list_missing(row: NetRow) -> tuple[Message, ...]:
+    """Names of columns and sheets that a verdict on a net row lacks, each once."""
+    found = chain(row.unsaid, _list_of_row(row), _list_of_types(row), _list_of_end(row))
+    return tuple(dict.fromkeys(found))
 
 
 def _list_of_row(row: NetRow) -> Iterator[Message]:

@@ -89,7 +89,7 @@ from netdesign.site.type_resistances import (
 )
 from netdesign.site.winter_sheet import read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 _LAWS = tuple(CREEP_LAWS)
 _TYPE_PLANS = (ANCHORS, ROPES, POSTS)
@@ -142,7 +142,7 @@ def read_site(
     rows = tuple(
         replace(
             mark_replaced(row, replaced),
-            unsaid=list_missing(row, row.unsaid + ranges.unsaid),
+            unsaid=_name_unsaid(row, ranges),
             questions=questions.get(row.id, ()),
         )
         for row in net_rows
@@ -165,6 +165,15 @@ def read_site(
         catalogue=list_catalogue(lines.types),
         what_if=replaced,
     )
+
+
+def _name_unsaid(row: NetRow, ranges: RangesSheet) -> tuple[Message, ...]:
+    """Lacks of every force of a row, with all that its checks lack besides.
+
+    What the forces lack would hide the rest: a row is completed in one go.
+    """
+    unsaid = row.unsaid + ranges.unsaid
+    return tuple(dict.fromkeys((*unsaid, *list_missing(row)))) if unsaid else ()
 
 
 def _find_tables(
