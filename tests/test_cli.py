@@ -143,6 +143,18 @@ def test_an_unknown_profile_of_a_site_is_refused_at_its_cell(call, tmp_path):
     assert "Did you mean eurocode?" in ended.err
 
 
+def test_an_unknown_profile_is_told_with_the_other_faults(call, tmp_path):
+    def spoil(sheets):
+        sheets["Project"] = [["item", "value"], ["name", "C"], ["standard", "NF P 95"]]
+        sheets["Nets"][1][3] = "steep"
+
+    write_site(tmp_path / "site.xlsx", spoil)
+    ended = call("check", "site.xlsx", "--dry-run")
+    assert ended.code == 3
+    assert '"NF P 95" is no limit profile' in ended.err
+    assert '"steep"' in ended.err
+
+
 def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
     def bury(sheets):
         sheets["Nets"][1][5] = 2.4

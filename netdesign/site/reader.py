@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from pathlib import Path
 from types import MappingProxyType
 
+from netdesign.checks import list_standards
+from netdesign.edge.given_files import is_there
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, Answers, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
@@ -136,6 +138,7 @@ def read_site(
     declared, confirmed = read_declared(said, workbook, lines.places, findings)
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
+        findings.extend(_list_unknown_profiles(workbook, on_cover))
         raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(list(map(_shorten, findings)))
     questions = ask(lines, confirmed, findings)
@@ -164,6 +167,25 @@ def read_site(
         map_sha256=workbook.answers.sha256,
         catalogue=list_catalogue(lines.types),
         what_if=replaced,
+    )
+
+
+def _list_unknown_profiles(workbook: Workbook, cover: _Cover) -> Iterator[Finding]:
+    """Profile that does not exist, beside other faults.
+
+    Without them it is no fault of the workbook: a command may name another profile.
+    """
+    named = cover.project.standard
+    if not named or named in list_standards() or is_there(Path(named)):
+        return
+    sheet, _, cell = cover.cells["standard"].rpartition("!")
+    yield Finding(
+        file=workbook.file,
+        sheet=sheet,
+        cell=cell,
+        text=named,
+        rule=say("item.no_profile"),
+        accepted=say("accepted.words", words=list_standards()),
     )
 
 
