@@ -21,8 +21,8 @@ def list_missing(row: NetRow) -> tuple[Message, ...]:
 
 
 def _list_of_row(row: NetRow) -> Iterator[Message]:
-    if row.panel is not None and row.panel_lack is not None:
-        yield _name(NETS, "panel_system")
+    if row.panel is not None:
+        yield from row.panel.assumed
     if not row.drills_along_pull and any(
         row.find_axis(anchor) is None for anchor, _ in row.anchors
     ):

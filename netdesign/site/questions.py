@@ -29,6 +29,7 @@ from netdesign.site.headings import Table, count_known
 from netdesign.site.mapping import MARKS, SCHEMA, find_plan, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
+from netdesign.site.rows_elsewhere import list_rows_elsewhere
 from netdesign.site.tables import find_tables
 from netdesign.site.titles import Title
 from netdesign.words.catalogue import Language, render
@@ -161,6 +162,9 @@ def _ask_sheets(
         if first:
             hints = (say("table.copy_accepted", name=first),)
             yield Question("", name, UNANSWERED, hints)
+    for name in list_rows_elsewhere(path, workbook, text_format):
+        hints = (say("table.copy_accepted", name=NETS.title),)
+        yield Question("", name, UNANSWERED, hints)
     if not missing or not open_names:
         return
     every = read_workbook(path, lambda _: True, text_format=text_format)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
@@ -31,8 +31,9 @@ from netdesign.site.columns.all_tables import (
     SNOW,
     TESTS,
     WINTER,
+    is_heading,
 )
-from netdesign.site.columns.fields import SheetPlan, split_heading
+from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.grounds import name_by_ground, place_in_ground
 from netdesign.site.headings import Table
@@ -64,6 +65,7 @@ from netdesign.site.ranges import (
 )
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.replaced import mark_replaced, replace_cells
+from netdesign.site.rows_elsewhere import list_rows_elsewhere
 from netdesign.site.single_tests import count_in_tests
 from netdesign.site.site_wide import (
     SiteWide,
@@ -127,6 +129,7 @@ def read_site(
     """
     workbook, replaced = replace_cells(read_cells(Path(path), text_format), instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
+    findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
     on_cover = _read_project(find_table(workbook, PROJECT_AS_TYPED, findings), findings)
     tables, nets, ranges = _find_tables(workbook, on_cover.site_wide, findings)
     typed = _read_net_rows(nets, on_cover.site_wide, findings)
@@ -168,6 +171,18 @@ def read_site(
         catalogue=list_catalogue(lines.types),
         what_if=replaced,
     )
+
+
+def _ask_for_rows_elsewhere(
+    path: Path, workbook: Workbook, text_format: TextFormat
+) -> Iterator[Finding]:
+    for name in list_rows_elsewhere(path, workbook, text_format):
+        yield Finding(
+            file=workbook.file,
+            sheet=name,
+            rule=say("table.net_rows"),
+            accepted=say("table.copy_accepted", name=NETS.title),
+        )
 
 
 def _list_unknown_profiles(workbook: Workbook, cover: _Cover) -> Iterator[Finding]:
@@ -321,17 +336,6 @@ def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
     is_name = partial(_is_name, answers=answers)
     workbook = read_workbook(path, is_wanted, is_name, is_heading, text_format)
     return give_answers(workbook, answers)
-
-
-def is_heading(text: str) -> bool:
-    """A text is a heading of some sheet."""
-    return split_heading(text)[0] in _known_headings()
-
-
-@lru_cache(maxsize=1)
-def _known_headings() -> frozenset[str]:
-    fields = (field for plan in SHEETS for field in plan.fields)
-    return frozenset(name for field in fields for name in field.names)
 
 
 def _shorten(finding: Finding) -> Finding:

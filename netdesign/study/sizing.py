@@ -42,8 +42,8 @@ class SizedCell:
     Attributes
     ----------
     row_id, column, cell, was : str
-        Net row; member whose column it is; ``Nets!P8``, "" without such a cell; the
-        type that is there.
+        Net rows, with commas; member whose column it is; ``Nets!P8``, "" without such
+        a cell; the type that is there.
     now : str
         Smallest type with which every check of the cell passes; "" where none does.
     used : float or None
@@ -67,15 +67,15 @@ class SizedCell:
     is_asked: bool = False
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Slot:
-    """A cell that names a type, with the checks that follow from it."""
+    """A cell that names a type, with the checks that follow from it in each row."""
 
-    row_id: str
+    checks: Mapping[str, tuple[str, ...]]  # their ids, by net row
+    open_rows: tuple[str, ...]  # those in which some check does not pass
     column: Column
     cell: str
     was: str
-    checks: tuple[str, ...]  # their ids
     types: tuple[str, ...]  # of its sheet, but for those of another ground
     asked: frozenset[str]  # those of which the ground is not known to be the row's
     left_out: int  # those of another ground
@@ -115,18 +115,36 @@ def size_site(
     list of SizedCell
         In the order of rows and columns; empty where every check passes.
     """
-    slots = [
-        slot
-        for row, given in zip(study.rows, solved.site.rows, strict=True)
-        for slot in _list_slots(row, given, solved.site)
-    ]
+    slots = [slot for slot in _join_slots(study, solved.site) if slot.open_rows]
     placed = [slot for slot in slots if slot.cell]
-    found: dict[str, dict[str, float]] = {slot.cell: {} for slot in placed}
+    found: dict[_Slot, dict[str, float]] = {slot: {} for slot in slots}
     for number in range(max((len(slot.types) for slot in placed), default=0)):
         trial = {slot: kind for slot in placed if (kind := slot.choose(number))}
         for slot, used in _try_types(trial, solved, study, standard, run, read):
-            found[slot.cell][trial[slot]] = used
-    return [_choose(slot, found.get(slot.cell, {})) for slot in slots]
+            found[slot][trial[slot]] = used
+    return [_choose(slot, found[slot]) for slot in slots]
+
+
+def _join_slots(study: Study, site: Site) -> list[_Slot]:
+    """Every cell once, though it may hold for several rows."""
+    joined: dict[tuple[str, str, str], _Slot] = {}
+    for row, given in zip(study.rows, site.rows, strict=True):
+        for slot in _list_slots(row, given, site):
+            key = (slot.cell, "" if slot.cell else row.id, slot.column)
+            joined[key] = _join(joined[key], slot) if key in joined else slot
+    return list(joined.values())
+
+
+def _join(one: _Slot, other: _Slot) -> _Slot:
+    """A cell of two rows: a type has to hold in the ground of both."""
+    return replace(
+        one,
+        checks={**one.checks, **other.checks},
+        open_rows=one.open_rows + other.open_rows,
+        types=tuple(kind for kind in one.types if kind in other.types),
+        asked=one.asked | other.asked,
+        left_out=max(one.left_out, other.left_out),
+    )
 
 
 def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
@@ -136,7 +154,7 @@ def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
         default="",
     )
     return SizedCell(
-        row_id=slot.row_id,
+        row_id=", ".join(slot.open_rows),
         column=slot.column,
         cell=slot.cell,
         was=slot.was,
@@ -149,7 +167,11 @@ def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
 
 
 def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
-    """Cells of a row that name a type with which some check does not pass."""
+    """Cells of a row that name a type, with the checks of the type.
+
+    A row is open where a check with a force does not pass: where nothing is known of
+    the forces no type is at fault.
+    """
     checks: dict[tuple[Column, str, str], list[CheckRecord]] = {}
     for check in row.checks:
         column = _find_column(check.member)
@@ -157,20 +179,20 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
             place = _find_cell(given, column, check.position)
             checks.setdefault((column, *place), []).append(check)
     for (column, cell, was), members in checks.items():
-        if any(one.verdict in _OPEN for one in members):
-            holding = _compare_grounds(site, given, column, was)
-            yield _Slot(
-                row_id=row.id,
-                column=column,
-                cell=cell,
-                was=was,
-                checks=tuple(one.id for one in members),
-                types=tuple(
-                    kind for kind, fits in holding.items() if fits is not False
-                ),
-                asked=frozenset(kind for kind, fits in holding.items() if fits is None),
-                left_out=sum(fits is False for fits in holding.values()),
-            )
+        is_open = any(
+            one.verdict in _OPEN and one.demand_kN is not None for one in members
+        )
+        holding = _compare_grounds(site, given, column, was)
+        yield _Slot(
+            checks={row.id: tuple(one.id for one in members)},
+            open_rows=(row.id,) if is_open else (),
+            column=column,
+            cell=cell,
+            was=was,
+            types=tuple(kind for kind, fits in holding.items() if fits is not False),
+            asked=frozenset(kind for kind, fits in holding.items() if fits is None),
+            left_out=sum(fits is False for fits in holding.values()),
+        )
 
 
 def _compare_grounds(
@@ -214,7 +236,7 @@ def _try_types(
 ) -> Iterator[tuple[_Slot, float]]:
     """Cells that pass with their types of a trial, each with its utilisation."""
     site = read({slot.cell: kind for slot, kind in trial.items()})
-    wanted = {slot.row_id for slot in trial}
+    wanted = {row_id for slot in trial for row_id in slot.checks}
     old = zip(solved.site.rows, solved.rows, strict=True)
     by_id = {row.id: (row, of_row) for row, of_row in old}
     rows = [
@@ -231,17 +253,23 @@ def _try_types(
         standard,
         run,
     )
-    built = {row.id: row for row in study.rows}
-    for row in judged.rows:
-        for slot in trial:
-            if slot.row_id == row.id:
-                used = _rate(slot, built[row.id].checks, row.checks)
-                if used is not None:
-                    yield slot, used
+    built = {row.id: row.checks for row in study.rows}
+    tried = {row.id: row.checks for row in judged.rows}
+    for slot in trial:
+        used = [
+            _rate(slot.column, ids, built[row_id], tried[row_id])
+            for row_id, ids in slot.checks.items()
+            if row_id in tried  # its forces are known with this type
+        ]
+        if len(used) == len(slot.checks) and None not in used:
+            yield slot, max(one for one in used if one is not None)
 
 
 def _rate(
-    slot: _Slot, built: Iterable[CheckRecord], tried: Sequence[CheckRecord]
+    column: Column,
+    ids: Sequence[str],
+    built: Iterable[CheckRecord],
+    tried: Sequence[CheckRecord],
 ) -> float | None:
     """Largest utilisation of a cell's checks, at most 1; None if any does not pass.
 
@@ -249,11 +277,11 @@ def _rate(
     may bring checks of its own: a bar bends where a rope anchor turns.
     """
     declared = {one.id for one in built if one.verdict is Verdict.DECLARED}
-    places = {one.position for one in tried if one.id in slot.checks}
+    places = {one.position for one in tried if one.id in ids}
     used = 0.0
     for one in tried:
-        is_of_slot = _find_column(one.member) == slot.column and one.position in places
-        if one.id not in slot.checks and not is_of_slot:
+        is_of_slot = _find_column(one.member) == column and one.position in places
+        if one.id not in ids and not is_of_slot:
             continue
         if one.verdict is Verdict.DECLARED and one.id in declared:
             continue

@@ -1,6 +1,7 @@
 """Lists as three offices send them: read at once, or after one file of answers."""
 
 import re
+from types import SimpleNamespace
 
 import pytest
 
@@ -154,3 +155,25 @@ def test_dotted_dates_are_days_and_months(read):
         (series,) = site.monitoring
         days = [time / 86400 for time in series.times]
         assert days == [0.0, 31.0, 73.0]
+
+
+@pytest.mark.parametrize(
+    ("write", "file"),
+    [(write_xlsx, "a.xlsx"), (write_ods_list, "a.ods"), (write_folder, "a")],
+)
+def test_net_rows_under_a_name_that_nobody_knows_are_asked_about(tmp_path, write, file):
+    name = "Rive gauche, ouvrages"
+    sheets = {
+        name if key == "Filets B" else key: one for key, one in french.SHEETS.items()
+    }
+    office = SimpleNamespace(SHEETS=sheets, MERGED={}, STRUCK={})
+    path = write(office, tmp_path / file)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    told = [one.rule.key for one in refused.value.findings if one.sheet == name]
+    assert told == ["table.net_rows"]
+    text = write_questions(path)[0]
+    assert f'"{name}" = "?"' in text
+    answers = {**french.ANSWERS, name: "Nets"}
+    name_map(path).write_text(answer(text, answers)[0], encoding="utf-8")
+    assert len(read_site(path).rows) == len(french.ROWS)

@@ -1,5 +1,6 @@
 """Smallest types that pass, tried cell by cell; what-ifs that are solved again."""
 
+import copy
 from dataclasses import replace
 
 import pytest
@@ -9,12 +10,14 @@ from netdesign.outcome import Verdict
 from netdesign.report.what_if import list_sized
 from netdesign.report.words import Words
 from netdesign.site.reader import read_site
+from netdesign.site.template.workbook import load_example
 from netdesign.solving.runner import Runner
 from netdesign.study.check_site import solve_rows
 from netdesign.study.sizing import size_site
 from netdesign.words.catalogue import LANGUAGES
 from tests.short_example import write_short_example
 from tests.small_site import ROWS, RUN, build_site
+from tests.study.knowing_less.drawn_site import write_lines
 
 PROFILE = load_standard("nf-p-95-304-style")
 
@@ -132,6 +135,43 @@ def test_a_type_of_unknown_ground_is_told_as_a_question(example, language):
     (line,) = list_sized(cells, Words(language))
     ends = {"en": "not tried: 2", "fr": "écartés\u00a0: 2", "de": "untersucht: 2"}
     assert line.endswith(ends[language])
+
+
+def test_a_type_of_a_cell_for_all_rows_passes_in_all_of_them(tmp_path):
+    path = tmp_path / "site.xlsx"
+    lines = copy.deepcopy(load_example())
+    lines["Nets"] = [line for line in lines["Nets"] if line["id"] in ("R3", "R5")]
+    lines["Declared"] = []
+    end = next(line for line in lines["Ends"] if line["row"] == "R5")
+    lines["Ends"] = [{**end, "row": "all", "lateral_anchor": "A28-tested"}]
+    for line, samples in zip(lines["Ranges"], (3, 3, 1), strict=True):
+        line["samples"] = samples
+    lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
+    write_lines(path, lines)
+    _, cells, read = size((path, solve(read_site(path))))
+    (found,) = [one for one in cells if one.column == "lateral_anchor"]
+    assert found.row_id == "R3, R5"
+    site = read({found.cell: found.now})
+    again = judge(replace(solve(site), site=site))
+    checks = [
+        one
+        for row in again.rows
+        for one in row.checks
+        if one.member == "lateral_anchor"
+    ]
+    assert {one.verdict for one in checks} == {Verdict.PASS}
+    assert found.used == max(one.utilisation_band[1] for one in checks)
+
+
+def test_where_no_force_is_known_no_type_is_at_fault(tmp_path):
+    path = tmp_path / "site.xlsx"
+    lines = copy.deepcopy(load_example())
+    lines["Nets"] = lines["Nets"][:1]
+    lines["Nets"][0].pop("slack")
+    for sheet in ("Declared", "Ends"):
+        lines[sheet] = [line for line in lines[sheet] if line["row"] == "R1"]
+    write_lines(path, lines)
+    assert size((path, solve(read_site(path))))[1] == []
 
 
 def test_a_site_that_passes_has_nothing_to_replace(example):

@@ -68,7 +68,7 @@ def read_delimited(
     for file, content in contents.items():
         name = _name_sheet(file, is_wanted) or ("" if by_name else _DEFAULT_SHEET)
         if not name:
-            unread.append(file)
+            unread.append(file.removesuffix(".csv"))  # as an answer names it
             continue
         text, encoding = _decode(file, content)
         delimiter = text_format.delimiter or _find_delimiter(file, text, is_heading)

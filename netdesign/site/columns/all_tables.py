@@ -20,6 +20,7 @@ from netdesign.site.columns.fields import (
     SheetPlan,
     Usual,
     name_word,
+    split_heading,
 )
 from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import say
@@ -246,3 +247,14 @@ QUIET_SHEETS: tuple[str, ...] = (
     *("Notes", "Notice", "Hinweise"),
     *FINDINGS_SHEETS.values(),
 )
+
+
+def is_heading(text: str) -> bool:
+    """A text is a heading of some sheet."""
+    return split_heading(text)[0] in _known_headings()
+
+
+@lru_cache(maxsize=1)
+def _known_headings() -> frozenset[str]:
+    fields = (field for plan in SHEETS for field in plan.fields)
+    return frozenset(name for field in fields for name in field.names)
