@@ -188,10 +188,10 @@ def test_a_dry_run_says_beforehand_that_snow_overtops_a_net(tmp_path):
 
 def test_a_dry_run_lists_all_that_a_verdict_lacks(call):
     shown = call("check", "--example", "--dry-run")
-    lines = [one for one in shown.out.splitlines() if one.startswith("missing")]
+    lines = [one for one in shown.out.splitlines() if one.startswith("wanted")]
     assert lines == [
-        "missing for a verdict on R3: bearing resistance",
-        "missing for a verdict on R6: pull-out resistance",
+        "wanted for a verdict on R3: bearing resistance",
+        "wanted for a verdict on R6: pull-out resistance",
     ]
     as_json = call("check", "--example", "--dry-run", "--json")
     assert json.loads(as_json.out)["missing"] == lines

@@ -161,7 +161,7 @@ def find_headings(
         heading_row=row,
         units_row=units_row,
         first_data_row=first_data_row,
-        language=plan.find_language(names),
+        language=plan.find_language(names, sheet.name),
         columns={},
         group_rows=frozenset(
             above

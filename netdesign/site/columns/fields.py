@@ -18,6 +18,7 @@ _LONGEST_HEADING = 100
 _NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
 _STRUCTURE = re.compile(r"[A-Za-z]|[IVX]{1,4}|\d{1,2}|[A-Za-z]\d")
 _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
+_NAME_COUNTS = 2  # headings, as which the name of a sheet tells its language
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,9 +223,18 @@ class SheetPlan:
         """Name of the sheet in a language."""
         return self.names[language][0]
 
-    def find_language(self, names: Iterable[str]) -> Language:
-        """Language with the most of these normalised headings; English in a tie."""
-        return max(LANGUAGES, key=lambda one: len(self._names_in(one) & set(names)))
+    def find_language(self, names: Iterable[str], sheet_name: str) -> Language:
+        """Language with the most of these normalised headings; English in a tie.
+
+        A sheet's own name counts as much as some headings, which languages share.
+        """
+        headings = set(names)
+
+        def count(language: Language) -> int:
+            is_named = is_one_of(sheet_name, self.names[language])
+            return len(self._names_in(language) & headings) + _NAME_COUNTS * is_named
+
+        return max(LANGUAGES, key=count)
 
     def _names_in(self, language: Language) -> set[str]:
         # other English ones, such as min or max, are those of every language

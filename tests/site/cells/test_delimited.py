@@ -74,9 +74,7 @@ def test_a_folder_of_files_is_a_workbook(tmp_path):
     write(folder / "letter.csv", "Dear;Sir\n")
     site = read_site(folder)
     assert len(site.rows) == 2
-    assert any(
-        "letter" in note and "not read" in note for note in map(str, site.notes)
-    )
+    assert any("letter" in note and "not read" in note for note in map(str, site.notes))
     echo = site.rows[0].inputs[1]
     assert (echo.cell, echo.text) == ("Nets!B2", "38,5")
 

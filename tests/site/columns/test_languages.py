@@ -90,4 +90,13 @@ def test_another_english_name_tells_no_language():
     ranges = next(plan for plan in SHEETS if plan.name == "Ranges")
     quantity = next(one for one in ranges.fields if one.key == "quantity")
     label = quantity.label_in("fr")
-    assert ranges.find_language([normalise(label), normalise("min")]) == "fr"
+    headings = [normalise(label), normalise("min")]
+    assert ranges.find_language(headings, "Sheet1") == "fr"
+
+
+def test_the_name_of_a_sheet_outweighs_a_heading_that_languages_share():
+    posts = next(one for one in SHEETS if one.name == "Posts")
+    headings = [normalise("aire de la section"), normalise("MBL")]
+    assert posts.find_language(headings, "Posts") == "en"
+    assert posts.find_language(headings, "Poteaux") == "fr"
+    assert posts.find_language([], "Stützen") == "de"
