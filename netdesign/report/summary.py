@@ -29,7 +29,8 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.study.records import RowStudy, Study
+from netdesign.structure.members import CARRYING_MEMBERS
+from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.catalogue import Language
 from netdesign.words.names import name_check
 
@@ -100,12 +101,17 @@ def _show_row(row: RowStudy, words: Words) -> RowLine:
         id=show_text(row.id),
         verdict=verdict.word,
         style=verdict.style,
-        check=words.show(name_check(check.member, check.mode))
-        if check
-        else words("heading.no_check"),
+        check=_name_governing(check, words) if check else words("heading.no_check"),
         utilisation=words.show_number("utilisation", check.used) if check else MISSING,
         reason=describe_briefly(row, words),
     )
+
+
+def _name_governing(check: CheckRecord, words: Words) -> str:
+    """Check with its place, where that is the end of the row."""
+    named = words.show(name_check(check.member, check.mode))
+    is_of_end = check.position == "edge" and check.member in CARRYING_MEMBERS
+    return words("check.of_end", check=named) if is_of_end else named
 
 
 def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
