@@ -16,7 +16,10 @@ from netdesign.words.message import Message, say
 Kind = Literal["number", "count", "word", "id", "text"]
 _LONGEST_HEADING = 100
 _NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
-_STRUCTURE = re.compile(r"[A-Za-z]|[IVX]{1,4}|\d{1,2}|[A-Za-z]\d")
+_STRUCTURE = re.compile(
+    r"[A-Za-z]|[IVX]{1,4}|\d{1,2}|[A-Za-z]\d"
+    r"|(?i:north|south|east|west|nord|sud|süd|est|ouest|ost)"
+)
 _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 _NAME_COUNTS = 2  # headings, as which the name of a sheet tells its language
 
@@ -200,7 +203,7 @@ class SheetPlan:
         return is_one_of(sheet_name, self.raw_names)
 
     def is_structure(self, sheet_name: str) -> bool:
-        """A name is that of the planned sheet with a letter or number: "Nets A"."""
+        """A name is that of a sheet with a letter, number or quarter: "Nets A"."""
         start, _, last = sheet_name.strip().rpartition(" ")
         return bool(_STRUCTURE.fullmatch(last)) and self.matches(start)
 

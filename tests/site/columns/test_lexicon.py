@@ -298,6 +298,20 @@ OFFICES = [  # as three offices write them
     ("Posts", "A", "area"),
     ("Posts", "Iz", "second_moment"),
     ("Posts", "Wz", "section_modulus"),
+    ("Nets", "tilt of post from normal [deg]", "post_tilt"),
+    ("Nets", "upslope anchor dist. [m]", "uphill_anchor_distance"),
+    ("Nets", "guys per side", "guy_count"),
+    ("Nets", "snow length above net [m]", "upslope_length"),
+    ("Anchors", "borehole dia. [mm]", "drill_diameter"),
+    ("Anchors", "strata", "ground"),
+    ("Anchors", "grout", "grouting"),
+    ("Anchors", "total drill length [m]", "drilled_length"),
+    ("Tests", "max. load [kN]", "force"),
+    ("Ropes", "Mark", "id"),
+    ("Ropes", "dia. [mm]", "rope_diameter"),
+    ("Ropes", "end fitting", "termination"),
+    ("Posts", "effective length [m]", "buckling_length"),
+    ("Posts", "allowable bearing [MPa]", "bearing_stress"),
 ]
 
 
@@ -325,3 +339,23 @@ def test_metres_above_the_sea_are_metres(unit):
 def test_millinewtons_stay_what_nobody_guesses():
     assert normalise_unit("mN") == "mN"
     assert normalise_unit("mN/m") == "mN/m"
+
+
+@pytest.mark.parametrize(
+    "name", ["Nets A", "Nets 2", "Nets North", "Filets Ouest", "Netze Süd", "Nets III"]
+)
+def test_a_sheet_for_each_structure_holds_net_rows(name):
+    nets = next(one for one in SHEETS if one.name == "Nets")
+    assert nets.is_structure(name)
+    assert not nets.is_structure("Nets old")
+
+
+@pytest.mark.parametrize(
+    ("sheet", "name"),
+    [
+        *(("Anchors", "Anchor schedule"), ("Ropes", "Rope schedule")),
+        *(("Posts", "Post schedule"), ("Tests", "Pull tests")),
+    ],
+)
+def test_schedules_are_known(sheet, name):
+    assert [one.name for one in SHEETS if one.matches(name)] == [sheet]
