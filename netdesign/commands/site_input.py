@@ -230,6 +230,17 @@ def _put(question: Question, language: Language) -> str:
         tell(say("map.not_accepted", answer=answer.strip()), language, err=True)
 
 
+def _put_once(
+    question: Question, language: Language, known: set[tuple[str, str]]
+) -> str:
+    """The same, once: a question that was left open is not asked again."""
+    asked = (question.sheet, question.asked)
+    if asked in known:
+        return ""
+    known.add(asked)
+    return _put(question, language)
+
+
 @click.command(name="map")
 @click.argument("site_file", type=click.Path(path_type=Path))
 @text_options
@@ -256,10 +267,16 @@ def map_headings(
     refuse_delimiter(site_file, language=language)
     place = name_map(site_file)
     require_free([place], overwrite=force)
-    put = partial(_put, language=language) if ask else None
     form = build_text_format(**reading)
+    known: set[tuple[str, str]] = set()
+    put = partial(_put_once, language=language, known=known) if ask else None
     text, missing = write_questions(site_file, form, language, put)
     write_files({place: text.encode()}, overwrite=force)
+    before = 0
+    while len(known) > before:  # a sheet that is known now has headings to ask for
+        before = len(known)
+        text, missing = write_questions(site_file, form, language, put)
+        write_files({place: text.encode()}, overwrite=True)
     tell(say("cli.wrote", path=str(place)), language, err=True)
     if missing:
         tell(say("map.missing", count=missing), language, err=True)

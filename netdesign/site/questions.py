@@ -45,12 +45,17 @@ _OF_NAMES = (
     *("heading.twice", "heading.wrong_answer", "heading.unit_not_wanted"),
     *("item.unknown", "item.unknown_quantity"),
 )
+_LEFT_OPEN = "heading.unanswered"
 # A heading that is not understood is asked for where the sheet lacks one.
 _OF_WORDS = "cell.unknown_word"
 _UNREAD, _LACKING = "heading.unknown", ("heading.lacks", "heading.lacks_one_of")
 _MARK = "decimal_mark"
 _LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one
 _EXPECTED = (NETS, RANGES_AS_TYPED, ANCHORS, ROPES, POSTS)
+
+
+# A line of the file whose answer has a question mark, one that was left before too.
+_OPEN = re.compile(r'^(?:"(?:[^"\\]|\\.)*"|\w+) = "(?:[^"\\]|\\.)*\?', re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,9 +122,8 @@ def write_questions(
         lines += _list_headings(table, workbook, questions, language)
         lines += [*_list_unread(table, questions, findings), ""]
         lines += _list_words(table, workbook, questions, language)
-    open_ones = [one for one in questions if UNANSWERED in one.answer]
-    is_mark_open = asks_mark and mark.answer == UNANSWERED
-    return "\n".join(lines) + "\n", len(open_ones) + is_mark_open
+    text = "\n".join(lines) + "\n"
+    return text, len(_OPEN.findall(text))
 
 
 def _answer(question: Question, ask: Callable[[Question], str] | None) -> Question:
@@ -214,7 +218,7 @@ def _ask_word(finding: Finding) -> Question | None:
 def _ask(table: Table, finding: Finding) -> Question | None:
     row = int(re.sub(r"\D", "", finding.cell))
     key = finding.rule.key
-    if key not in (*_OF_UNITS, *_OF_NAMES, _UNREAD):
+    if key not in (*_OF_UNITS, *_OF_NAMES, _UNREAD, _LEFT_OPEN):
         return None
     is_heading = row <= max(table.heading_row, min(table.rows, default=row + 1) - 1)
     asked = _name_heading(table, finding.cell) if is_heading else _name_item(table, row)
@@ -222,6 +226,8 @@ def _ask(table: Table, finding: Finding) -> Question | None:
         return None
     hints = tuple(one for one in (finding.rule, finding.accepted) if one)
     answer = UNANSWERED
+    if key == _LEFT_OPEN:
+        answer = table.sheet.answers.get(asked, UNANSWERED)
     if key in _OF_UNITS and is_heading:
         answer = f"{_name_field(table, finding.cell)} [{UNANSWERED}]"
     elif key in _OF_UNITS:
