@@ -53,6 +53,8 @@ def _alter(value, key, draw):
     if isinstance(value, bool):
         return not value
     if value is None:
+        if key.endswith("count"):
+            return draw.randint(1, 9)
         return "x" if key.endswith(("reason", "text")) else draw.uniform(0.1, 9.0)
     if isinstance(value, int):
         return value + draw.randint(1, 5)
@@ -65,6 +67,4 @@ def _alter(value, key, draw):
     for words in WORDS:
         if value in words and key in ("verdict", "outcome", "kind"):
             return draw.choice([word for word in words if word != value])
-    if key == "sense":
-        return "at most" if value == "has" else "has"
     return value + "x"

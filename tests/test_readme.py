@@ -131,7 +131,7 @@ def test_first_site_step_by_step(tmp_path):
     assert set(CHANGES.splitlines()) <= set(printed)
     assert set(SIZES.splitlines()) <= set(printed)
     outputs = {"study.json", "report.html", "report.xlsx"}
-    written = {path.name for path in (tmp_path / "first").iterdir()}
+    written = {path.name for path in (tmp_path / "first").glob("[!.]*")}
     assert written == outputs | {f"what-if-{name}" for name in outputs}
 
     workbook = openpyxl.load_workbook(tmp_path / "first.xlsx")

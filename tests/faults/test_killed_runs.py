@@ -27,7 +27,8 @@ def kill(site, folder, kills, seed):
     assert ended.returncode == 0, ended.stderr
     document = json.loads(ended.stdout)
     assert document["code"] == FAILS
-    assert document["outputs"] == ["report.html", "report.xlsx", "study.json"]
+    outputs = ["report.html", "report.xlsx", "study.json"]
+    assert document["outputs"] == [".netdesign.json", *outputs]
     assert document["differs_from_old"]
     return document
 

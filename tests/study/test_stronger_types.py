@@ -28,8 +28,9 @@ def list_offers(site, demand):
     ends = row.row_end.resistances if row.row_end else ()
     for given in (*row.resistances, *ends):
         offer = find_type_change(site, row, given, demand, PROFILE)
-        if given.mode in ("tendon", "pull_out") and offer is not None:
-            yield given, offer.quantity
+        is_of_anchor = given.mode in ("tendon", "pull_out")
+        if is_of_anchor and offer is not None and "type" in offer.quantity.arguments:
+            yield given, offer.quantity  # else a size of the catalogue
 
 
 @pytest.mark.long
