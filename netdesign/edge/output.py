@@ -160,9 +160,10 @@ def write_files(
         with _alone_in(folders) as is_alone:
             require_free(list(contents), overwrite=overwrite)
             if is_alone:
-                _remove_leftovers(contents)
-            records = _write_records(contents) if is_recorded else {}
-            _exchange({**contents, **records})
+                records = {folder / RECORD_FILE for folder in folders}
+                _remove_leftovers({*contents, *records})
+            told = _write_records(contents) if is_recorded else {}
+            _exchange({**contents, **told})
     except OSError as error:
         raise OutputError(
             say("output.cannot_write", cause=explain_with_file(error))

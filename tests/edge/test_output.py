@@ -248,7 +248,7 @@ def test_old_files_come_back_if_a_new_one_cannot_be_placed(
 
 
 def test_what_a_killed_run_left_is_removed_and_nothing_else(tmp_path):
-    left = {".a.x1y2z3_4", ".a.x1y2z3_4.old"}
+    left = {".a.x1y2z3_4", ".a.x1y2z3_4.old", "..netdesign.json.x1y2z3_4.old"}
     others = {".a.x1y2z3_4.bak", ".b.x1y2z3_4", "a.x1y2z3_4", ".a.", ".a.json"}
     for name in left | others:
         (tmp_path / name).write_bytes(b"half")
