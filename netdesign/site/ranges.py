@@ -25,7 +25,6 @@ from netdesign.words.message import Message, say
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
 _DEFAULT_INCLINATION = (25.0, 35.0)  # [deg]
 STIFFNESS = "net_stiffness"
-_NET_STIFFNESSES = (4000.0, 20000.0)  # of nets that are built [kN/m]
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 _Ends = tuple[Cell | None, Cell | None]
 
@@ -129,11 +128,15 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
 def assume_stiffness(sheet: RangesSheet) -> RangesSheet:
     """Ranges with all stiffnesses that nets are built with: nobody gives one.
 
-    The worst of them is searched, as of any range that is given.
+    The worst of them is searched, as of any range that is given: of all that may be
+    typed without a question, so that none that is given is worse.
     """
+    usual = next(one.usual for one in NETS.fields if one.key == STIFFNESS)
+    if usual is None:
+        return sheet
     found = _make_default(
         next(one for one in FURTHER_QUANTITIES if one.column == STIFFNESS),
-        _NET_STIFFNESSES,
+        (usual.least, usual.most),
     )
     ends = {**sheet.ends, STIFFNESS: (found.low, found.high)}
     if sheet.ranges is None:

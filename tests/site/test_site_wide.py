@@ -99,3 +99,17 @@ def test_what_cannot_be_read_once_is_refused_in_its_cell(sheets, save, line, tol
     found = [one for one in caught.value.findings if one.severity == "error"]
     assert {one.sheet for one in found} == {"Project"}
     assert any(told in str(one) for one in found), list(map(str, found))
+
+
+def test_no_stiffness_is_searched_over_all_that_may_be_typed_without_a_question(
+    sheets, save
+):
+    """Else a net of which nobody knows anything pulls less than a stiff one."""
+    column = next(
+        k for k, one in enumerate(sheets["Nets"][0]) if one.startswith("net stiffness")
+    )
+    for line in sheets["Nets"]:
+        del line[column]
+    span = read_site(save(sheets)).ranges["net_stiffness"]
+    usual = FIELDS["net_stiffness"].usual
+    assert (span.low, span.high) == (1e3 * usual.least, 1e3 * usual.most)

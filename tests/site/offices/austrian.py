@@ -106,7 +106,7 @@ RANGES = {
     "density": (270.0, 430.0),
     "friction angle": (15.0, 40.0),
     "net inclination": (25.0, 35.0),
-    "net stiffness": (4000.0, 20000.0),
+    "net stiffness": (2500.0, 45000.0),
 }
 PROJECT = {
     "name": "Lawinenverbauung Rosskar",
