@@ -116,6 +116,7 @@ class Resistance:
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
+    doubt: Message | None = None  # why the value may not hold in this row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

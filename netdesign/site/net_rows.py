@@ -201,7 +201,9 @@ def _compose_net_row(
         drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=read_anchor_types(row, types),
         panel=panel,
-        row_end=build_row_end(end, types) if has_end and has_ropes else None,
+        row_end=(
+            build_row_end(end, types, row["ground"]) if has_end and has_ropes else None
+        ),
         panel_lack=panel_lack,
         unsaid=list_unsaid(row),
     )

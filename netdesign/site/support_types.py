@@ -116,7 +116,10 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     bent = (_bend_anchor(row[one], one, anchors.get(one)) for one in _AXES)
     return (
         *(
-            _find_resistance(row[NAMED_BY.get(member, member)], mode, member, types)
+            _find_resistance(
+                *(row[NAMED_BY.get(member, member)], mode, member, types),
+                ground=row["ground"],
+            )
             for member, mode in MEMBER_MODES
         ),
         *(one for one in bent if one is not None),
@@ -134,13 +137,13 @@ def find_end_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     )
 
 
-def build_row_end(end: Row | None, types: Types) -> RowEnd:
-    """Members that hold a row along itself, all of them, given or not."""
+def build_row_end(end: Row | None, types: Types, ground: Reading) -> RowEnd:
+    """Members that hold a row along itself in its ground, all of them, given or not."""
     lack = say("row_end.no_members")
     return RowEnd(
         guy_angle=end["end_guy_angle"].given_si if end else None,
         resistances=tuple(
-            _find_resistance(end[member], mode, member, types)
+            _find_resistance(end[member], mode, member, types, ground=ground)
             if end
             else Resistance(member=member, mode=mode, source="Ends", lack=lack)
             for member, mode in END_MODES
@@ -162,13 +165,29 @@ def list_catalogue(types: Types) -> tuple[Resistance, ...]:
 
 
 def _find_resistance(
-    reading: Reading, mode: str, member: Member | EndMember, types: Types
+    reading: Reading,
+    mode: str,
+    member: Member | EndMember,
+    types: Types,
+    *,
+    ground: Reading,
 ) -> Resistance:
-    """Resistance of a member in one mode; no type or no value gives None."""
+    """Resistance of a member in one mode; no type or no value gives None.
+
+    A pull-out resistance holds in the ground where it was found: a type or a row
+    without a ground leaves it in doubt.
+    """
     if not reading.word:
         return Resistance(member=member, mode=mode, source=reading.place or "Nets")
     sheet = reading.field.refers_to
-    return _describe_type(types[sheet][reading.word], mode, member, sheet)
+    line = types[sheet][reading.word]
+    found = _describe_type(line, mode, member, sheet)
+    if mode != "pull_out" or not found.basis:
+        return found
+    of_type = say("check.ground_of_type", type=line["id"].word)
+    places = ((ground, ground.field.name), (line["ground"], of_type))
+    names = tuple(name for one, name in places if not one.word)
+    return replace(found, doubt=say("check.no_ground", names=names) if names else None)
 
 
 def _describe_type(

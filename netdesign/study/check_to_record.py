@@ -130,7 +130,7 @@ def judge_force(
         given,
         standard,
         gap=gap,
-        doubt=doubt,
+        doubt=doubt or given.doubt,
         strength=resist(given, standard, force) if force else None,
     )
     lack = given.lack
@@ -167,6 +167,7 @@ def record_result(
         resistance_basis=given.basis if given else "",
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
+        resistance_ground=given.ground if given and not given.doubt else "",
         resistance_derivation=given.derivation if given else None,
         steps=[] if result.used is None else list_steps(result.used),
         declared=_record_declaration(declared) if declared else None,

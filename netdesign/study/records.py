@@ -198,6 +198,7 @@ class CheckRecord:
     resistance_basis: str = ""  # "tested", "computed", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
+    resistance_ground: str = ""  # of a pull-out; "" where type or row gives none
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     steps: list[Step] = field(default_factory=list)
     declared: DeclarationRecord | None = None  # whatever the verdict

@@ -397,6 +397,9 @@ def _rejudge_verdict(
     if check.is_unbounded:
         verdict = Verdict.FAIL
     is_open = is_held_back(check) or _is_information(check, row)
+    if check.mode == "pull_out" and not check.resistance_ground:
+        if check.verdict is Verdict.PASS:
+            yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
     if is_declared and verdict is not Verdict.FAIL:
         is_open = True
