@@ -7,6 +7,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.model import (
     DEPENDENT_MODES,
     MEMBER_MODES,
+    NET_MODES,
     AnchorType,
     InputEcho,
     NetRow,
@@ -46,8 +47,24 @@ def resist(value=STRONG, **special):
             basis="tested" if mode == "pull_out" else "",
             type_id="T1",
             source="Anchors!B2",
+            ground="till",
         )
         for member, mode in (*MEMBER_MODES, *DEPENDENT_MODES)
+    )
+
+
+def list_net_parts(value=STRONG, *, has_ropes):
+    """Resistances of the mesh, and of border ropes where there are some."""
+    return tuple(
+        Resistance(
+            member=part,
+            mode=mode,
+            value=value,
+            basis="declared",
+            type_id="B22",
+            source="Ropes!B4",
+        )
+        for part, mode in (NET_MODES if has_ropes else NET_MODES[:1])
     )
 
 
@@ -68,6 +85,8 @@ def build_row(name, **changes):
         ),
         "guys": Guys(count=2, splay=math.radians(30.0)),
         "resistances": resist(),
+        "net_parts": list_net_parts(has_ropes=changes.get("panel") is not None),
+        "ground_type": "till",
         "anchors": tuple((anchor, TURNS) for anchor in ANCHORS),
         "drills_along_pull": True,
         "inputs": (

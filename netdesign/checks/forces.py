@@ -1,7 +1,7 @@
 """Forces on the members of a support and their utilisation, step by step.
 
 Each function is a line of a theory page: checks/THEORY.md, (V1) and (V2);
-structure/THEORY.md, (S9) to (S19); panel/THEORY.md, (P7) and (P8);
+structure/THEORY.md, (S9) to (S19); panel/THEORY.md, (P7) to (P9);
 resistance/THEORY.md, (R1) and (R12). Forces in kN, lengths in m, angles in degrees.
 """
 
@@ -120,6 +120,8 @@ def bring_to_support(
         force = force + load.added
     if support.width is not None and support.spacing is not None:
         force = force * support.width / support.spacing
+    elif support.end_factor is not None:  # of the net itself: the end effect is local
+        force = force * (1 + support.end_factor)
     if load.lateral is not None:
         force = force * load.lateral
     if push is not None:
@@ -154,6 +156,16 @@ def pull_at_end(rope: Quantity, support: Support) -> Quantity:
     if length is not None and spacing is not None and _is_short(length, spacing):
         grown = 1 + factor * length / spacing
     return (rope * grown).named("H", "kN", "(P8)")
+
+
+def pull_border_rope(tension: Quantity, support: Support) -> Quantity:
+    """Tension of a border rope, at the row's end under the end effect, at most."""
+    factor, length, spacing = support.end_factor, support.end_length, support.spacing
+    if factor is None or length is None or spacing is None:
+        return tension.named("E_k", "kN", "(P9)")
+    is_short = _is_short(length, spacing)
+    grown = 1 + factor * (2 * length / spacing if is_short else 1.0)
+    return (tension * grown).named("E_k", "kN", "(P9)")
 
 
 def _is_short(length: Quantity, spacing: Quantity) -> bool:
@@ -240,6 +252,11 @@ def calculate_force(leaves: Leaves) -> SupportForce:
     of its guy.
     """
     support = _find_support(leaves)
+    if "T_b" in leaves:
+        action = pull_border_rope(leaves["T_b"], support)
+        return SupportForce(
+            action=action, coupled=action, by_panel=action, support=support
+        )
     letter = "V" if "V_s" in leaves else "E"
     if f"{letter}_s" not in leaves:
         return _calculate_end(leaves, support)

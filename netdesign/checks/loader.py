@@ -140,7 +140,8 @@ class Standard:
     ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
     ``floor`` is what no demand lies below: the guideline's load, unless the profile
     says "none"; ``is_floor_overruled`` tells that somebody chose the other one,
-    ``is_default`` that nobody named the profile.
+    ``is_default`` that nobody named the profile; ``not_checked`` names the topics that
+    others must check.
     """
 
     id: str
@@ -156,6 +157,7 @@ class Standard:
     floor: Floor = "guideline"
     is_floor_overruled: bool = False
     is_default: bool = False
+    not_checked: tuple[str, ...] = ()
     values: tuple[StandardValue, ...]
     tables: tuple[StandardTable, ...] = ()
     sha256: str
@@ -254,8 +256,13 @@ def _load_folder(folder: Path) -> Standard:
     if choice is not None:
         tables = _take_from_choice(tables, choice.table)
     return Standard(
-        **document.model_dump(exclude={"load"}),
+        **document.model_dump(exclude={"load", "scope"}),
         floor=document.load.floor,
+        not_checked=tuple(
+            topic
+            for topic, said in document.scope.model_dump().items()
+            if said == "not checked"
+        ),
         values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
         tables=tuple(
             StandardTable(

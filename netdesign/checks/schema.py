@@ -40,7 +40,7 @@ POST_EFFICIENCY = "post.efficiency"
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
-    *("bending", "compression_bending", "sliding"),
+    *("bending", "compression_bending", "sliding", "mesh"),
 )
 # Checks of a member that compare no force with a resistance.
 MODES_WITHOUT_FORCE = ("direction", "lateral")
@@ -144,6 +144,18 @@ class LoadTable(_Table):
     floor: Floor = "guideline"
 
 
+Checked = Literal["checked", "not checked"]
+
+
+class ScopeTable(_Table):
+    """``scope``: what a study checks beside posts, guys and anchors.
+
+    What is not checked is told on the first page, with who must check it.
+    """
+
+    mesh: Checked = "checked"  # of the net, and its border ropes
+
+
 class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
@@ -158,6 +170,7 @@ class DocumentFile(_Table):
     what_it_is_not: Text
     choice: str = ""  # one of those in choices.toml
     load: LoadTable = LoadTable()
+    scope: ScopeTable = ScopeTable()
 
 
 class Entry(_Table):
@@ -368,6 +381,9 @@ def _describe_gap(number: int, start: int, expected: float) -> Message:
     return say("standard.row_leaves", number=number, start=start, expected=expected)
 
 
+# Tables of document.toml.
+_INNER: Mapping[str | int, type[_Table]] = {"load": LoadTable, "scope": ScopeTable}
+
 FileT = TypeVar(
     "FileT",
     DocumentFile,
@@ -432,8 +448,8 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
     """Keys accepted at the level of an unknown one."""
     depth = sum(isinstance(part, int) for part in detail["loc"])
     fields = shape.model_fields
-    if detail["loc"][0] == "load" and len(detail["loc"]) > 1:
-        fields = LoadTable.model_fields
+    if detail["loc"][0] in _INNER and len(detail["loc"]) > 1:
+        fields = _INNER[str(detail["loc"][0])].model_fields
     if depth:
         (element,) = get_args(next(iter(fields.values())).annotation)
         fields = element.model_fields

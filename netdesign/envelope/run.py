@@ -12,7 +12,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.panel_forces import PanelForces, resolve_panels
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.support_bands import resolve_pulls
+from netdesign.envelope.support_bands import resolve_pulls, spread_out
 from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel
@@ -24,6 +24,7 @@ from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
+from netdesign.structure.members import NetPart
 from netdesign.words.message import Message
 
 
@@ -158,21 +159,21 @@ def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
 def _resolve_net(task: CaseTask, state: SolvedState) -> CaseResult:
     """Tensions of the net per metre of width: nothing is known of its support."""
     foot, head = state.foot, state.head
-    error = max(foot.error, head.error)
-    sizes = (
-        ("foot", foot.size, foot.error),
-        ("head", head.size, head.error),
-        ("rope", state.tension_max, error),
-    )
     return CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
         member_forces={
-            name: Band(low=max(0.0, size - error), value=size, high=size + error)
-            for name, size, error in sizes
+            "foot": spread_out(foot.size, foot.error),
+            "head": spread_out(head.size, head.error),
+            "rope": _bound_tension(state),
         },
         solution=state,
     )
+
+
+def _bound_tension(state: SolvedState) -> Band:
+    """Largest tension of the net for each metre of width [N/m]."""
+    return spread_out(state.tension_max, max(state.foot.error, state.head.error))
 
 
 def _resolve_support(
@@ -187,7 +188,11 @@ def _resolve_support(
     return CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
-        member_forces=bands | (panel.worst if isinstance(panel, PanelForces) else {}),
+        member_forces={
+            **bands,
+            NetPart.MESH: _bound_tension(solution),
+            **(panel.worst if isinstance(panel, PanelForces) else {}),
+        },
         anchors=anchors,
         solution=solution,
         panel=panel,

@@ -30,13 +30,14 @@ from netdesign.structure.anchors import (
     compute_many_forces,
 )
 from netdesign.structure.axis import measure_pull
-from netdesign.structure.members import CARRYING_MEMBERS, Member
+from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried first, and parts of each other range.
 SCAN_STEP = math.radians(0.25)
 SCAN_PARTS = 8
-# Keys of what is sought at head and foot beside the members' forces.
+_LOADED = (*CARRYING_MEMBERS, NetPart.MESH)
+# Keys of what is sought at head and foot beside their forces.
 SPANS = ("head_pull", "least_tension", "foot_least", "foot_largest")
 
 # Share of a member's force and of the pull on the head, by which a grid alone is taken
@@ -219,14 +220,14 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
         load, pull, anchors = result.solved
         found[key] = FloorForce(
             member=key,
-            force=_measure(anchors)[key],
+            force=_measure(anchors, pull)[key],
             at=at,
             case=snow,
             load=load,
             pull=pull,
         )
     return Floor(
-        forces=tuple(found[member] for member in CARRYING_MEMBERS),
+        forces=tuple(found[member] for member in _LOADED),
         spans=tuple(found[key] for key in SPANS),
         head=_measure_head(largest),
     )
@@ -281,13 +282,14 @@ def _list_sizes(tried: ManyForces) -> dict[str, Floats]:
     return {**tried.of_members, **dict(zip(SPANS, spans, strict=True))}
 
 
-def _measure(anchors: AnchorForces) -> dict[str, float]:
+def _measure(anchors: AnchorForces, pull: NetPull[float]) -> dict[str, float]:
     """Sizes of one state, as `_list_sizes` has them of many."""
     foot = anchors.foot_anchor
     turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
     tension = anchors.head.uphill_guy_tension + anchors.head.downhill_guy_tension
     sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
-    return {**anchors.member_forces, **dict(zip(SPANS, sizes, strict=True))}
+    found = {**anchors.member_forces, **dict(zip(SPANS, sizes, strict=True))}
+    return {**found, NetPart.MESH: pull.largest_tension}
 
 
 def _measure_head(largest: Floats) -> HeadSpan:
@@ -296,7 +298,7 @@ def _measure_head(largest: Floats) -> HeadSpan:
     A tension with a sign is that of the uphill guy, or less that of the downhill one.
     Between nets with one sign and nets with the other lies one without tension.
     """
-    at_head = largest[len(CARRYING_MEMBERS) :]
+    at_head = largest[len(_LOADED) :]
     pull, turn, less_turn, *signed = (float(one) for one in at_head)
     tensions = [
         max(0.0, -less, -most)
@@ -352,7 +354,7 @@ class _Scan:
         turn = tried.foot_turn
         uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
         signed = uphill - downhill
-        members = (tried.of_members[one] for one in CARRYING_MEMBERS)
+        members = (tried.of_members[one] for one in _LOADED)
         of_all = np.array([*members, tried.head_pull, turn, -turn]).max(axis=(1, 2))
         of_case = np.array([signed, -signed]).max(axis=2)
         return np.concatenate([of_all, *of_case.transpose(1, 0, 2)])
@@ -378,7 +380,9 @@ class _Scan:
         )
         if not forces.is_held.all():
             raise self._find_failed(points)
-        return forces
+        found: dict[str, Floats] = {**forces.of_members}
+        found[NetPart.MESH] = pull.largest_tension
+        return replace(forces, of_members=found)
 
     def _place(self, points: Floats) -> tuple[NetGeometry[Floats], Floats]:
         """Nets and glide factors at points; the ends of the tension are rows."""

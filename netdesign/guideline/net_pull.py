@@ -15,6 +15,7 @@ from netdesign.numerics.either import (
     find_cube_root,
     find_root,
     find_sine,
+    measure_length,
     require_all_positive,
     require_all_within,
     take_larger,
@@ -39,6 +40,11 @@ class NetPull(Generic[Number]):
     foot: tuple[Number, Number]
     head: tuple[Number, Number]
     chord_tension: Number
+
+    @property
+    def largest_tension(self) -> Number:
+        """Largest tension of the net, at one of its ends [N/m]."""
+        return take_larger(measure_length(*self.foot), measure_length(*self.head))
 
 
 def compute_net_pull(

@@ -31,18 +31,17 @@ def _list_of_row(row: NetRow) -> Iterator[Message]:
 
 def _list_of_types(row: NetRow) -> Iterator[Message]:
     """Types that no column names, and what those that are named do not say."""
-    for one in row.resistances:
+    for one in (*row.resistances, *row.net_parts):
         if not one.type_id:
             is_base = one.member == Member.POST_BASE
             yield _name(NETS, Member.POST if is_base else one.member)
         elif one.value is None and not (one.tests or one.dimensions):
             yield from _list_lacking(row, one)
-        elif one.doubt:
-            yield from _list_names(one.doubt)
+        yield from row.list_unsaid_grounds(one)
 
 
 def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
-    names = list(_list_names(one.lack)) if one.lack else []
+    names = one.lack.arguments.get("names", ()) if one.lack else ()
     if one.mode == "bending":
         anchor = row.find_anchor_type(Member(one.member))
         if anchor is None or not anchor.kind:
@@ -50,17 +49,12 @@ def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
         yield _name(ANCHORS, "lever_arm")
     elif one.mode == "sliding":
         yield _name(POSTS, "base_friction")
-    elif names:
-        yield from names
+    elif isinstance(names, tuple) and names:
+        yield from (one for one in names if isinstance(one, Message))
+    elif one.mode == "mesh":
+        yield _name(NETS, "mesh_strength")
     else:
         yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), one.mode)
-
-
-def _list_names(lack: Message) -> Iterator[Message]:
-    """Columns that a reason names."""
-    names = lack.arguments.get("names", ())
-    if isinstance(names, tuple):
-        yield from (one for one in names if isinstance(one, Message))
 
 
 def _list_of_end(row: NetRow) -> Iterator[Message]:

@@ -26,10 +26,10 @@ from netdesign.snow.snowpack import (
 )
 from netdesign.snowpack.series import HeightSeries
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
-from netdesign.words.message import Message
+from netdesign.words.message import Message, say
 from netdesign.words.text_field import Text
 
 # What a member can fail by; the keys under which resistances are given.
@@ -69,6 +69,14 @@ END_MODES: tuple[tuple[EndMember, str], ...] = (
 )
 
 
+# Of the net itself; those of its ropes where it has some.
+NET_MODES: tuple[tuple[NetPart, str], ...] = (
+    (NetPart.MESH, "mesh"),
+    (NetPart.RIDGE_ROPE, "rope"),
+    (NetPart.LOWER_ROPE, "rope"),
+)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorType:
     """What an anchor is, beside its resistances along its axis.
@@ -103,7 +111,7 @@ class Resistance:
     demand, from ``dimensions``; ``source`` is its cell.
     """
 
-    member: Member | EndMember
+    member: Member | EndMember | NetPart
     mode: str
     source: str
     value: float | None = None
@@ -116,43 +124,21 @@ class Resistance:
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
-    doubt: Message | None = None  # why the value may not hold in this row
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BorderRope:
-    """What a border rope bears.
-
-    Attributes
-    ----------
-    type_id, source : str
-        Id of the rope type, and the cell of its breaking force, else of that id.
-    breaking : float or None
-        Minimum breaking force [N]; None where none is given.
-    """
-
-    type_id: str
-    breaking: float | None
-    source: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowPanel:
-    """The panel between two posts of a row, and what its two ropes bear.
+    """The panel between two posts of a row.
 
     Attributes
     ----------
     panels : tuple of Panel
         One; several where something of it is assumed: the worst of them counts.
-    lower, upper : BorderRope
-        At the net's foot, and from head to head.
     assumed : tuple of Message
         Names of the columns that are empty.
     """
 
     panels: tuple[Panel, ...]
-    lower: BorderRope
-    upper: BorderRope
     assumed: tuple[Message, ...] = ()
 
 
@@ -231,6 +217,8 @@ class NetRow:
     )
     panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
     row_end: RowEnd | None = None  # of a row with panel and end
+    # mesh, and border ropes where there are some
+    net_parts: tuple[Resistance, ...] = field(default=(), hash=False)
     # why the pull of its ropes is not known; None also without ropes
     panel_lack: Message | None = None
     # columns left empty that every force depends on: nothing is proven
@@ -259,6 +247,21 @@ class NetRow:
         """What an anchor is; None where its type is not given."""
         at_end = position == "edge" and self.end_anchors is not None
         return dict(self.end_anchors or () if at_end else self.anchors).get(anchor)
+
+    def list_unsaid_grounds(self, given: Resistance) -> tuple[Message, ...]:
+        """Names of the grounds that nobody gives, of row and type of a pull-out.
+
+        Its resistance holds in the ground where it was found.
+        """
+        if given.mode != "pull_out" or not given.basis:
+            return ()
+        of_type = say("check.ground_of_type", type=given.type_id)
+        names = {say("column.Nets.ground"): self.ground_type, of_type: given.ground}
+        return tuple(name for name, word in names.items() if not word)
+
+    def find_net_part(self, part: NetPart) -> Resistance:
+        """What the mesh or a border rope bears; of ropes only where there are some."""
+        return next(one for one in self.net_parts if one.member == part)
 
     @property
     def panels(self) -> tuple[Panel, ...]:

@@ -42,6 +42,7 @@ from netdesign.site.statements import (
 from netdesign.site.support_types import (
     build_row_end,
     find_end_resistances,
+    find_net_parts,
     find_resistances,
     read_anchor_types,
     read_axes,
@@ -201,9 +202,8 @@ def _compose_net_row(
         drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=read_anchor_types(row, types),
         panel=panel,
-        row_end=(
-            build_row_end(end, types, row["ground"]) if has_end and has_ropes else None
-        ),
+        row_end=build_row_end(end, types) if has_end and has_ropes else None,
+        net_parts=find_net_parts(row, types),
         panel_lack=panel_lack,
         unsaid=list_unsaid(row),
     )

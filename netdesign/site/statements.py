@@ -13,7 +13,7 @@ from dataclasses import replace
 from netdesign.panel.assumed import Ends, find_stiffness, list_panels
 from netdesign.panel.inputs import CUTS
 from netdesign.site.cells.findings import Finding
-from netdesign.site.model import MEMBER_MODES, NAMED_BY, BorderRope, InputEcho, RowPanel
+from netdesign.site.model import MEMBER_MODES, NAMED_BY, InputEcho, RowPanel
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.type_resistances import find_breaking
 from netdesign.structure.members import EndMember
@@ -164,8 +164,6 @@ def _build_panel(row: Row, ropes: Mapping[str, Row]) -> RowPanel:
             stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
             has_mid_anchors=mid == "yes" if mid else None,
         ),
-        lower=_describe_rope(lower),
-        upper=_describe_rope(ridge),
         assumed=tuple(_list_assumed(row, ropes)),
     )
 
@@ -185,17 +183,6 @@ def _find_stiffness(line: Row | None) -> Ends:
     if line is None:
         return find_stiffness(None, None)
     return find_stiffness(line["axial_stiffness"].given_si, find_breaking(line))
-
-
-def _describe_rope(line: Row | None) -> BorderRope:
-    if line is None:
-        return BorderRope(type_id="", breaking=None, source="Nets")
-    breaking = line["rope"]
-    return BorderRope(
-        type_id=line["id"].word,
-        breaking=breaking.given_si,
-        source=line["rope" if breaking.state == "given" else "id"].place,
-    )
 
 
 def replace_types(row: Row, end: Row | None) -> Row:

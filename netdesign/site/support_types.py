@@ -19,6 +19,7 @@ from netdesign.site.model import (
     END_MODES,
     MEMBER_MODES,
     NAMED_BY,
+    NET_MODES,
     AnchorType,
     BaseFriction,
     Resistance,
@@ -34,7 +35,7 @@ from netdesign.site.type_resistances import (
     read_inner,
     reduce_breaking,
 )
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, say
 
@@ -116,10 +117,7 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     bent = (_bend_anchor(row[one], one, anchors.get(one)) for one in _AXES)
     return (
         *(
-            _find_resistance(
-                *(row[NAMED_BY.get(member, member)], mode, member, types),
-                ground=row["ground"],
-            )
+            _find_resistance(row[NAMED_BY.get(member, member)], mode, member, types)
             for member, mode in MEMBER_MODES
         ),
         *(one for one in bent if one is not None),
@@ -137,17 +135,36 @@ def find_end_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     )
 
 
-def build_row_end(end: Row | None, types: Types, ground: Reading) -> RowEnd:
-    """Members that hold a row along itself in its ground, all of them, given or not."""
+def build_row_end(end: Row | None, types: Types) -> RowEnd:
+    """Members that hold a row along itself, all of them, given or not."""
     lack = say("row_end.no_members")
     return RowEnd(
         guy_angle=end["end_guy_angle"].given_si if end else None,
         resistances=tuple(
-            _find_resistance(end[member], mode, member, types, ground=ground)
+            _find_resistance(end[member], mode, member, types)
             if end
             else Resistance(member=member, mode=mode, source="Ends", lack=lack)
             for member, mode in END_MODES
         ),
+    )
+
+
+def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
+    """Resistances of a row's mesh, and of its border ropes where it has some."""
+    strength = row["mesh_strength"]
+    mesh = Resistance(
+        member=NetPart.MESH,
+        mode="mesh",
+        source=strength.place or "Nets",
+        value=strength.given_si,
+        basis="declared" if strength.state == "given" else "",
+    )
+    if row["panel_system"].word == "none":
+        return (mesh,)
+    return mesh, *(
+        _find_resistance(row[part], mode, part, types)
+        for part, mode in NET_MODES
+        if part is not NetPart.MESH
     )
 
 
@@ -165,33 +182,17 @@ def list_catalogue(types: Types) -> tuple[Resistance, ...]:
 
 
 def _find_resistance(
-    reading: Reading,
-    mode: str,
-    member: Member | EndMember,
-    types: Types,
-    *,
-    ground: Reading,
+    reading: Reading, mode: str, member: Member | EndMember | NetPart, types: Types
 ) -> Resistance:
-    """Resistance of a member in one mode; no type or no value gives None.
-
-    A pull-out resistance holds in the ground where it was found: a type or a row
-    without a ground leaves it in doubt.
-    """
+    """Resistance of a member in one mode; no type or no value gives None."""
     if not reading.word:
         return Resistance(member=member, mode=mode, source=reading.place or "Nets")
     sheet = reading.field.refers_to
-    line = types[sheet][reading.word]
-    found = _describe_type(line, mode, member, sheet)
-    if mode != "pull_out" or not found.basis:
-        return found
-    of_type = say("check.ground_of_type", type=line["id"].word)
-    places = ((ground, ground.field.name), (line["ground"], of_type))
-    names = tuple(name for one, name in places if not one.word)
-    return replace(found, doubt=say("check.no_ground", names=names) if names else None)
+    return _describe_type(types[sheet][reading.word], mode, member, sheet)
 
 
 def _describe_type(
-    kind: Row, mode: str, member: Member | EndMember, sheet: str
+    kind: Row, mode: str, member: Member | EndMember | NetPart, sheet: str
 ) -> Resistance:
     """Resistance of a type in one mode, given or not."""
     resistance = kind[mode]

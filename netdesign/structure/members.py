@@ -32,6 +32,14 @@ class EndMember(StrEnum):
     END_GUY_ANCHOR = "end_guy_anchor"
 
 
+class NetPart(StrEnum):
+    """A part of the net itself, along a row: its mesh and its two border ropes."""
+
+    MESH = "mesh"  # a strip one metre wide
+    RIDGE_ROPE = "ridge_rope"
+    LOWER_ROPE = "lower_rope"
+
+
 class RopeForce(StrEnum):
     """A force of a border rope: along the row, or its tension at a support."""
 
@@ -41,12 +49,14 @@ class RopeForce(StrEnum):
     UPPER_TENSION = "panel_upper_tension"
 
 
-# What pulls on each of those at the row's end.
+# Pull of a rope that an end member holds, or that the rope itself bears.
 ROPE_OF: Mapping[str, RopeForce] = MappingProxyType(
     {
         EndMember.LATERAL_ANCHOR: RopeForce.LOWER_ALONG,
         EndMember.END_GUY: RopeForce.UPPER_ALONG,
         EndMember.END_GUY_ANCHOR: RopeForce.UPPER_ALONG,
+        NetPart.LOWER_ROPE: RopeForce.LOWER_TENSION,
+        NetPart.RIDGE_ROPE: RopeForce.UPPER_TENSION,
     }
 )
 

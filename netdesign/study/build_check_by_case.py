@@ -9,13 +9,17 @@ from functools import cache, partial
 from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
-from netdesign.structure.members import RopeForce, name_in_panel
+from netdesign.structure.members import NetPart, RopeForce, name_in_panel
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
 from netdesign.study.judgement import MemberCheck, is_worst
 from netdesign.study.margins import find_margins
-from netdesign.study.member_force import MemberForce, compute_end_factor
+from netdesign.study.member_force import (
+    MemberForce,
+    compute_end_factor,
+    compute_tension_factor,
+)
 from netdesign.study.records import ChangeRecord, HoldRecord
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.sideways import find_tilt
@@ -85,7 +89,7 @@ def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:
 def build_end_check(
     task: RowToCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
 ) -> CheckByCase | None:
-    """Check of a member that holds the row along itself as a function of a case.
+    """Check of a rope, or of what holds its pull, as a function of a case.
 
     None where a solve tells nothing of it.
     """
@@ -103,8 +107,17 @@ def build_end_check(
         scale=use * _widen(force.largest, task.solved.results) / 1e3,
         governing=extremes[member].governing.case,
         results=task.solved.results,
-        widen=cache(partial(_find_end_factor, task)),
+        widen=cache(partial(_find_end_growth, task, one)),
     )
+
+
+def _find_end_growth(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Growth of a rope's force by the end effect, over some ranges [-]."""
+    if one.given.member not in tuple(NetPart):
+        return _find_end_factor(task, ranges)
+    effects = find_effects(task.basis.row, task.basis.standard, ranges)
+    width = effects.find_support(one.width.position)
+    return compute_tension_factor(width, effects.post_spacing)
 
 
 def _find_end_factor(task: RowToCheck, ranges: Ranges) -> float:
@@ -237,8 +250,14 @@ def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
 
 
 def _find_width(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
-    """Width that loads a support over ranges in which something was moved [m]."""
+    """Width that loads a support over ranges in which something was moved [m].
+
+    Of the mesh its local load over that inside the row [-].
+    """
     supports = find_effects(task.basis.row, task.basis.standard, ranges).supports
+    if one.given.member == NetPart.MESH:
+        factors = [w.end_factor for w in supports if w.position == one.width.position]
+        return 1.0 + max(factors, default=0.0)
     widths = [w.width for w in supports if w.position == one.width.position]
     return max(widths, default=one.width.width)
 

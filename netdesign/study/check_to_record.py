@@ -130,13 +130,19 @@ def judge_force(
         given,
         standard,
         gap=gap,
-        doubt=doubt or given.doubt,
+        doubt=doubt,
         strength=resist(given, standard, force) if force else None,
     )
     lack = given.lack
     if lack is None or lack.key != "post_bending.too_much":
         return result
     return replace(result, verdict=Verdict.FAIL, reason=lack, is_unbounded=True)
+
+
+def doubt_ground(row: NetRow, given: Resistance) -> Message | None:
+    """Doubt that a pull-out resistance holds where nobody says in which ground."""
+    names = row.list_unsaid_grounds(given)
+    return say("check.no_ground", names=names) if names else None
 
 
 def place_check(check: CheckRecord, position: Position) -> CheckRecord:
@@ -167,7 +173,6 @@ def record_result(
         resistance_basis=given.basis if given else "",
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
-        resistance_ground=given.ground if given and not given.doubt else "",
         resistance_derivation=given.derivation if given else None,
         steps=[] if result.used is None else list_steps(result.used),
         declared=_record_declaration(declared) if declared else None,

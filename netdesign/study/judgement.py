@@ -13,12 +13,13 @@ from netdesign.checks import CheckResult, Standard, withhold
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import CreepLaw
-from netdesign.structure.members import Member, name_in_panel
+from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
 from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.check_to_record import (
     apply_declaration,
+    doubt_ground,
     judge_force,
     list_checked,
     place_check,
@@ -138,24 +139,27 @@ def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
 
 
 def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
-    """Checks of the members of both supports, then of what holds the row's end."""
-    effects, end = known.forces.effects, basis.row.row_end
+    """Checks of both supports' members, then of the net and what holds its ropes."""
+    effects, row = known.forces.effects, basis.row
     judged = [
         _judge_member(basis, known, given, width)
-        for width, given in list_checked(basis.row, effects)
+        for width, given in list_checked(row, effects)
     ]
     at_end = effects.find_support("edge")
-    held = end.resistances if end else ()
-    return judged + [_judge_end(basis, known, given, at_end) for given in held]
+    held = row.row_end.resistances if row.row_end else ()
+    parts = () if "mesh" in basis.standard.not_checked else row.net_parts
+    for given in (*parts, *held):
+        judge = _judge_end if given.member in ROPE_OF else _judge_member
+        judged.append(judge(basis, known, given, at_end))
+    return judged
 
 
 def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCheck:
     """Check that is NOT PROVEN, since the program failed in a solve near its cases."""
     if one.gap is not None or one.force is None:
         return one
-    result = judge_force(
-        one.given, one.force, basis.standard, gap=fault, doubt=one.doubt
-    )
+    doubt = one.doubt or doubt_ground(basis.row, one.given)
+    result = judge_force(one.given, one.force, basis.standard, gap=fault, doubt=doubt)
     return replace(one, gap=fault, result=result)
 
 
@@ -180,8 +184,8 @@ def _judge_member(
     found = [forces.largest.get(given.member), *_list_panel(forces, given.member)]
     gap = known.gap or known.floor_gap or _find_unseen(found)
     gap = gap or find_other_panel(row, given, width.position)
-    standard = basis.standard
-    result = judge_force(given, force, standard, gap=gap, doubt=doubt)
+    standard, of_ground = basis.standard, doubt_ground(row, given)
+    result = judge_force(given, force, standard, gap=gap, doubt=doubt or of_ground)
     short = find_short_post(given, row, basis.site.ranges)
     if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
@@ -194,16 +198,19 @@ def _judge_member(
 def _judge_end(
     basis: Basis, known: Known, given: Resistance, width: LoadedWidth
 ) -> MemberCheck:
-    """Check of a member that holds the row along itself."""
+    """Check of a border rope, or of a member that holds its pull at the row's end."""
     unsaid = _find_unsaid(basis.row, known, given, width)
     if unsaid:
         opened = _leave_open(basis, given, width, unsaid)
         return replace(opened, is_of_end=True)
     force = find_force(known.forces, given, width)
     gap = known.gap or _find_unseen([force.largest] if force else [])
-    gap = gap or find_other_panel(basis.row, given, "edge")
+    gap = gap or find_other_panel(basis.row, given, width.position)
     doubt = _find_doubt(basis, [force.largest]) if force else None
-    result = judge_force(given, force, basis.standard, gap=gap, doubt=doubt)
+    of_ground = doubt_ground(basis.row, given)
+    result = judge_force(
+        given, force, basis.standard, gap=gap, doubt=doubt or of_ground
+    )
     return MemberCheck(
         given=given,
         width=width,
@@ -223,7 +230,8 @@ def _find_unsaid(
         return name_unsaid(row)
     if known.panel_gap is not None:
         return known.panel_gap
-    return find_lack(row, given) if width.position == "edge" else None
+    is_inside = width.position == "intermediate" and given.member in tuple(Member)
+    return None if is_inside else find_lack(row, given)
 
 
 def _leave_open(
@@ -299,6 +307,8 @@ def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
     position = one.width.position
     settled = apply_declaration(basis.site, basis.row, one.result, position)
     check = place_check(record_result(settled, one.given, one.force), position)
+    if not basis.row.list_unsaid_grounds(one.given):
+        check = replace(check, resistance_ground=one.given.ground)
     if one.force is None:
         return check
     check = replace(check, case=one.force.largest.case)

@@ -20,6 +20,7 @@ from netdesign.structure.members import (
     ROPE_OF,
     EndMember,
     Member,
+    NetPart,
     RopeForce,
     name_in_panel,
 )
@@ -33,6 +34,7 @@ from netdesign.words.names import name
 
 Governing = Literal["coupled", "panel", "guideline"]
 PUSHED = (Member.POST, Member.POST_BASE)  # by the end guy
+_ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 # Weights of the load along the row in the guys of each side.
 PARTS: Mapping[str, str] = {
     Member.UPHILL_GUY: "uphill_part",
@@ -117,6 +119,8 @@ class MemberForce:
         support, lateral = self.on.support, self.on.load.lateral
         if self.largest.quantity in tuple(RopeForce):
             return _high(self.action) / (self.largest.high_kN or 1.0)
+        if support.end_factor is not None and support.width is None:  # of the mesh
+            return 1.0 + (support.end_factor.value or 0.0)
         ratio = 1.0
         if support.width is not None and support.spacing is not None:
             ratio = (support.width / support.spacing).value or 1.0
@@ -181,7 +185,7 @@ def find_force(
         return None
     is_sliding = resistance.mode == "sliding"
     letter = "V" if is_sliding else "E"
-    leaves = _list_support_leaves(forces.row, width)
+    leaves = _list_support_leaves(forces.row, width, member)
     leaves += [solve_for(section, f"{letter}_s")]
     panel = forces.largest.get(name_in_panel(member))
     if panel is not None:
@@ -197,12 +201,12 @@ def find_force(
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
     force = calculate_force({one.symbol: one for one in leaves})
     is_by_panel = _high(force.by_panel) > _high(force.coupled)
-    is_foot = member in (Member.FOOT_ANCHOR, *forces.effects.at_foot)
+    has_no_pull = member in (Member.FOOT_ANCHOR, NetPart.MESH, *forces.effects.at_foot)
     return MemberForce(
         on=force,
         solved=(section,) if panel is None else (section, panel),
         largest=panel if panel is not None and is_by_panel else section,
-        pull=forces.held.pull_kN if forces.held and not is_foot else 0.0,
+        pull=forces.held.pull_kN if forces.held and not has_no_pull else 0.0,
         rise=rise,
     )
 
@@ -210,15 +214,17 @@ def find_force(
 def _find_end_force(
     forces: RowForces, member: str, width: LoadedWidth
 ) -> MemberForce | None:
-    """Force on a member that holds the ropes' pull along the row, at its end.
+    """Force of a border rope, or on a member that holds its pull at the row's end.
 
     None of a row without panel or end, and where no case has a panel.
     """
     rope = forces.largest.get(ROPE_OF[member])
-    if forces.row.row_end is None or rope is None:
+    is_endless = forces.row.row_end is None and member in tuple(EndMember)
+    if is_endless or rope is None:
         return None
-    leaves = [*_list_support_leaves(forces.row, width), solve_for(rope, "T_r")]
-    if member != EndMember.LATERAL_ANCHOR:
+    symbol = "T_b" if member in _ROPES else "T_r"
+    leaves = [*_list_support_leaves(forces.row, width, member), solve_for(rope, symbol)]
+    if member in (EndMember.END_GUY, EndMember.END_GUY_ANCHOR):
         leaves += _list_guy_angle(forces.row)
     force = calculate_force({one.symbol: one for one in leaves})
     return MemberForce(on=force, solved=(rope,), largest=rope)
@@ -228,14 +234,22 @@ def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
     return given(symbol, value, unit, source, kind=Kind.SOLVED)
 
 
-def _list_support_leaves(row: NetRow, width: LoadedWidth) -> list[Quantity]:
-    """Widths that load a support, inside the row or at its end."""
+def _list_support_leaves(
+    row: NetRow, width: LoadedWidth, member: str
+) -> list[Quantity]:
+    """Widths that load a support, inside the row or at its end.
+
+    The mesh has the whole end effect, which is local.
+    """
     if width.position == "intermediate":
         return []
     rule = "end.constant"
+    factor = given("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE)
+    if member == NetPart.MESH:
+        return [factor]
     return [
         given("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
-        given("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE),
+        factor,
         given("Δl", width.end_length, "m", rule, kind=Kind.PROFILE),
     ]
 
@@ -246,7 +260,7 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     held = forces.held
     if member in forces.effects.at_foot:
         return ([share] if share.is_known else []), 0.0
-    if held is None or member == Member.FOOT_ANCHOR:
+    if held is None or member in (Member.FOOT_ANCHOR, NetPart.MESH):
         return [], 0.0
     splay = given("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
     pull = given(
@@ -308,13 +322,20 @@ def compute_end_factor(width: LoadedWidth, spacing: float) -> float:
     return 1.0 + width.end_factor * (share if share <= 0.5 else 1.0)
 
 
+def compute_tension_factor(width: LoadedWidth, spacing: float) -> float:
+    """Tension of a border rope under the end effect over that without, (P9) [-]."""
+    return 1.0 + width.end_factor * min(1.0, 2.0 * width.end_length / spacing)
+
+
 def name_unsaid(row: NetRow) -> Message:
     """The columns that a row leaves empty, and that every force depends on."""
     return say("check.unsaid", names=row.unsaid)
 
 
 def find_lack(row: NetRow, given: Resistance) -> Message | None:
-    """Lack of the workbook that leaves an end member, or the end post, open."""
+    """Lack of the workbook that leaves a rope, an end member, or the end post, open."""
+    if given.member in _ROPES:
+        return row.panel_lack if row.panel is None else None
     if row.row_end is None or given.member not in (*EndMember, *PUSHED):
         return None
     if row.panel is None:
@@ -331,7 +352,7 @@ def find_other_panel(
 
     It concerns what they load more than the section does.
     """
-    pulled = [Member.UPHILL_GUY, Member.UPHILL_ANCHOR]
+    pulled = [Member.UPHILL_GUY, Member.UPHILL_ANCHOR, *_ROPES]
     if row.layout.is_foot_shared:
         pulled.append(Member.FOOT_ANCHOR)
     at_end = (*EndMember, *PUSHED) if position == "edge" and row.row_end else ()

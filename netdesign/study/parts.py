@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from netdesign.envelope.ranges import Interval
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.layout import SupportPoints, place_support
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, NetPart
 from netdesign.structure.row_position import Position
 
 _INCLINATION = "inclination"
@@ -126,13 +126,10 @@ def _list_along(row: NetRow, inclination: Interval) -> Iterator[PartRecord]:
     )
     if row.panel is None:
         return
-    for part, rope in (
-        ("ridge_rope", row.panel.upper),
-        ("lower_rope", row.panel.lower),
-    ):
+    for part in (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE):
         yield PartRecord(
             part=part,
-            type_id=rope.type_id,
+            type_id=row.find_net_part(part).type_id,
             count=None if length is None else 1,
             size=length,
         )

@@ -35,6 +35,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
         choice=standard.choice,
         floor=standard.floor,
         is_floor_overruled=standard.is_floor_overruled,
+        not_checked=list(standard.not_checked),
         is_default=standard.is_default,
         values=[
             *map(_record_value, standard.listed),

@@ -15,7 +15,7 @@ from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.axis import measure_pull
 from netdesign.structure.layout import SupportPoints, place_support
-from netdesign.structure.members import Member, RopeForce
+from netdesign.structure.members import Member, NetPart, RopeForce
 from netdesign.study.case_records import CasePoint, GuidelineLoadRecord
 from netdesign.study.record_envelope import record_point
 from netdesign.study.sideways import (
@@ -73,7 +73,7 @@ def _record_cases(
     found = [
         (key, _find_state(key, one.governing))
         for key, one in extremes.items()
-        if one.force.value > 0.0 and key not in tuple(RopeForce)
+        if one.force.value > 0.0 and key not in (*RopeForce, NetPart.MESH)
     ]
     states = _list_states(solved)
     if states:

@@ -15,10 +15,10 @@ from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Rope
 from netdesign.panel.solution import FailedPanel
 from netdesign.panel.stations import ROPE_POINTS
-from netdesign.site.model import BorderRope, NetRow
+from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
-from netdesign.structure.members import Member, RopeForce
+from netdesign.structure.members import Member, NetPart, RopeForce
 from netdesign.study.effects import RowEffects
 from netdesign.study.record_envelope import record_extreme, record_point
 from netdesign.study.support_records import (
@@ -68,8 +68,14 @@ def record_panel(
         ropes=[]
         if row.panel.assumed
         else [
-            _record_rope("lower", panel.lower, row.panel.lower, found, lower),
-            _record_rope("upper", panel.upper, row.panel.upper, found, upper),
+            _record_rope(
+                *("lower", panel.lower, row.find_net_part(NetPart.LOWER_ROPE)),
+                *(found, lower),
+            ),
+            _record_rope(
+                *("upper", panel.upper, row.find_net_part(NetPart.RIDGE_ROPE)),
+                *(found, upper),
+            ),
         ],
         extremes=[record_extreme(one) for one in found.values()],
         failed=sum(isinstance(one.panel, FailedPanel) for one in results),
@@ -170,7 +176,7 @@ def _show_point(force: Point) -> tuple[float, float]:
 def _record_rope(
     name: str,
     rope: Rope,
-    bears: BorderRope,
+    bears: Resistance,
     extremes: Mapping[str, Extreme],
     forces: tuple[str, str],
 ) -> RopeRecord:
@@ -185,7 +191,7 @@ def _record_rope(
         sag=rope.sag,
         along_kN=along,
         tension_kN=tension,
-        breaking_kN=kilonewton_if_known(bears.breaking),
+        breaking_kN=kilonewton_if_known(bears.value),
         cell=bears.source,
     )
 

@@ -369,6 +369,7 @@ class ProfileRecord:
     floor: str = "guideline"  # what no demand lies below: or "none"
     is_floor_overruled: bool = False  # the profile itself takes the other one
     is_default: bool = False  # nobody named it
+    not_checked: list[str] = field(default_factory=list)  # topics that others check
 
 
 @dataclass(frozen=True, kw_only=True)

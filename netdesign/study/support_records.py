@@ -156,10 +156,7 @@ class EndEffectRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class RopeRecord:
-    """A border rope: what it is, and its largest forces, upper ends.
-
-    They are upper figures to a tenth, and information: no check rests on them alone.
-    """
+    """A border rope: what it is, and its largest forces, upper ends to a tenth."""
 
     rope: str  # "lower" or "upper"
     type: str  # id of sheet Ropes
@@ -167,7 +164,7 @@ class RopeRecord:
     sag: float  # as built, over the post spacing
     along_kN: float | None  # along the row; None where no case has a panel
     tension_kN: float | None
-    breaking_kN: float | None  # None where none is given
+    breaking_kN: float | None  # less what its ends lose; None where none is given
     cell: str  # of the breaking force, else of the id
 
 

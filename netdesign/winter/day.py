@@ -18,6 +18,7 @@ from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snowpack.pack import DayPack
 from netdesign.solving.runner import Runner
 from netdesign.structure.layout import SupportLayout
+from netdesign.structure.members import NetPart
 from netdesign.winter.layers import LEAST_DENSITY, merge_layers
 from netdesign.words.message import Message, say
 
@@ -290,7 +291,9 @@ def _end(day: RowDay, result: CaseResult) -> RowDay:
         )
         for name, pull in pulls.items()
     }
-    layout_forces = {} if "rope" in result.member_forces else result.member_forces
+    forces = dict(result.member_forces)
+    forces.pop(NetPart.MESH, None)  # the net's own ends are told
+    layout_forces = {} if "rope" in forces else forces
     return replace(
         day,
         ending="solved",

@@ -14,7 +14,6 @@ from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import (
     END_MODES,
-    BorderRope,
     Project,
     Resistance,
     RowEnd,
@@ -32,7 +31,6 @@ from tests.read_check import bring, scale_force, scale_step
 from tests.small_site import RANGES, RUN, build_row, build_site, resist
 
 PROFILE = load_standard("eurocode")
-ROPE = BorderRope(type_id="B22", breaking=290e3, source="Ropes!B4")
 ACCEPTED = Project(accepted_law=RUN.creep_law.name)
 
 
@@ -43,7 +41,7 @@ def a_panel(spacing=3.5, **changes):
         "upper": Rope(stiffness=19.1e6, sag=0.057),
         "cut": "upper",
     }
-    return RowPanel(panels=(Panel(**(values | changes)),), lower=ROPE, upper=ROPE)
+    return RowPanel(panels=(Panel(**(values | changes)),))
 
 
 def an_end(angle=40.0, value=1e7):
@@ -56,6 +54,7 @@ def an_end(angle=40.0, value=1e7):
             basis="tested" if mode == "pull_out" else "",
             type_id="T2",
             source="Anchors!B3",
+            ground="till",
         )
         for member, mode in END_MODES
     )

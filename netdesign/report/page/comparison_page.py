@@ -26,7 +26,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.structure.members import CARRYING_MEMBERS, EndMember
+from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.catalogue import Language
 
@@ -138,7 +138,7 @@ def _build_row(
     )
 
 
-_ORDER = (*CARRYING_MEMBERS, *EndMember, _REST)
+_ORDER = (*CARRYING_MEMBERS, *NetPart, *EndMember, _REST)
 
 
 def _name_member(member: str, words: Words) -> str:

@@ -55,7 +55,7 @@ from netdesign.report.words import (
     show_text,
 )
 from netdesign.site.model import InputEcho
-from netdesign.structure.members import CARRYING_MEMBERS, EndMember
+from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.document import compute_digest
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.message import Message
@@ -156,7 +156,7 @@ def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
 def build_matrix(study: Study, words: Words) -> Table:
     """Worst verdict and largest utilisation of each row by members, and the rest."""
     known = {one.member for row in study.rows for one in row.checks if one.is_of_force}
-    members = [one for one in (*CARRYING_MEMBERS, *EndMember) if one in known]
+    members = [one for one in (*CARRYING_MEMBERS, *NetPart, *EndMember) if one in known]
     columns = [show_member(words, one) for one in members]
     headings = [words("heading.net_row"), *columns, words("heading.rest")]
     return Table(
@@ -206,34 +206,11 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     panels = [row.id for row in study.rows if row.panel and row.panel.assumed]
     if panels:
         yield words("todo.panels", rows=name_rows(panels, study, words))
-    ropes = _list_border_ropes(study, words)
-    if ropes:
-        yield words("todo.border_ropes", ropes=words.join(ropes))
     if any(_is_assumed_stiffness(echo) for echo in study.range_inputs):
         yield words("todo.stiffness")
     defaults = count_defaults(study, words)
     if defaults:
         yield words("todo.defaults", count=defaults)
-
-
-def _list_border_ropes(study: Study, words: Words) -> list[str]:
-    """Types of border ropes with their largest pull, and what they break at [kN]."""
-    pulls: dict[str, tuple[float, float | None]] = {}
-    for row in study.rows:
-        for rope in row.panel.ropes if row.panel else ():
-            most, _ = pulls.get(rope.type, (0.0, None))
-            pull = max(most, rope.tension_kN or 0.0)
-            pulls[rope.type] = (pull, rope.breaking_kN)
-    return [
-        words(
-            "todo.border_rope" if breaking else "todo.border_rope_alone",
-            type=show_text(kind),
-            tension=words.show_number("demand_kN", pull),
-            breaking=words.show_number("resistance_kN", breaking),
-        )
-        for kind, (pull, breaking) in pulls.items()
-        if pull > 0.0
-    ]
 
 
 def _is_assumed_stiffness(echo: InputEcho) -> bool:

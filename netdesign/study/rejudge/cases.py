@@ -14,6 +14,7 @@ from netdesign.structure.members import (
     CARRYING_MEMBERS,
     REPORTED_MEMBERS,
     Member,
+    NetPart,
 )
 from netdesign.study.case_records import (
     BoundRecord,
@@ -228,7 +229,8 @@ def _rejudge_forces(place: Message, row: RowStudy) -> Iterator[Message]:
     extremes = {one.quantity: one for one in row.extremes}
     extremes |= {one.quantity: one for one in row.panel.extremes} if row.panel else {}
     named = [one.quantity for one in row.forces]
-    wanted = [*CARRYING_MEMBERS, *(one for one in extremes if one.startswith("panel"))]
+    by_panel = [one for one in extremes if one.startswith("panel")]
+    wanted = [*CARRYING_MEMBERS, NetPart.MESH, *by_panel]
     if sorted(named) != sorted(wanted if list_solved(row) else []):
         yield say(
             "audit.largest_of_others",

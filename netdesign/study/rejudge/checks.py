@@ -22,11 +22,12 @@ from netdesign.checks.schema import (
     ROPE_ANGLE,
 )
 from netdesign.outcome import Verdict
-from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES, NET_MODES
 from netdesign.structure.members import (
     CARRYING_MEMBERS,
     ROPE_OF,
     Member,
+    NetPart,
     RopeForce,
     name_in_panel,
 )
@@ -104,6 +105,10 @@ def _look_for_all(
         wanted += [f"{one}.end" for one in wanted]
     if _has_ropes(row) and not _goes_on(row):
         wanted += [f"{member}.{mode}.end" for member, mode in END_MODES]
+    if "mesh" not in profile.not_checked:
+        end = ".end" if _has_end(row, profile) else ""
+        parts = NET_MODES if _has_ropes(row) else NET_MODES[:1]
+        wanted += [f"{member}.{mode}{end}" for member, mode in parts]
     wanted += [f"{Member.POST}.lateral", "geometry.inclination"]
     wanted += ["profile.named"] if profile.is_default else []
     wanted += ["inputs.plausible"] if row.questions else []
@@ -140,7 +145,7 @@ def _look_for_floor(
         yield say("audit.floor_of_profile", place=place, floor=profile.floor)
     if floor is not None:
         named = [one.member for one in floor.forces]
-        wanted = [] if floor.reason else list(CARRYING_MEMBERS)
+        wanted = [] if floor.reason else [*CARRYING_MEMBERS, NetPart.MESH]
         if sorted(named) != sorted(wanted):
             yield say("audit.floor_of_others", place=place, named=name_members(named))
 
@@ -291,7 +296,7 @@ def _name_sources(
     """Solved quantities that a member's force follows from, by their symbols."""
     member = check.member
     if member in ROPE_OF:
-        return {"T_r": ROPE_OF[member]}
+        return {"T_b" if member in tuple(NetPart) else "T_r": ROPE_OF[member]}
     panel, letter = name_in_panel(member), "V" if check.mode == "sliding" else "E"
     sources = {f"{letter}_p0": panel, f"{letter}_g0": f"floor.{member}"}
     sources = {symbol: one for symbol, one in sources.items() if one in known}
@@ -323,9 +328,8 @@ def _is_at_foot(check: CheckRecord, row: RowStudy) -> bool:
 
 def is_left_open(check: CheckRecord, row: RowStudy) -> bool:
     """A check without a force, for want of inputs that its force depends on."""
-    of_end = check.position == "edge" and check.member in (
-        *ROPE_OF,
-        *(Member.POST, Member.POST_BASE),
+    of_end = check.member in ROPE_OF or (
+        check.position == "edge" and check.member in (Member.POST, Member.POST_BASE)
     )
     is_open = check.verdict in (Verdict.NOT_PROVEN, Verdict.DECLARED)
     panel = row.panel
@@ -397,9 +401,9 @@ def _rejudge_verdict(
     if check.is_unbounded:
         verdict = Verdict.FAIL
     is_open = is_held_back(check) or _is_information(check, row)
-    if check.mode == "pull_out" and not check.resistance_ground:
-        if check.verdict is Verdict.PASS:
-            yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    is_placed = check.mode != "pull_out" or check.resistance_ground
+    if check.verdict is Verdict.PASS and not is_placed:
+        yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
     if is_declared and verdict is not Verdict.FAIL:
         is_open = True

@@ -15,6 +15,7 @@ from netdesign.structure.members import (
     BROUGHT_BY,
     REPORTED_MEMBERS,
     Member,
+    NetPart,
     RopeForce,
     name_in_panel,
 )
@@ -323,7 +324,7 @@ def read_state(state: StaticsRecord, member: str) -> float:
         return max(state.foot_anchor_kN + guy, state.mid_foot_kN)
     if is_shared and member in (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR):
         return state.foot_anchor_kN + state.uphill_guy_kN
-    forces = {
+    forces: dict[str, float] = {
         Member.FOOT_ANCHOR: state.foot_anchor_kN,
         Member.UPHILL_GUY: state.uphill_guy_kN,
         Member.UPHILL_ANCHOR: state.uphill_guy_kN,
@@ -331,15 +332,19 @@ def read_state(state: StaticsRecord, member: str) -> float:
         Member.DOWNHILL_ANCHOR: state.downhill_guy_kN,
         Member.POST: state.post_kN,
         Member.POST_BASE: state.post_base_kN,
+        NetPart.MESH: max(  # under the guideline's load it is largest at an end
+            math.hypot(state.foot_x_kN_per_m, state.foot_y_kN_per_m),
+            math.hypot(state.head_x_kN_per_m, state.head_y_kN_per_m),
+        ),
     }
-    return forces[Member(member)]
+    return forces[member]
 
 
 def _rejudge_largest(place: Message, row: RowStudy) -> Iterator[Message]:
     """Each largest force stands in the state that is said to bring it."""
-    ropes = tuple(RopeForce)
+    stateless = (*RopeForce, NetPart.MESH)
     solved = {one.quantity: one.value_kN for one in row.forces}
-    solved = {name: force for name, force in solved.items() if name not in ropes}
+    solved = {name: force for name, force in solved.items() if name not in stateless}
     least = {
         one.member: one.force_kN for one in (row.floor.forces if row.floor else ())
     }
