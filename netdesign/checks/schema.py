@@ -40,7 +40,7 @@ POST_EFFICIENCY = "post.efficiency"
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
-    *("bending", "compression_bending", "sliding", "mesh"),
+    *("bending", "compression_bending", "sliding", "mesh", "connection"),
 )
 # Checks of a member that compare no force with a resistance.
 MODES_WITHOUT_FORCE = ("direction", "lateral")
@@ -154,6 +154,8 @@ class ScopeTable(_Table):
     """
 
     mesh: Checked = "checked"  # of the net, and its border ropes
+    connections: Checked = "checked"  # links between ropes and anchors
+    corrosion: Checked = "checked"  # of anchors and ropes over the design life
 
 
 class DocumentFile(_Table):

@@ -173,7 +173,9 @@ def _resolve_net(task: CaseTask, state: SolvedState) -> CaseResult:
 
 def _bound_tension(state: SolvedState) -> Band:
     """Largest tension of the net for each metre of width [N/m]."""
-    return spread_out(state.tension_max, max(state.foot.error, state.head.error))
+    foot, head = state.foot, state.head
+    largest = max(state.tension_max, foot.size, head.size)
+    return spread_out(largest, max(foot.error, head.error))
 
 
 def _resolve_support(

@@ -17,7 +17,13 @@ from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids
-from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES, NET_MODES
+from netdesign.site.model import (
+    CONNECTED,
+    DEPENDENT_MODES,
+    END_MODES,
+    MEMBER_MODES,
+    NET_MODES,
+)
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.replaced import find_cell, split_replacement
 from netdesign.site.tables import read_rows
@@ -50,6 +56,7 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
     *DEPENDENT_MODES,
     *END_MODES,
     *NET_MODES,
+    *((member, "connection") for member in CONNECTED),
     *_OF_DIRECTIONS,
     *_OF_GEOMETRY,
 )

@@ -38,6 +38,8 @@ class Lines:
         too, whose ids cannot be read.
     ranges : RangesSheet
         Of sheet Ranges.
+    links : sequence of Row
+        Of sheet Links.
     """
 
     nets: Sequence[Row]
@@ -47,6 +49,7 @@ class Lines:
     absent: Sequence[str]
     unreadable: Sequence[str]
     ranges: RangesSheet
+    links: Sequence[Row] = ()
 
     @property
     def places(self) -> dict[str, str]:

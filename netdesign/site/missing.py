@@ -32,12 +32,14 @@ def _list_of_row(row: NetRow) -> Iterator[Message]:
 def _list_of_types(row: NetRow) -> Iterator[Message]:
     """Types that no column names, and what those that are named do not say."""
     for one in (*row.resistances, *row.net_parts):
-        if not one.type_id:
+        if one.mode == "mesh":
+            yield from () if one.basis else (_name(NETS, "mesh_strength"),)
+        elif not one.type_id:
             is_base = one.member == Member.POST_BASE
             yield _name(NETS, Member.POST if is_base else one.member)
         elif one.value is None and not (one.tests or one.dimensions):
             yield from _list_lacking(row, one)
-        yield from row.list_unsaid_grounds(one)
+        yield from (*row.list_unsaid_grounds(one), *row.list_unsaid_wear(one))
 
 
 def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
@@ -51,8 +53,6 @@ def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
         yield _name(POSTS, "base_friction")
     elif isinstance(names, tuple) and names:
         yield from (one for one in names if isinstance(one, Message))
-    elif one.mode == "mesh":
-        yield _name(NETS, "mesh_strength")
     else:
         yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), one.mode)
 

@@ -13,6 +13,8 @@ from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
+from netdesign.resistance.connection import Link
+from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.resistance.steel import RoundSection
@@ -69,6 +71,16 @@ END_MODES: tuple[tuple[EndMember, str], ...] = (
 )
 
 
+# Members whose chain of links is checked, and the anchor that pulls at its end.
+CONNECTED: Mapping[str, Member | None] = {
+    Member.FOOT_ANCHOR: Member.FOOT_ANCHOR,
+    Member.UPHILL_GUY: Member.UPHILL_ANCHOR,
+    Member.DOWNHILL_GUY: Member.DOWNHILL_ANCHOR,
+    EndMember.LATERAL_ANCHOR: None,
+    EndMember.END_GUY: None,
+    NetPart.RIDGE_ROPE: None,
+    NetPart.LOWER_ROPE: None,
+}
 # Of the net itself; those of its ropes where it has some.
 NET_MODES: tuple[tuple[NetPart, str], ...] = (
     (NetPart.MESH, "mesh"),
@@ -119,11 +131,12 @@ class Resistance:
     type_id: str = ""  # id of the anchor, rope or post type; "" where none is named
     derivation: Message | None = None  # how it follows from dimensions
     tests: PullOutTests | None = None  # instead of a value
-    dimensions: AnchorType | PostSection | BaseFriction | None = None
+    dimensions: AnchorType | PostSection | BaseFriction | Link | None = None
     lack: Message | None = None  # why there is no value, where that needs more words
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
+    wear: Wear | None = None  # of steel that corrodes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -204,6 +217,7 @@ class NetRow:
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     ground_type: str = ""  # where its anchors stand; "" where nobody says it
+    design_life: int | None = None  # [years]; None where nobody gives it
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
     axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]
@@ -258,6 +272,22 @@ class NetRow:
         of_type = say("check.ground_of_type", type=given.type_id)
         names = {say("column.Nets.ground"): self.ground_type, of_type: given.ground}
         return tuple(name for name, word in names.items() if not word)
+
+    def list_unsaid_wear(self, given: Resistance) -> tuple[Message, ...]:
+        """Names of what is not given of the corrosion of a member's steel."""
+        wear = given.wear
+        if wear is None:
+            return ()
+        sheet = "Ropes" if wear.kind == "rope" else "Anchors"
+        said: dict[str, object] = {"Nets.design_life": self.design_life}
+        if sheet == "Anchors":
+            said["Anchors.protection"] = wear.protection
+        if wear.is_bare:
+            is_known = None not in (wear.outer, wear.inner)
+            said |= {"Anchors.soil": wear.soil, "Anchors.bar_diameter": is_known}
+        elif wear.protection or sheet == "Ropes":
+            said[f"{sheet}.protected_years"] = wear.protected_years
+        return tuple(say(f"column.{key}") for key, value in said.items() if not value)
 
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""
@@ -462,6 +492,7 @@ class Site:
     map_sha256: str = ""
     winter: StationWinter | None = None
     catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not
+    links: Mapping[str, tuple[Link, ...]] = field(default_factory=dict)  # by type
     what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
     left_out: tuple[str, ...] = ()  # ids of net rows that are not to be checked
 

@@ -196,6 +196,11 @@ def _compose_net_row(
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
         ground_type=row["ground"].word,
+        design_life=(
+            int(row["design_life"].number)
+            if row["design_life"].state == "given"
+            else None
+        ),
         glide_factor=row["glide_factor"].given_si,
         guys=read_guys(row),
         axes=read_axes(row),

@@ -18,6 +18,7 @@ from netdesign.site.columns.all_tables import (
     ANCHORS,
     DECLARED,
     ENDS,
+    LINKS,
     MONITORING,
     NETS,
     POSTS,
@@ -44,6 +45,7 @@ from netdesign.site.lines import (
     refuse_unknown_ids,
     spread_over_rows,
 )
+from netdesign.site.links import read_links
 from netdesign.site.mapping import (
     give_answers,
     is_meant,
@@ -86,6 +88,7 @@ from netdesign.site.tables import (
     refuse_unused_answers,
 )
 from netdesign.site.type_resistances import (
+    check_ends,
     check_support_types,
     check_tests,
     fill_in_resistances,
@@ -137,6 +140,7 @@ def read_site(
     net_rows = _build_rows(tables[RANGES.name], nets, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
     winter = read_winter(tables[WINTER.name], lines.places, findings)
+    links = read_links(lines.links, lines.types, findings)
     said = tables[DECLARED.name]
     declared, confirmed = read_declared(said, workbook, lines.places, findings)
     findings.extend(_note_unread(workbook, findings))
@@ -169,6 +173,7 @@ def read_site(
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
         catalogue=list_catalogue(lines.types),
+        links=links,
         what_if=replaced,
     )
 
@@ -302,6 +307,7 @@ def _read_lines(
         absent=[plan.name for plan in _TYPE_PLANS if is_absent(workbook, plan)],
         unreadable=[sheet for sheet, found in types.items() if found is None],
         ranges=ranges,
+        links=list(read_rows(table, findings)) if (table := tables[LINKS.name]) else (),
     )
     if nets:
         for lines_of in snow.values():
@@ -436,5 +442,6 @@ def _read_types(
     filled = [fill_in_resistances(row, findings) for row in rows]
     for row in filled:  # a computed resistance beside tests is one too many, too
         check_tests(row, findings)
+        check_ends(row, findings)
     by_id = index_lines(filled, "id", say("nets.ids_once"), findings)
     return by_id if "id" in table.columns else None

@@ -12,6 +12,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from netdesign.outcome import ModelError
+from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import RoundSection
 from netdesign.site.lines import Types
@@ -114,7 +115,7 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     """
     anchors, post = dict(read_anchor_types(row, types)), row[Member.POST]
     line = types["Posts"].get(post.word)
-    bent = (_bend_anchor(row[one], one, anchors.get(one)) for one in _AXES)
+    bent = (_bend_anchor(row[one], one, anchors.get(one), types) for one in _AXES)
     return (
         *(
             _find_resistance(row[NAMED_BY.get(member, member)], mode, member, types)
@@ -224,7 +225,30 @@ def _describe_type(
         buckling_length=kind["buckling_length"].si if is_strut else None,
         drilled_length=kind["drilled_length"].given_si if is_anchor else None,
         ground=kind["ground"].word if is_anchor else "",
+        wear=_read_wear(kind, mode),
     )
+
+
+def _read_wear(kind: Row, mode: str) -> Wear | None:
+    """Corrosion of a type's steel; None of posts, and of the grout in the ground."""
+    if mode == "rope":
+        return Wear(kind="rope", protected_years=_count_years(kind))
+    if "protection" not in kind or mode == "pull_out":
+        return None
+    outer = kind["bar_diameter"].given_si
+    return Wear(
+        kind=kind["kind"].word,
+        protection=kind["protection"].word,
+        soil=kind["soil"].word,
+        protected_years=_count_years(kind),
+        outer=outer,
+        inner=None if outer is None or lacks_inner(kind) else read_inner(kind),
+    )
+
+
+def _count_years(kind: Row) -> int | None:
+    years = kind["protected_years"]
+    return int(years.number) if years.state == "given" else None
 
 
 def _find_lacking(kind: Row, mode: str) -> str:
@@ -235,7 +259,7 @@ def _find_lacking(kind: Row, mode: str) -> str:
 
 
 def _bend_anchor(
-    named: Reading, member: Member, anchor: AnchorType | None
+    named: Reading, member: Member, anchor: AnchorType | None, types: Types
 ) -> Resistance | None:
     """Resistance of an anchor to bending; None of a rope anchor, which turns."""
     if anchor is None:
@@ -246,7 +270,8 @@ def _bend_anchor(
         return _open(named, member, "bending", lack=say("bending.no_kind"))
     if anchor.lever is None:
         return _open(named, member, "bending", lack=say("bending.no_lever"))
-    return _open(named, member, "bending", anchor)
+    wear = _read_wear(types["Anchors"][named.word], "bending")
+    return replace(_open(named, member, "bending", anchor), wear=wear)
 
 
 def _open(

@@ -32,8 +32,9 @@ from netdesign.words.names import name
 
 # What says something without the columns beside it.
 _ALONE = ("ground", "bar_strength", "yield_strength")
-_DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
+_DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "wedge", "d"
 _INCLUDED = "included"  # the ends, in a breaking force that is given
+_SPIRAL = "1x"  # how the name of a spiral rope's construction begins
 _BENT, _SOLID = ("bar", "micropile"), "bar"
 SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
 _OF_GROUND = ("pull_out", "bearing")  # worked out from tables that are a floor
@@ -93,6 +94,16 @@ def check_tests(row: Row, findings: list[Finding]) -> None:
     if row["test_least"].si > row["test_mean"].si:
         rule = say("type.exceeds_mean", place=row["test_mean"].place)
         refuse(row["test_least"], rule, say("type.at_most_mean"), findings)
+
+
+def check_ends(row: Row, findings: list[Finding]) -> None:
+    """Refuse U-bolt grips on a spiral rope: EN 13411-5 is not for these."""
+    if row.get("termination") is None or row["termination"].word != "clips":
+        return
+    product = find_product(row["id"].word)
+    if product is not None and product.id.startswith(_SPIRAL):
+        rule = say("type.clips_on_spiral", rope=product.id)
+        refuse(row["termination"], rule, say("type.other_end"), findings)
 
 
 def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:

@@ -130,8 +130,10 @@ def _find_series(type_id: str) -> tuple[str, Mapping[str, object]]:
 
 
 def _find_derivation(given: Resistance, key: str) -> Message | None:
-    """Way in which a resistance was worked out, where it is this one."""
+    """Way in which a resistance was worked out as built, where it is this one."""
     how = given.derivation
+    as_built = how.arguments.get("of") if how else None  # before it corrodes
+    how = as_built if isinstance(as_built, Message) else how
     return how if how is not None and how.key == key else None
 
 

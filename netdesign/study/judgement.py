@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import CheckResult, Standard, withhold
 from netdesign.outcome import Verdict
-from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.site.model import CONNECTED, NetRow, Resistance, Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
@@ -26,6 +26,8 @@ from netdesign.study.check_to_record import (
     record_geometry,
     record_result,
 )
+from netdesign.study.connection import connect
+from netdesign.study.corrosion import corrode
 from netdesign.study.dependent import (
     Circumstances,
     find_resistance_for_force,
@@ -91,8 +93,8 @@ class MemberCheck:
     """One member of one support in one mode, judged.
 
     ``force`` is None where it is not known at all; ``gap`` says why it is not known as
-    a whole, ``doubt`` why the creep law may not hold for the governing snow; both are
-    None if all is well.
+    a whole, ``doubt`` why the creep law may not hold for the governing snow, ``unsure``
+    why the resistance may not hold; None if all is well.
     """
 
     given: Resistance
@@ -101,6 +103,7 @@ class MemberCheck:
     gap: Message | None
     doubt: Message | None
     result: CheckResult
+    unsure: Message | None = None
     is_of_end: bool = False  # of the ropes' pull along the row
 
     @property
@@ -141,24 +144,42 @@ def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
 def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     """Checks of both supports' members, then of the net and what holds its ropes."""
     effects, row = known.forces.effects, basis.row
-    judged = [
-        _judge_member(basis, known, given, width)
-        for width, given in list_checked(row, effects)
-    ]
-    at_end = effects.find_support("edge")
+    at_end, not_checked = effects.find_support("edge"), basis.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
-    parts = () if "mesh" in basis.standard.not_checked else row.net_parts
-    for given in (*parts, *held):
-        judge = _judge_end if given.member in ROPE_OF else _judge_member
-        judged.append(judge(basis, known, given, at_end))
+    parts = () if "mesh" in not_checked else row.net_parts
+    checked = list_checked(row, effects)
+    checked += [(at_end, given) for given in (*parts, *held)]
+    judged = []
+    for width, given in checked:
+        judged.append(_judge(basis, known, given, width))
+        is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
+        if is_rope and "connections" not in not_checked:
+            chain = _find_chain(basis, known, given, width)
+            judged.append(_judge(basis, known, chain, width))
     return judged
+
+
+def _judge(
+    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
+) -> MemberCheck:
+    judge = _judge_end if given.member in ROPE_OF else _judge_member
+    return judge(basis, known, given, width)
+
+
+def _find_chain(
+    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
+) -> Resistance:
+    """Resistance of the links between a rope and its anchor."""
+    anchor = CONNECTED[given.member]
+    pull = find_pull(known.pulls, anchor, width.position) if anchor else None
+    return connect(given, basis.site.links, pull, basis.standard)
 
 
 def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCheck:
     """Check that is NOT PROVEN, since the program failed in a solve near its cases."""
     if one.gap is not None or one.force is None:
         return one
-    doubt = one.doubt or doubt_ground(basis.row, one.given)
+    doubt = one.doubt or one.unsure
     result = judge_force(one.given, one.force, basis.standard, gap=fault, doubt=doubt)
     return replace(one, gap=fault, result=result)
 
@@ -171,6 +192,7 @@ def _judge_member(
         return _leave_open(basis, given, width, unsaid)
     row, forces = basis.row, known.forces
     force = find_force(forces, given, width)
+    given, unsure = _find_lasting(basis, given)
     doubt = None
     if force is not None:
         surroundings = Circumstances(
@@ -184,15 +206,27 @@ def _judge_member(
     found = [forces.largest.get(given.member), *_list_panel(forces, given.member)]
     gap = known.gap or known.floor_gap or _find_unseen(found)
     gap = gap or find_other_panel(row, given, width.position)
-    standard, of_ground = basis.standard, doubt_ground(row, given)
-    result = judge_force(given, force, standard, gap=gap, doubt=doubt or of_ground)
+    standard = basis.standard
+    result = judge_force(given, force, standard, gap=gap, doubt=doubt or unsure)
     short = find_short_post(given, row, basis.site.ranges)
     if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
         result = judge_force(given, force, standard, gap=gap, doubt=doubt)
     return MemberCheck(
-        given=given, width=width, force=force, gap=gap, doubt=doubt, result=result
+        given=given,
+        width=width,
+        force=force,
+        gap=gap,
+        doubt=doubt,
+        result=result,
+        unsure=unsure,
     )
+
+
+def _find_lasting(basis: Basis, given: Resistance) -> tuple[Resistance, Message | None]:
+    """Resistance at the end of the design life, and why it may not hold."""
+    lasting, worn = corrode(given, basis.row, basis.standard)
+    return lasting, worn or doubt_ground(basis.row, given)
 
 
 def _judge_end(
@@ -207,10 +241,8 @@ def _judge_end(
     gap = known.gap or _find_unseen([force.largest] if force else [])
     gap = gap or find_other_panel(basis.row, given, width.position)
     doubt = _find_doubt(basis, [force.largest]) if force else None
-    of_ground = doubt_ground(basis.row, given)
-    result = judge_force(
-        given, force, basis.standard, gap=gap, doubt=doubt or of_ground
-    )
+    given, unsure = _find_lasting(basis, given)
+    result = judge_force(given, force, basis.standard, gap=gap, doubt=doubt or unsure)
     return MemberCheck(
         given=given,
         width=width,
@@ -218,6 +250,7 @@ def _judge_end(
         gap=gap,
         doubt=doubt,
         result=result,
+        unsure=unsure,
         is_of_end=True,
     )
 
@@ -307,8 +340,12 @@ def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
     position = one.width.position
     settled = apply_declaration(basis.site, basis.row, one.result, position)
     check = place_check(record_result(settled, one.given, one.force), position)
-    if not basis.row.list_unsaid_grounds(one.given):
-        check = replace(check, resistance_ground=one.given.ground)
+    if one.unsure is None:
+        check = replace(
+            check,
+            resistance_ground=one.given.ground,
+            resistance_years=basis.row.design_life if one.given.wear else None,
+        )
     if one.force is None:
         return check
     check = replace(check, case=one.force.largest.case)

@@ -199,6 +199,7 @@ class CheckRecord:
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
     resistance_ground: str = ""  # of a pull-out; "" where type or row gives none
+    resistance_years: int | None = None  # for which its steel lasts; None: not known
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     steps: list[Step] = field(default_factory=list)
     declared: DeclarationRecord | None = None  # whatever the verdict

@@ -50,6 +50,7 @@ def cut_site(site: Site, row: NetRow) -> Site:
         declared=tuple(one for one in site.declared if one.row_id in ("", row.id)),
         winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
+        links=site.links,
     )
 
 

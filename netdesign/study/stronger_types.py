@@ -9,6 +9,7 @@ from netdesign.checks import Standard, find_resistance
 from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
 from netdesign.structure.members import EndMember, Member
 from netdesign.study.catalogue_sizes import find_size
+from netdesign.study.corrosion import corrode
 from netdesign.study.dependent import find_short_post
 from netdesign.study.records import ChangeRecord
 from netdesign.units import kilonewton_if_known
@@ -85,8 +86,16 @@ def find_type_change(
         return _record(told, enough[weakest].characteristic, given)
     basis = "computed" if given.mode == "pull_out" else "declared"
     factor = standard.find_resistance_factor(given.mode, basis)
-    size = find_size(given, demand * factor.value_si) if factor else None
+    needed = demand / _find_share(given)
+    size = find_size(given, needed * factor.value_si) if factor else None
     return _record(size.told, size.resistance, given) if size else None
+
+
+def _find_share(given: Resistance) -> float:
+    """Share of a resistance that corrosion leaves [-]; a larger bar loses less."""
+    how = given.derivation
+    share = how.arguments.get("share") if how and given.wear else None
+    return float(str(share)) if share else 1.0
 
 
 def _list_enough(
@@ -97,11 +106,12 @@ def _list_enough(
     for other in site.catalogue:
         ground = row.ground_type or given.ground
         fits = holds_in_ground(given.member, ground, other)
+        lasting, worn = corrode(other, row, standard)
         is_other = other.mode != given.mode or fits is False
-        if is_other or find_short_post(other, row, site.ranges):
+        if is_other or worn or find_short_post(other, row, site.ranges):
             continue
         factor = standard.find_resistance_factor(other.mode, other.basis)
-        value = find_resistance(other, standard).value
+        value = find_resistance(lasting, standard).value
         if value is None or factor is None:
             continue
         if value / factor.value_si >= demand:

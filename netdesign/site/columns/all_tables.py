@@ -214,6 +214,8 @@ ROPES = read_plan(load_file("columns"), "Ropes")
 POSTS = read_plan(load_file("columns"), "Posts")
 # Single pull-out tests, one a line; they count for their type in their ground.
 TESTS = read_plan(load_file("columns"), "Tests")
+# Links between ropes and anchors, one a line; a chain by type.
+LINKS = read_plan(load_file("columns"), "Links")
 # Types of the first and last support of a row, where they are not those of the others.
 ENDS = read_plan(load_file("columns"), "Ends")
 # Measurements, one a line, to stand beside a history; nothing is checked with them.
@@ -224,7 +226,7 @@ DECLARED = read_plan(load_file("columns"), "Declared")
 WINTER = read_plan(load_file("columns"), "Winter")
 
 SHEETS: tuple[SheetPlan, ...] = (
-    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, TESTS, ENDS),
+    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, TESTS, LINKS, ENDS),
     *(MONITORING, DECLARED, WINTER),
 )
 PROJECT_ITEMS = PROJECT.items

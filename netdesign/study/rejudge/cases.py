@@ -255,6 +255,11 @@ def _rejudge_force(
         if force.value_kN > extremes[Member.POST].max_kN * (1.0 + SAME):
             yield say("audit.more_on_base", place=place)
         return
+    if force.quantity == NetPart.MESH:
+        least = _find_largest_pull(row)
+        if force.value_kN < least * (1.0 - SAME):
+            yield say("audit.less_than_pull", place=place, least=least)
+        return
     largest = extremes[_find_bringing(force.quantity, row)]
     pairs = [
         ("value_kN", force.value_kN, largest.max_kN),
@@ -268,6 +273,16 @@ def _rejudge_force(
     yield from report_unequal(place, pairs)
     if not same_point(force.case, largest.case):
         yield say("audit.other_case", place=place)
+
+
+def _find_largest_pull(row: RowStudy) -> float:
+    """Largest pull of the net on its ends, of the solved states told [kN/m]."""
+    states = [one for one in row.statics if one.load is None and not one.is_by_panel]
+    pulls = [
+        *((one.foot_x_kN_per_m, one.foot_y_kN_per_m) for one in states),
+        *((one.head_x_kN_per_m, one.head_y_kN_per_m) for one in states),
+    ]
+    return max((math.hypot(*pull) for pull in pulls), default=0.0)
 
 
 def _find_bringing(quantity: str, row: RowStudy) -> str:

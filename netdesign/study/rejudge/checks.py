@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from netdesign.calculation.quantity import Kind, Quantity
@@ -22,7 +22,13 @@ from netdesign.checks.schema import (
     ROPE_ANGLE,
 )
 from netdesign.outcome import Verdict
-from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES, NET_MODES
+from netdesign.site.model import (
+    CONNECTED,
+    DEPENDENT_MODES,
+    END_MODES,
+    MEMBER_MODES,
+    NET_MODES,
+)
 from netdesign.structure.members import (
     CARRYING_MEMBERS,
     ROPE_OF,
@@ -88,7 +94,7 @@ def rejudge_checks(
             yield from guard(where, steps)
             if check.is_of_force:
                 yield from _rejudge_sources(where, check, row, known, values)
-            yield from _rejudge_force(where, check, row)
+            yield from _rejudge_force(where, check, row, profile.not_checked)
             if not accepts_law:
                 yield from _rejudge_snow(where, check, row)
 
@@ -100,14 +106,17 @@ def _look_for_all(
     counts = Counter(check.id for check in row.checks)
     for twice in (name for name, count in counts.items() if count > 1):
         yield say("audit.check_twice", place=place, check=twice)
-    wanted = [f"{member}.{mode}" for member, mode in (*MEMBER_MODES, *DEPENDENT_MODES)]
+    inside = _add_connections((*MEMBER_MODES, *DEPENDENT_MODES), profile)
+    wanted = [f"{member}.{mode}" for member, mode in inside]
     if _has_end(row, profile):
         wanted += [f"{one}.end" for one in wanted]
     if _has_ropes(row) and not _goes_on(row):
-        wanted += [f"{member}.{mode}.end" for member, mode in END_MODES]
+        ends = _add_connections(END_MODES, profile)
+        wanted += [f"{member}.{mode}.end" for member, mode in ends]
     if "mesh" not in profile.not_checked:
         end = ".end" if _has_end(row, profile) else ""
-        parts = NET_MODES if _has_ropes(row) else NET_MODES[:1]
+        of_net = NET_MODES if _has_ropes(row) else NET_MODES[:1]
+        parts = _add_connections(of_net, profile)
         wanted += [f"{member}.{mode}{end}" for member, mode in parts]
     wanted += [f"{Member.POST}.lateral", "geometry.inclination"]
     wanted += ["profile.named"] if profile.is_default else []
@@ -115,6 +124,16 @@ def _look_for_all(
     lost = [one for one in wanted if one not in counts]
     if lost:
         yield say("audit.no_check", place=place, checks=tuple(lost))
+
+
+def _add_connections(
+    modes: Sequence[tuple[str, str]], profile: ProfileRecord
+) -> list[tuple[str, str]]:
+    """Modes, and beside those of ropes the chains of their links."""
+    if "connections" in profile.not_checked:
+        return list(modes)
+    members = dict.fromkeys(one for one, _ in modes if one in CONNECTED)
+    return [*modes, *((one, "connection") for one in members)]
 
 
 def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
@@ -309,7 +328,7 @@ def _name_sources(
 
 def _name_sideways(member: str, held: HeldSidewaysRecord | None) -> dict[str, str]:
     """Solved quantities by which the load along the row adds to a member's force."""
-    if held is None or member == Member.FOOT_ANCHOR:
+    if held is None or member in (Member.FOOT_ANCHOR, NetPart.MESH):
         return {}
     if member in PARTS:
         return {"c": PARTS[member], "P": "head_pull"}
@@ -339,7 +358,7 @@ def is_left_open(check: CheckRecord, row: RowStudy) -> bool:
 
 
 def _rejudge_force(
-    place: Message, check: CheckRecord, row: RowStudy
+    place: Message, check: CheckRecord, row: RowStudy, not_checked: Collection[str]
 ) -> Iterator[Message]:
     """A check of a force: its case, governing load, verdict, interval."""
     if is_left_open(check, row):
@@ -352,6 +371,8 @@ def _rejudge_force(
     elif has_force:
         yield from _rejudge_governing(place, check, row)
     yield from _rejudge_verdict(place, check, row)
+    if check.verdict is Verdict.PASS and _is_unsure(check, not_checked):
+        yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     yield from _rejudge_spreads(place, check)
 
 
@@ -401,9 +422,6 @@ def _rejudge_verdict(
     if check.is_unbounded:
         verdict = Verdict.FAIL
     is_open = is_held_back(check) or _is_information(check, row)
-    is_placed = check.mode != "pull_out" or check.resistance_ground
-    if check.verdict is Verdict.PASS and not is_placed:
-        yield report_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
     if is_declared and verdict is not Verdict.FAIL:
         is_open = True
@@ -412,6 +430,14 @@ def _rejudge_verdict(
     if leave_out_governing(check.reason).key not in _REASONS[check.verdict]:
         told = say(f"verdict.{check.verdict}")
         yield say("audit.other_reason", place=place, verdict=told)
+
+
+def _is_unsure(check: CheckRecord, not_checked: Collection[str]) -> bool:
+    """Nobody says in which ground a resistance holds, or how long its steel lasts."""
+    if check.mode == "pull_out":
+        return not check.resistance_ground
+    is_steel = check.mode in ("tendon", "rope", "bending")
+    return is_steel and "corrosion" not in not_checked and not check.resistance_years
 
 
 def is_held_back(check: CheckRecord) -> bool:

@@ -1,0 +1,91 @@
+"""Links between a rope and its anchor: the weakest of them bears the force."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.resistance.catalogue import Datum, load_catalogue
+from netdesign.words.message import say
+
+SHACKLE = "shackle"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Link:
+    """One link of a chain, such as a shackle, or several that share the force.
+
+    Attributes
+    ----------
+    kind : str
+        As in sheet Links.
+    breaking : float or None
+        Characteristic strength, the least that breaks it [N]; None beside a ``limit``.
+    limit : float or None
+        Working load limit [N]; None beside ``breaking``.
+    count : int
+        How many of them share the force.
+    angle : float or None
+        Of the force to the line of a shackle, where it is given [rad].
+    source : str
+        Cell of its strength.
+    """
+
+    kind: str
+    breaking: float | None
+    limit: float | None
+    count: int
+    angle: float | None
+    source: str
+
+
+def find_direction_factor(angle: float) -> Datum:
+    """Share of its strength that a shackle has under a force beside its line [-].
+
+    Linear between the angles of the catalogue; resistance/THEORY.md, (R16).
+
+    Parameters
+    ----------
+    angle : float
+        0 in line, at most a right angle [rad]; beyond as at a right angle.
+
+    Verified by
+    -----------
+    tests/verification/test_connection.py
+    """
+    table = load_catalogue()["shackle"]
+    factor = np.interp(math.degrees(abs(angle)), table["angle_deg"], table["factor"])
+    source = say("resistance_source.shackle")
+    return Datum(value=float(factor), status=table["status"], source=source)
+
+
+def resist_link(
+    link: Link, *, angle: float, on_action: float, on_resistance: float
+) -> float:
+    """Characteristic resistance of a link, R_k [N]; resistance/THEORY.md, (R16).
+
+    A working load limit is met by the characteristic force: both partial factors are
+    in what stands for it.
+
+    Parameters
+    ----------
+    link : Link
+        With its own angle, or without one.
+    angle : float
+        Of the force to its line, where it has none of its own [rad].
+    on_action, on_resistance : float
+        Partial factors by which the check goes [-].
+
+    Verified by
+    -----------
+    tests/verification/test_connection.py
+    """
+    strength = link.count * (link.breaking or 0.0)
+    if link.limit is not None:
+        strength = link.count * link.limit * on_action * on_resistance
+    if link.kind != SHACKLE:
+        return strength
+    own = angle if link.angle is None else link.angle
+    return find_direction_factor(own).value * strength
