@@ -8,7 +8,7 @@ resistance/THEORY.md, (R1) and (R12). Forces in kN, lengths in m, angles in degr
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from netdesign.calculation.quantity import (
@@ -59,19 +59,30 @@ class MemberLoad:
         A, by the load along the row [kN]; None of nothing.
     lateral : Quantity or None
         k_q, by the load along the row at the net's foot [-]; None of 1.
+    across : Quantity or None
+        Of two guys on one anchor, square to what they share in the section [kN].
     """
 
     share: Quantity | None = None
     added: Quantity | None = None
     lateral: Quantity | None = None
+    across: Quantity | None = None
 
 
-def place_end_support(spacing: Quantity, factor: Quantity, length: Quantity) -> Support:
-    """First or last support of a row: half a bay and the end effect."""
+def place_end_support(
+    spacing: Quantity, factor: Quantity, length: Quantity, *, is_shared: bool = False
+) -> Support:
+    """First or last support of a row: half a bay and the end effect.
+
+    An anchor that it shares holds a guy of the next post, which carries a whole bay.
+    """
+    width = spacing / 2 + factor * length
+    if is_shared:
+        width = largest(width, (width + spacing) / 2)
     return Support(
         position="edge",
         spacing=spacing,
-        width=(spacing / 2 + factor * length).named("b_e", "m", "(S9)"),
+        width=width.named("b_e", "m", "(S20)" if is_shared else "(S9)"),
         end_factor=factor,
         end_length=length,
     )
@@ -90,6 +101,14 @@ def load_guy(
         share=(1 / (2 * cos(splay))).named("g", "-", "(S17)"),
         added=(part * share * pull / sin(splay)).named("A", "kN", "(S17)"),
     )
+
+
+def load_shared_anchor(
+    guys: Quantity, part: Quantity, share: Quantity, pull: Quantity, splay: Quantity
+) -> MemberLoad:
+    """Anchor that holds a guy of each of two neighbouring posts."""
+    of_one = (part * share * pull / sin(splay)).named("A", "kN", "(S17)")
+    return MemberLoad(across=(guys * of_one).named("B", "kN", "(S20)"))
 
 
 def load_post(
@@ -118,6 +137,8 @@ def bring_to_support(
     force = inside if load.share is None else load.share * inside
     if load.added is not None:
         force = force + load.added
+    if load.across is not None:
+        force = sqrt(force * force + load.across * load.across)
     if support.width is not None and support.spacing is not None:
         force = force * support.width / support.spacing
     elif support.end_factor is not None:  # of the net itself: the end effect is local
@@ -133,8 +154,10 @@ def bring_floor_to_support(
     symbol: str, inside: Quantity, load: MemberLoad, support: Support
 ) -> Quantity:
     """The same of the guideline's load, which has no band."""
-    added = None if load.added is None else at_value(load.added)
-    plain = MemberLoad(share=load.share, added=added, lateral=load.lateral)
+    added, across = (
+        None if one is None else at_value(one) for one in (load.added, load.across)
+    )
+    plain = replace(load, added=added, across=across)
     return bring_to_support(symbol, inside, plain, support)
 
 
@@ -304,10 +327,15 @@ def _find_support(leaves: Leaves) -> Support:
         return Support(position="intermediate")
     if "Δl" not in leaves:  # of a rope whose pull grows by f_R alone
         return Support(position="edge", end_factor=leaves["f_R"])
-    return place_end_support(leaves["b"], leaves["f_R"], leaves["Δl"])
+    return place_end_support(
+        leaves["b"], leaves["f_R"], leaves["Δl"], is_shared="n_g" in leaves
+    )
 
 
 def _find_load(leaves: Leaves) -> MemberLoad:
+    if "n_g" in leaves:
+        shared = ("n_g", "c", "k", "P", "β")
+        return load_shared_anchor(*(leaves[one] for one in shared))
     if "c" in leaves:
         return load_guy(*(leaves[one] for one in ("c", "k", "P", "β")))
     if "w" in leaves:

@@ -18,6 +18,7 @@ from netdesign.checks.schema import (
     MIN_INCLINATION,
     MIN_SLOPE,
     MOST_PLAUSIBLE_SLOPE,
+    SPACING_CAP,
 )
 from netdesign.outcome import Verdict
 from netdesign.units import degree_from_radian, radian_from_percent
@@ -207,16 +208,25 @@ def compute_largest_row_spacing(
 
 
 def check_row_spacing(row: RowGeometry, standard: Standard) -> CheckResult | None:
-    """Check the distance of the rows; None where the profile has no formula."""
-    friction = standard.find(GROUND_FRICTION)
+    """Check the distance of the rows; None where the profile has no formula.
+
+    Nothing is proven beyond the profile's cap on f_L, nor without one.
+    """
+    friction, cap = standard.find(GROUND_FRICTION), standard.find(SPACING_CAP)
     if friction is None:
         return None
     most = compute_largest_row_spacing(row.slope_angle, row.net_height, friction.value)
+    proven = cap.value * row.net_height / math.cos(row.slope_angle) if cap else 0.0
     length = row.upslope_length
-    verdict = judge(length, length, least=0.0, most=most)
-    key = _SPACINGS[verdict is Verdict.PASS]
-    reason = say(key, length=length, most=most)
-    return _result("spacing", verdict, reason, friction)
+    verdict = judge(
+        *(length, length), least=0.0, most=most, is_complete=length <= proven
+    )
+    reason = say(_SPACINGS[verdict is Verdict.PASS], length=length, most=most)
+    if verdict is Verdict.NOT_PROVEN:
+        capped = say("geometry.spacing_capped", length=length, most=proven)
+        reason = not_proven(capped if cap else say("geometry.no_cap"))
+    limits = [friction, *([cap] if cap else [])]
+    return _result("spacing", verdict, reason, *limits)
 
 
 def check_gap(gap: float, standard: Standard) -> CheckResult | None:

@@ -31,11 +31,13 @@ MOST_PLAUSIBLE_SLOPE = "geometry.slope.plausible.max"
 HEIGHT_RATIO = "geometry.height.ratio"
 MAX_GAP = "geometry.gap.max"
 GROUND_FRICTION = "geometry.spacing.ground_friction"
+SPACING_CAP = "geometry.spacing.factor.max"
 LATERAL_SHARE = "lateral.share"
 CORRELATION_MEAN = "correlation.tests.mean"
 CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
+ANCHOR_DISTANCE = "anchor.distance.min"
 POST_EFFICIENCY = "post.efficiency"
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
@@ -59,7 +61,9 @@ LIMIT_UNITS = {
     HEIGHT_RATIO: "-",
     MAX_GAP: "m",
     GROUND_FRICTION: "-",
+    SPACING_CAP: "-",
     ROPE_ANGLE: "deg",
+    ANCHOR_DISTANCE: "m",
 }
 _PAIRS = (
     (MIN_INCLINATION, MAX_INCLINATION),
@@ -155,6 +159,7 @@ class ScopeTable(_Table):
 
     mesh: Checked = "checked"  # of the net, and its border ropes
     connections: Checked = "checked"  # links between ropes and anchors
+    anchor_ground: Checked = "checked"  # cover of the bonds, distance to an edge
     corrosion: Checked = "checked"  # of anchors and ropes over the design life
 
 

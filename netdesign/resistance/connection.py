@@ -28,7 +28,8 @@ class Link:
     count : int
         How many of them share the force.
     angle : float or None
-        Of the force to the line of a shackle, where it is given [rad].
+        Of the force to the line of a shackle, where it is given [rad]; it counts where
+        no pull tells it.
     source : str
         Cell of its strength.
     """
@@ -61,8 +62,18 @@ def find_direction_factor(angle: float) -> Datum:
     return Datum(value=float(factor), status=table["status"], source=source)
 
 
+def find_angle(link: Link, pulled: float | None) -> float:
+    """Angle of the force to the line of a link [rad].
+
+    That of the pull, else as given, else a right angle.
+    """
+    if pulled is not None:
+        return pulled
+    return math.pi / 2 if link.angle is None else link.angle
+
+
 def resist_link(
-    link: Link, *, angle: float, on_action: float, on_resistance: float
+    link: Link, *, pulled: float | None, on_action: float, on_resistance: float
 ) -> float:
     """Characteristic resistance of a link, R_k [N]; resistance/THEORY.md, (R16).
 
@@ -72,9 +83,9 @@ def resist_link(
     Parameters
     ----------
     link : Link
-        With its own angle, or without one.
-    angle : float
-        Of the force to its line, where it has none of its own [rad].
+        One of a chain.
+    pulled : float or None
+        Angle of the pull to its line, where that is known [rad].
     on_action, on_resistance : float
         Partial factors by which the check goes [-].
 
@@ -87,5 +98,4 @@ def resist_link(
         strength = link.count * link.limit * on_action * on_resistance
     if link.kind != SHACKLE:
         return strength
-    own = angle if link.angle is None else link.angle
-    return find_direction_factor(own).value * strength
+    return find_direction_factor(find_angle(link, pulled)).value * strength

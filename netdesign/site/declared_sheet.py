@@ -44,6 +44,8 @@ _OF_GEOMETRY = (
     ("net", "spacing"),
     ("net", "gap"),
     ("net", "ends"),
+    ("net", "anchors"),
+    ("net", "cover"),
 )
 _OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"))  # of no support
 _ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)

@@ -20,6 +20,12 @@ _WITH_GROUND = re.compile(r"(.+) \(([^()]*)\)")
 _ByGround = dict[str, Row]  # lines of one type, by word of their ground; "" for none
 
 
+def name_bare(name: str) -> str:
+    """Name of a type without the ground that it may be named with."""
+    whole = _WITH_GROUND.fullmatch(name)
+    return whole[1] if whole else name
+
+
 def name_by_ground(lines: Sequence[Row]) -> list[Row]:
     """Lines of sheet Anchors; a type with several grounds is named with each."""
     ids = [line["id"].word for line in lines]

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from netdesign.resistance.connection import Link
 from netdesign.site.cells.findings import Finding
-from netdesign.site.lines import Types, refuse_unknown_ids
+from netdesign.site.grounds import name_bare
+from netdesign.site.lines import Types
 from netdesign.site.readings import Row, refuse
 from netdesign.words.message import say
 
@@ -27,27 +28,32 @@ def read_links(
     findings : list of Finding
         Appended to: an unknown type, a link with two strengths, or none.
     """
-    places = {
-        name: line["id"].place
-        for sheet in _SHEETS
-        for name, line in types[sheet].items()
-    }
-    refuse_unknown_ids((line["type"] for line in lines), places, findings)
+    ids = [name for sheet in _SHEETS for name in types[sheet]]
     chains: dict[str, tuple[Link, ...]] = {}
     for line in lines:
-        breaking, limit = line["strength"], line["working_limit"]
-        if "faulty" in {reading.state for reading in line.values()}:
-            continue
-        if (breaking.state == "given") is (limit.state == "given"):
-            rule = say("links.one_strength", other=limit.field.name)
-            seen = breaking if breaking.cell is not None else line["type"]
-            refuse(seen, rule, say("accepted.exactly_one"), findings)
-            continue
-        chains[line["type"].word] = (
-            *chains.get(line["type"].word, ()),
-            _read_link(line),
-        )
+        kinds = [one for one in ids if line["type"].word in (one, name_bare(one))]
+        if _is_sound(line, kinds, findings):
+            link = _read_link(line)
+            chains |= {one: (*chains.get(one, ()), link) for one in kinds}
     return chains
+
+
+def _is_sound(line: Row, kinds: Sequence[str], findings: list[Finding]) -> bool:
+    """A line without a fault; others are told."""
+    kind, breaking, limit = line["type"], line["strength"], line["working_limit"]
+    if any(reading.state == "faulty" for reading in line.values()):
+        return False
+    if not kinds:
+        sheets = tuple(say(f"sheet.{sheet}") for sheet in _SHEETS)
+        rule = say("nets.no_id", sheet=say("links.sheets", sheets=sheets))
+        refuse(kind, rule, say("links.id_of_either", sheets=sheets), findings)
+        return False
+    if (breaking.state == "given") is (limit.state == "given"):
+        rule = say("links.one_strength", other=limit.field.name)
+        seen = breaking if breaking.cell is not None else kind
+        refuse(seen, rule, say("accepted.exactly_one"), findings)
+        return False
+    return True
 
 
 def _read_link(line: Row) -> Link:

@@ -27,6 +27,10 @@ def _list_of_row(row: NetRow) -> Iterator[Message]:
         row.find_axis(anchor) is None for anchor, _ in row.anchors
     ):
         yield _name(NETS, "anchor_axes")
+    for anchor, _ in row.anchors:
+        yield from row.list_unsaid_cover(anchor, "intermediate")
+    if row.guys.count > 1 and row.guys.are_shared is None:
+        yield _name(NETS, "guy_anchors")
 
 
 def _list_of_types(row: NetRow) -> Iterator[Message]:

@@ -101,11 +101,32 @@ class AnchorType:
         Of a bar or tube; None where its dimensions are not given.
     lever : float or None
         Free length over which it bends [m]; None where none is given.
+    drilled, bond : float or None
+        Lengths from the ground's surface, and of the bond at its end [m].
+    least_cover, least_edge : float or None
+        As the geotechnical engineer asks of the ground around the bond [m].
     """
 
     kind: str
     section: RoundSection | None
     lever: float | None
+    drilled: float | None = None
+    bond: float | None = None
+    least_cover: float | None = None
+    least_edge: float | None = None
+
+    def find_cover(self, axis: float) -> float:
+        """Depth of the bond's middle, normal to the slope [m]; (S22).
+
+        A length that is not given is the other one.
+
+        Parameters
+        ----------
+        axis : float
+            Inclination of the anchor against the slope [rad].
+        """
+        drilled, bond = self.drilled or self.bond, self.bond or self.drilled
+        return ((drilled or 0.0) - 0.5 * (bond or 0.0)) * math.sin(axis)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -217,6 +238,7 @@ class NetRow:
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     ground_type: str = ""  # where its anchors stand; "" where nobody says it
+    edge_distance: float | None = None  # of any anchor to where the ground ends [m]
     design_life: int | None = None  # [years]; None where nobody gives it
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
@@ -272,6 +294,23 @@ class NetRow:
         of_type = say("check.ground_of_type", type=given.type_id)
         names = {say("column.Nets.ground"): self.ground_type, of_type: given.ground}
         return tuple(name for name, word in names.items() if not word)
+
+    def list_unsaid_cover(
+        self, anchor: Member, position: Position
+    ) -> tuple[Message, ...]:
+        """Names of what is not given of the ground around an anchor."""
+        kind = self.find_anchor_type(anchor, position)
+        said: dict[str, float | None] = {
+            "Nets.edge_distance": self.edge_distance,
+            f"Nets.{anchor}": 1.0 if kind else None,
+        }
+        if kind is not None:
+            said |= {
+                "Anchors.drilled_length": kind.drilled or kind.bond,
+                "Anchors.least_cover": kind.least_cover,
+                "Anchors.least_edge": kind.least_edge,
+            }
+        return tuple(say(f"column.{key}") for key, value in said.items() if not value)
 
     def list_unsaid_wear(self, given: Resistance) -> tuple[Message, ...]:
         """Names of what is not given of the corrosion of a member's steel."""

@@ -196,6 +196,7 @@ def _compose_net_row(
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
         ground_type=row["ground"].word,
+        edge_distance=row["edge_distance"].given_si,
         design_life=(
             int(row["design_life"].number)
             if row["design_life"].state == "given"

@@ -57,11 +57,12 @@ _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = MappingProxyType(
 
 
 def read_guys(row: Row) -> Guys:
-    """Number of guys on each side of a post, one if not given, and their splay."""
-    count = row["guy_count"]
+    """Guys on each side of a post, one if not given, with their splay and anchors."""
+    count, anchors = row["guy_count"], row["guy_anchors"].word
     return Guys(
         count=int(count.number) if count.state == "given" else 1,
         splay=row["guy_splay"].given_si,
+        are_shared=anchors == "shared" if anchors else None,
     )
 
 
@@ -88,6 +89,10 @@ def _read_anchor(line: Row) -> AnchorType:
         kind=line["kind"].word,
         section=_build_section(line) if is_known else None,
         lever=line["lever_arm"].given_si,
+        drilled=line["drilled_length"].given_si,
+        bond=line["bond_length"].given_si,
+        least_cover=line["least_cover"].given_si,
+        least_edge=line["least_edge"].given_si,
     )
 
 

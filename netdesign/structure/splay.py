@@ -27,10 +27,13 @@ class Guys:
         1 or 2.
     splay : float or None
         beta, between each of two guys and the section [rad]; None if not given.
+    are_shared : bool or None
+        One anchor holds a guy of each of two neighbouring posts; None if not given.
     """
 
     count: int = 1
     splay: float | None = None
+    are_shared: bool | None = None
 
     def __post_init__(self) -> None:
         """Refuse what the model does not know."""

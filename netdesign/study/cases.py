@@ -20,7 +20,7 @@ from netdesign.envelope.search import Wave, search_rows
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
 from netdesign.search.questions import list_first_design
-from netdesign.site.model import NetRow, Site
+from netdesign.site.model import CONNECTED, NetRow, Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.solving.runner import Runner
 from netdesign.study.case_solver import build_scene
@@ -81,9 +81,14 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
 
 
 def _count_checks(row: NetRow) -> int:
-    """Checks of forces, of the support inside the row and of the one at its end."""
-    ends = len(row.resistances_at("edge")) if row.has_end else 0
-    return len(row.resistances) + ends
+    """Checks of forces, on the supports inside the row and at its end, or nearly."""
+    at_end = row.resistances_at("edge") if row.has_end else ()
+    held = row.row_end.resistances if row.row_end else ()
+    every = (*row.resistances, *at_end, *row.net_parts, *held)
+    links = sum(
+        one.mode in ("rope", "tendon") and one.member in CONNECTED for one in every
+    )
+    return len(every) + links
 
 
 def _plan_envelope(site: Site, run: CheckRun) -> Phase:

@@ -145,6 +145,15 @@ def doubt_ground(row: NetRow, given: Resistance) -> Message | None:
     return say("check.no_ground", names=names) if names else None
 
 
+def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
+    """Doubt about an anchor of which nobody says whether it holds two guys."""
+    of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+    is_said = row.guys.count == 1 or row.guys.are_shared is not None
+    if is_said or given.member not in of_guys:
+        return None
+    return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
+
+
 def place_check(check: CheckRecord, position: Position) -> CheckRecord:
     """Check of a member, named by its support."""
     name_of_end = ".end" if position == "edge" else ""

@@ -11,6 +11,7 @@ from netdesign.checks.check import find_action_factor
 from netdesign.resistance.connection import (
     SHACKLE,
     Link,
+    find_angle,
     find_direction_factor,
     resist_link,
 )
@@ -38,8 +39,8 @@ def connect(
     chains : mapping of str to tuple of Link
         By type.
     pull : AnchorPull or None
-        On the anchor at the end of the chain; without one, or without a known axis, a
-        shackle may be pulled at a right angle.
+        On the anchor at the end of the chain; its axis not known, a shackle may be
+        pulled at a right angle. Without a pull its angle is as given, or a right angle.
     standard : Standard
         Limit profile.
     """
@@ -61,9 +62,13 @@ def connect(
             else say("connection.no_links", type=type_id, sheet=say("sheet.Links"))
         )
         return replace(found, lack=lack, basis="declared" if links else "")
-    angle = pull.angle if pull is not None and pull.is_axis_known else math.pi / 2
+    pulled = None if pull is None else pull.angle
+    if pull is not None and not pull.is_axis_known:
+        pulled = math.pi / 2
     strengths = [
-        resist_link(one, angle=angle, on_action=on_action, on_resistance=on_resistance)
+        resist_link(
+            one, pulled=pulled, on_action=on_action, on_resistance=on_resistance
+        )
         for one in links
     ]
     weakest = min(range(len(links)), key=strengths.__getitem__)
@@ -72,13 +77,13 @@ def connect(
         value=strengths[weakest],
         basis="declared",
         source=links[weakest].source,
-        derivation=_describe(links[weakest], angle, factors),
+        derivation=_describe(links[weakest], pulled, factors),
         dimensions=links[weakest],
     )
 
 
 def _describe(
-    link: Link, angle: float, factors: tuple[float | None, float | None]
+    link: Link, pulled: float | None, factors: tuple[float | None, float | None]
 ) -> Message:
     """Way from a link's strength to its characteristic resistance."""
     force = kilonewton_from_newton(link.limit or link.breaking or 0.0)
@@ -93,7 +98,7 @@ def _describe(
         told = say("connection.limit", of=told, action=action, resistance=resistance)
     if link.kind != SHACKLE:
         return told
-    own = angle if link.angle is None else link.angle
+    own = find_angle(link, pulled)
     factor = find_direction_factor(own)
     origin = {"status": name("status", factor.status), "source": factor.source}
     return say(

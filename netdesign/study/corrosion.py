@@ -19,15 +19,16 @@ def corrode(
 ) -> tuple[Resistance, Message | None]:
     """Resistance with the steel that is left, and why it may not last so long.
 
-    As it is, and no doubt, of what does not corrode, and where the profile leaves
-    corrosion to others.
+    None is known where that is not given. As it is, and no doubt, of what does not
+    corrode, and where the profile leaves corrosion to others.
     """
     wear, life = given.wear, row.design_life
     if wear is None or "corrosion" in standard.not_checked:
         return given, None
     unsaid = row.list_unsaid_wear(given)
     if unsaid or life is None:
-        return given, say("corrosion.lacks", names=unsaid)
+        lack = say("corrosion.lacks", names=unsaid)
+        return replace(given, value=None, dimensions=None, lack=lack), lack
     if not wear.is_bare:
         return given, _doubt_protection(wear, life)
     try:

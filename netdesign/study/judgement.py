@@ -15,11 +15,13 @@ from netdesign.site.model import CONNECTED, NetRow, Resistance, Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.calibration import find_doubt
 from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.check_to_record import (
     apply_declaration,
     doubt_ground,
+    doubt_sharing,
     judge_force,
     list_checked,
     place_check,
@@ -225,8 +227,9 @@ def _judge_member(
 
 def _find_lasting(basis: Basis, given: Resistance) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
-    lasting, worn = corrode(given, basis.row, basis.standard)
-    return lasting, worn or doubt_ground(basis.row, given)
+    row = basis.row
+    lasting, worn = corrode(given, row, basis.standard)
+    return lasting, worn or doubt_ground(row, given) or doubt_sharing(row, given)
 
 
 def _judge_end(
@@ -378,4 +381,12 @@ def record_others(
         yield place_check(
             record_result(apply_declaration(site, row, one, place)), place
         )
+    pulls = known.pulls
+    of_ground = (
+        check_anchor_distance(row, site.ranges, pulls, standard, gap),
+        check_cover(row, pulls, standard, gap),
+    )
+    for found in of_ground:
+        if found is not None:
+            yield record_result(apply_declaration(site, row, found))
     yield from record_geometry(site, row, standard)

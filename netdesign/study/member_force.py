@@ -6,6 +6,7 @@ forces, the guideline's, cells of the workbook, values of the profile.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -145,12 +146,14 @@ class MemberForce:
     @property
     def added_high(self) -> float:
         """Upper end of what the load along the row adds, inside the row [kN]."""
-        return self._tilt * _high(self.on.load.added)
+        return self._tilt * (_high(self.on.load.added) + _high(self.on.load.across))
 
     def find_high(self, force: float, *, is_by_panel: bool) -> float:
         """Upper end of the member's force inside the row, from one solved [kN]."""
         push = _high(self.on.push) if is_by_panel else 0.0
         along = self._tilt * push / self.on_support
+        if self.on.load.across is not None:
+            return math.hypot(force, _high(self.on.load.across))
         return self.share * force + self.added_high + along
 
 
@@ -271,7 +274,11 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     if member in PARTS:
         part: float = getattr(held, PARTS[member])
         leaves = [_solved("c", part, "-", PARTS[member]), share, pull, splay]
-        return leaves, _high(load_guy(*leaves).added)
+        rise = _high(load_guy(*leaves).added)
+        if not is_shared(forces.row, member):
+            return leaves, rise
+        cell = find_cell(forces.row, "guy_anchors")
+        return [given("n_g", 2.0, "-", cell), *leaves], 2.0 * rise
     weight = _solved("w", held.post_part, "-", "post_part")
     nothing, least = (
         _solved("T_min", force, "kN", "least_tension")
@@ -297,6 +304,13 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
         return []
     cell = find_cell(row, "end_guy_angle", "Ends")
     return [given("γ", degree_from_radian(angle), "deg", cell)]
+
+
+def is_shared(row: NetRow, member: str) -> bool:
+    """An anchor holds a guy of each of two neighbouring posts, or may do so."""
+    of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+    may_be = row.guys.are_shared is not False and row.guys.count > 1
+    return may_be and member in of_guys
 
 
 def name_governing(reason: Message, force: MemberForce, load_case: str) -> Message:

@@ -11,6 +11,7 @@ from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member, NetPart
 from netdesign.structure.row_position import Position
+from netdesign.study.member_force import is_shared
 
 _INCLINATION = "inclination"
 _PER_SUPPORT = (
@@ -91,13 +92,30 @@ def _list_of_support(
     for member in _PER_SUPPORT:
         if member not in types:
             continue
-        each = row.guys.count if member in _BESIDE_GUYS else 1
         yield PartRecord(
             part=member,
             type_id=types[member].type_id,
-            count=None if supports is None else each * supports,
+            count=_count(row, member, position, supports),
             size=_measure(row, member, heads) or types[member].drilled_length,
         )
+
+
+def _count(
+    row: NetRow, member: str, position: Position, supports: int | None
+) -> int | None:
+    """Number of a member at some supports; a shared anchor is one of both its posts.
+
+    Of those between an end post and the next one the end post has them.
+    """
+    if supports is None:
+        return None
+    if not is_shared(row, member):
+        return supports * (row.guys.count if member in _BESIDE_GUYS else 1)
+    if row.end_resistances is None:
+        return supports + 1
+    if position == "edge":
+        return min(2 * supports, (row.post_count or 0) + 1)
+    return max(0, supports - 1)
 
 
 def _measure(row: NetRow, member: str, heads: list[SupportPoints]) -> float | None:

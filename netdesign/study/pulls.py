@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -143,7 +144,13 @@ def _measure_guy(points: SupportPoints, anchor: Member, guys: Guys) -> float:
     is_uphill = anchor == Member.UPHILL_ANCHOR
     end = points.uphill_anchor if is_uphill else points.downhill_anchor
     x, y = points.head[0] - end[0], points.head[1] - end[1]
-    return turn_by_splay(measure_pull(x, y, anchor), guys.splay or 0.0)
+    turned = 0.0 if _may_share(guys) else guys.splay or 0.0
+    return turn_by_splay(measure_pull(x, y, anchor), turned)
+
+
+def _may_share(guys: Guys) -> bool:
+    """Two guys on one anchor: it may be pulled out of the section by the splay."""
+    return guys.count > 1 and guys.are_shared is not False
 
 
 def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:
@@ -220,6 +227,8 @@ def build_pull(
     given, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
     axis = pulls.mean if given is None else given
     along_row = share if anchor in row.layout.anchors_at_foot else 0.0
+    if _may_share(row.guys) and anchor != Member.FOOT_ANCHOR:
+        along_row = math.tan(row.guys.splay or 0.0)
     turned = turn_sideways(pulls.find_largest_angle(axis), along_row)
     return AnchorPull(
         anchor=anchor,

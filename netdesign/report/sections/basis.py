@@ -44,7 +44,7 @@ def show_basis(study: Study, words: Words) -> Part:
     defaults = list_defaults(study, words)
     notes = list_notes(study, words)
     listed: dict[str, tuple[Block, ...]] = {
-        "scope": list_scope(words),
+        "scope": list_scope(study, words),
         "limit_profile": tuple(_show_profile(study, words)),
         "ranges": (show_ranges(study, words).shown("inputs"),),
         "not_typed": (_list(defaults, words),),
@@ -59,9 +59,9 @@ def show_basis(study: Study, words: Words) -> Part:
     return Part(kind="article", id="basis", blocks=(heading, *sections))
 
 
-def list_scope(words: Words) -> tuple[Block, ...]:
+def list_scope(study: Study, words: Words) -> tuple[Block, ...]:
     """Statements of what is treated, and who must check what is not."""
-    return Paragraph(text=words("scope.treated")), _tabulate_scope(words)
+    return Paragraph(text=words("scope.treated")), _tabulate_scope(study, words)
 
 
 def _list(sentences: Sequence[str], words: Words) -> Block:
@@ -70,14 +70,15 @@ def _list(sentences: Sequence[str], words: Words) -> Block:
     return Items(items=tuple(sentences))
 
 
-def _tabulate_scope(words: Words) -> Table:
+def _tabulate_scope(study: Study, words: Words) -> Table:
+    """What the study does not treat, that which its profile leaves out first."""
     headings = [words(f"heading.{key}") for key in ("not_treated", "who_checks")]
     return Table(
         caption=words("scope.decision"),
         columns=name_columns(headings, numbers=()),
         rows=tuple(
             (text_cell(words(f"scope.{key}")), text_cell(words(f"scope.{key}_by")))
-            for key in _SCOPE
+            for key in (*study.profile.not_checked, *_SCOPE)
         ),
         look="scope",
     )

@@ -200,6 +200,9 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     if has_other_floor(study):
         floor = words("heading.floor")
         yield words("show.label", label=floor, text=describe_floor(study, words))
+    for topic in study.profile.not_checked:
+        who = words(f"scope.{topic}_by")
+        yield words("todo.not_checked", what=words(f"scope.{topic}"), who=who)
     assumed, count = count_assumed(study)
     if assumed:
         yield words("todo.unconfirmed", assumed=assumed, count=count)

@@ -58,7 +58,8 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
     )
     answered = filter(None, [guideline.show_difference(study, words)])
     if detail == "summary":
-        scope = section("scope", words("heading.scope"), *basis.list_scope(words))
+        listed = basis.list_scope(study, words)
+        scope = section("scope", words("heading.scope"), *listed)
         return *begun, *answered, quantities.show_quantities(study, words), scope
     return (
         *begun,

@@ -53,6 +53,7 @@ def draw_lines(seed, *, is_placed=False):
     }
     if is_placed and draw.random() < 0.5:
         _stand_in_ground(draw, lines)
+    _complete_chain(random.Random(f"chain {seed}"), lines)
     if net.get("row_end") == "continuous":
         lines["Nets"].append({**net, "id": "R2", "neighbour": "R1"})
         lines["Snow"] += [{**one, "row": "R2"} for one in lines["Snow"]]
@@ -76,7 +77,7 @@ def list_cells(lines):
 def list_groups(lines):
     """Cells that belong together: a sheet, a panel, all kinds, all dimensions."""
     cells = list_cells(lines)
-    sheets = ("Ends", "Snow", "Declared", "Anchors", "Ropes", "Posts")
+    sheets = ("Ends", "Snow", "Declared", "Anchors", "Ropes", "Posts", "Links")
     groups = [[("sheet", sheet)] for sheet in sheets if lines[sheet]]
     for keys in (
         PANEL_COLUMNS,
@@ -84,6 +85,11 @@ def list_groups(lines):
         ("kind", "inner_diameter", "lever_arm"),
         ("foot_axis", "uphill_axis", "downhill_axis", "anchor_axes"),
         ("guy_count", "guy_splay"),
+        ("guy_anchors",),
+        ("design_life", "protection", "protected_years", "soil"),
+        ("edge_distance", "least_cover", "least_edge", "drilled_length"),
+        ("mesh_strength", "angle", "count"),
+        ("ground",),
         ("post_tilt", "post_base_distance"),
         ("uphill_anchor_distance", "downhill_anchor_distance"),
         ("gap", "row_end", "neighbour"),
@@ -301,6 +307,49 @@ def _stand_in_ground(draw, lines):
             one["ground"] = net["ground"]
             lines["Anchors"].append({**one, "ground": other, "test_least": 900.0})
             lines["Anchors"][-1]["test_mean"] = 950.0
+
+
+def _complete_chain(draw, lines):
+    """Let the site say what its grounds, its steel, its links and its mesh are."""
+    (net,) = lines["Nets"]
+    drilled = next(one for one in lines["Anchors"] if one["id"] == "drilled")
+    ground = net.setdefault("ground", drilled.get("ground", "gravel"))
+    net["design_life"] = draw.choice((30, 50, 80, 100))
+    net["edge_distance"] = _round(draw.uniform(2.0, 40.0))
+    net["mesh_strength"] = _round(draw.uniform(90.0, 600.0))
+    if net["guy_count"] == 2:
+        net["guy_anchors"] = draw.choice(("own", "shared"))
+    for one in lines["Anchors"]:
+        is_bond = one["id"] == "drilled"
+        if not is_bond:
+            one.setdefault("ground", ground)
+        one["drilled_length"] = _round(draw.uniform(6.0, 9.0))
+        one["least_cover"] = _round(draw.uniform(0.6, 1.6))
+        one["least_edge"] = _round(draw.uniform(0.8, 4.0))
+        if one["kind"] == "rope anchor" or draw.random() < 0.4:
+            one["protection"] = draw.choice(("cover", "sheath", "galvanised"))
+            one["protected_years"] = draw.choice((40, 100, 100, 120))
+        else:
+            one["protection"] = draw.choice(("none", "sacrificial"))
+            one["soil"] = draw.choice(("natural", "natural", "organic", "fill"))
+    for one in lines["Ropes"]:
+        one["protected_years"] = draw.choice((60, 100, 100))
+    lines["Links"] = list(_draw_links(draw, lines))
+
+
+def _draw_links(draw, lines):
+    """One or two links of nearly every type."""
+    names = dict.fromkeys(one["id"] for one in (*lines["Anchors"], *lines["Ropes"]))
+    for name in names:
+        for _ in range(draw.choice((0, 1, 1, 1, 2, 2))):
+            link = {"type": name, "link": draw.choice(("shackle", "eye", "plate"))}
+            key = draw.choice(("strength", "working_limit"))
+            link[key] = _round(draw.uniform(180.0, 900.0))
+            if draw.random() < 0.4:
+                link["count"] = draw.choice((1, 2))
+            if link["link"] == "shackle" and draw.random() < 0.6:
+                link["angle"] = _round(draw.uniform(0.0, 60.0))
+            yield link
 
 
 def _draw_ropes(draw):

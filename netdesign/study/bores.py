@@ -1,0 +1,176 @@
+"""Anchors of a row in the ground, and how near they come to each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from netdesign.checks import CheckResult, Standard
+from netdesign.checks.check import list_assumed, not_proven
+from netdesign.checks.schema import ANCHOR_DISTANCE
+from netdesign.envelope.ranges import Ranges
+from netdesign.outcome import Verdict
+from netdesign.site.model import NetRow
+from netdesign.structure.anchor_distance import Bore, find_least_distance
+from netdesign.structure.layout import SupportPoints
+from netdesign.structure.members import Member
+from netdesign.study.pulls import ANCHORS, AnchorPull, find_pull
+from netdesign.study.sideways import place_row
+from netdesign.words.message import Message, say
+from netdesign.words.names import name_member
+
+_POSTS = 3  # beside each other: whatever comes near does so among them
+
+
+def check_anchor_distance(
+    row: NetRow,
+    ranges: Ranges,
+    pulls: Sequence[AnchorPull],
+    standard: Standard,
+    gap: Message | None,
+) -> CheckResult | None:
+    """Check how near the anchors of a row come to each other in the ground.
+
+    Nearer than the profile says is not proven: a test of the group may show it. None
+    where the profile has no such distance, or without any pull.
+    """
+    limit = standard.find(ANCHOR_DISTANCE)
+    if limit is None or not pulls:
+        return None
+    gap = gap or _find_lack(row, pulls)
+    ends = ranges["inclination"]
+    least = min(
+        find_least_distance(list(list_bores(row, place_row(row, one), pulls)))
+        for one in (ends.low, ends.high)
+    )
+    told = {"least": least, "limit": limit.value}
+    reason = say("bores.apart", **told)
+    if gap is not None or not least >= limit.value:
+        reason = not_proven(gap or say("bores.near", **told))
+    return CheckResult(
+        id="geometry.anchors",
+        clause=limit.clause,
+        member=Member.NET,
+        mode="anchors",
+        verdict=Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN,
+        reason=reason,
+        assumed=list_assumed(limit),
+    )
+
+
+def check_cover(
+    row: NetRow, pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
+) -> CheckResult | None:
+    """Check the ground around the bonds against what the geotechnical engineer asks.
+
+    None where the profile leaves it to others, or without any pull.
+    """
+    if "anchor_ground" in standard.not_checked or not pulls:
+        return None
+    unsaid = dict.fromkeys(
+        name
+        for one in pulls
+        for name in row.list_unsaid_cover(one.anchor, one.position)
+    )
+    if unsaid:
+        gap = say("check.unsaid", names=tuple(unsaid))
+    elif any(not one.is_axis_known for one in pulls):
+        gap = gap or say("bending.no_axis")
+    short = None if unsaid else next(_list_short(row, pulls), None)
+    verdict = Verdict.NOT_PROVEN if gap else Verdict.PASS
+    return CheckResult(
+        id="geometry.cover",
+        clause="-",
+        member=Member.NET,
+        mode="cover",
+        verdict=Verdict.FAIL if short else verdict,
+        reason=short or (not_proven(gap) if gap else say("bores.covered")),
+    )
+
+
+def _list_short(row: NetRow, pulls: Sequence[AnchorPull]) -> Iterator[Message]:
+    """Anchors whose bond lies too near to the surface, or to an edge."""
+    for pull in pulls:
+        kind = row.find_anchor_type(pull.anchor, pull.position)
+        if kind is None:
+            continue
+        told = {"anchor": name_member(pull.anchor)}
+        cover, least = kind.find_cover(pull.axis), kind.least_cover or 0.0
+        if cover < least:
+            yield say("bores.too_shallow", **told, cover=cover, least=least)
+        edge, least = row.edge_distance or 0.0, kind.least_edge or 0.0
+        if edge < least:
+            yield say("bores.too_near_edge", **told, edge=edge, least=least)
+
+
+def _find_lack(row: NetRow, pulls: Sequence[AnchorPull]) -> Message | None:
+    if any(not one.is_axis_known for one in pulls):
+        return say("bending.no_axis")
+    if row.guys.count > 1 and row.guys.are_shared is None:
+        return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
+    return None
+
+
+def list_bores(
+    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
+) -> Iterator[Bore]:
+    """Anchors of some posts beside each other, and of the panels between them."""
+    spacing = row.layout.post_spacing
+    anchors = [one for one in ANCHORS if not _is_same_as_foot(row, one)]
+    lengths = {one.member: one.drilled_length for one in row.resistances}
+    for anchor in anchors:
+        pull = find_pull(pulls, anchor, "intermediate")
+        if pull is None:
+            continue
+        for aside, turned in _spread(row, points, anchor):
+            start = (_find_place(points, anchor), 0.0)
+            heading = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
+            flat = math.cos(pull.axis)
+            direction = (
+                -heading * flat * math.cos(turned),
+                -math.sin(pull.axis),
+                flat * math.sin(turned),
+            )
+            for post in range(_POSTS):
+                yield Bore(
+                    start=(*start, post * spacing + aside),
+                    direction=direction,
+                    length=lengths.get(anchor),
+                )
+
+
+def _is_same_as_foot(row: NetRow, anchor: Member) -> bool:
+    return row.layout.is_foot_shared and anchor == Member.UPHILL_ANCHOR
+
+
+def _find_place(points: SupportPoints, anchor: Member) -> float:
+    if anchor == Member.FOOT_ANCHOR:
+        return points.net_foot[0]
+    is_uphill = anchor == Member.UPHILL_ANCHOR
+    return (points.uphill_anchor if is_uphill else points.downhill_anchor)[0]
+
+
+def _spread(
+    row: NetRow, points: SupportPoints, anchor: Member
+) -> Iterator[tuple[float, float]]:
+    """Places beside a post, and turns out of the section, of one anchor's kind.
+
+    Lengths along the row [m], angles from the section in the slope's plane [rad].
+    """
+    half = 0.5 * row.layout.post_spacing
+    if anchor == Member.FOOT_ANCHOR:
+        yield 0.0, 0.0
+        if any(one.has_mid_anchors for one in row.panels):
+            yield half, 0.0
+        return
+    splay = row.guys.splay or 0.0
+    if row.guys.count == 1 or not splay:
+        yield 0.0, 0.0
+    elif row.guys.are_shared:
+        yield half, 0.0
+    else:
+        reach = points.head[0] - _find_place(points, anchor)
+        aside = math.hypot(reach, points.head[1]) * math.tan(splay)
+        turned = math.atan2(aside, abs(reach))
+        yield aside, turned
+        yield -aside, -turned

@@ -1,0 +1,68 @@
+"""Distance of anchors in the ground against places worked by hand and a minimiser."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+from netdesign.structure.anchor_distance import (
+    Bore,
+    find_least_distance,
+    measure_distance,
+)
+
+
+def a_bore(start, direction, length=5.0):
+    size = math.sqrt(sum(one**2 for one in direction))
+    return Bore(
+        start=start, direction=tuple(one / size for one in direction), length=length
+    )
+
+
+def test_parallel_anchors_are_as_far_as_their_axes():
+    slanted = (-1.0, -0.7, 0.0)
+    one, other = a_bore((0, 0, 0), slanted), a_bore((0, 0, 1.7), slanted)
+    assert measure_distance(one, other) == pytest.approx(1.7)
+
+
+def test_crossing_anchors_touch_inside_both():
+    one = a_bore((0.0, 0.0, 0.0), (0.0, -1.0, 1.0))
+    other = a_bore((0.0, 0.0, 2.0), (0.0, -1.0, -1.0))
+    assert measure_distance(one, other) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_anchors_that_end_before_they_cross_are_nearest_at_their_ends():
+    # both ends lie 0.5 along the diagonal: 2 - 2 * 0.5 / sqrt(2) apart
+    one = a_bore((0.0, 0.0, 0.0), (0.0, -1.0, 1.0), length=0.5)
+    other = a_bore((0.0, 0.0, 2.0), (0.0, -1.0, -1.0), length=0.5)
+    expected = 2.0 - 2.0 * 0.5 / math.sqrt(2.0)
+    assert measure_distance(one, other) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_drawn_anchors_are_as_far_as_a_minimiser_finds(seed):
+    draw = np.random.default_rng(seed)
+    one, other = (
+        a_bore(tuple(draw.uniform(-3, 3, 3)), tuple(draw.normal(size=3)), length)
+        for length in draw.uniform(0.7, 6.0, 2)
+    )
+
+    def measure(along):
+        places = [
+            np.array(bore.start) + share * bore.length * np.array(bore.direction)
+            for bore, share in zip((one, other), along, strict=True)
+        ]
+        return float(np.sum((places[0] - places[1]) ** 2))
+
+    starts = [(a, b) for a in (0.1, 0.5, 0.9) for b in (0.1, 0.5, 0.9)]
+    bounds = [(0.0, 1.0)] * 2
+    least = min(minimize(measure, start, bounds=bounds).fun for start in starts)
+    found = measure_distance(one, other)
+    assert found == pytest.approx(math.sqrt(max(least, 0.0)), abs=2e-4)
+    assert measure_distance(other, one) == pytest.approx(found)
+    assert find_least_distance([one, other]) == found
+
+
+def test_one_anchor_is_far_from_every_other():
+    assert find_least_distance([a_bore((0, 0, 0), (1, 0, 0))]) == math.inf
