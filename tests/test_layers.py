@@ -86,6 +86,7 @@ THIRD_PARTY = {
         "snow.*",
         "planview.special",
         "winter.table",
+        "winter.trend",
         "solving.identity",
         "evidence.*",
     ),

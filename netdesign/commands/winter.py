@@ -48,7 +48,7 @@ from netdesign.outcome import ModelError, Verdict
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from netdesign.files.winter import WinterRun
     from netdesign.site.model import Site, StationWinter
@@ -294,8 +294,25 @@ def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> Non
                 tell(_count_failed(row["id"], one), language)
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"], language)
+        for told in _list_statistics(row):
+            tell(told, language)
         if row["fit"]:
             print_fit(row["id"], row["fit"], language)
+
+
+def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
+    """Lines on the return values of a row with their errors, and on its trend."""
+    found = row["statistics"]
+    for one in found["return_values"] if found else ():
+        yield say(
+            "winter.return_value",
+            row=row["id"],
+            period=one["period_a"],
+            foot=one["foot_kN_per_m"],
+            error=one["standard_error_kN_per_m"],
+            count=found["winters"],
+        )
+    yield say("show.label", label=row["id"], text=row["trend"]["why"])
 
 
 def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -24,6 +25,7 @@ from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
 from netdesign.winter.row_winters import RowWinters, StationPacks, list_complete
 from netdesign.winter.season import Season
+from netdesign.winter.trend import LEAST_FOR_TREND, Trend
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -158,7 +160,8 @@ def _write_row(
         "ground": scene.ground.kind,
         "slip_length_m": scene.ground.slip_length,
         "winters": winters,
-        "statistics": _write_statistics(result.statistics, result.maxima, complete),
+        "statistics": _write_statistics(result.statistics),
+        "trend": _write_trend(result.trend, language),
         "equivalent_density": _write_range(result, run, language),
         "fit": write_fit(fitted, run.winter.series, language) if fitted else None,
     }
@@ -275,15 +278,13 @@ def _largest_members(season: Season) -> dict[str, float]:
     return found
 
 
-def _write_statistics(
-    fit: Gumbel | None, maxima: Sequence[AnnualMaximum], complete: Sequence[str]
-) -> dict[str, Any] | None:
+def _write_statistics(fit: Gumbel | None) -> dict[str, Any] | None:
     if fit is None:
         return None
     values = [fit.find_return_value(period) for period in RETURN_PERIODS]
     return {
         "distribution": "Gumbel, by moments",
-        "winters": sum(one.winter in complete for one in maxima),
+        "winters": fit.count,
         "mean_kN_per_m": kilonewton_from_newton(fit.mean),
         "variation": fit.variation,
         "return_values": [
@@ -295,6 +296,35 @@ def _write_statistics(
             for one in values
         ],
     }
+
+
+def _write_trend(trend: Trend | None, language: Language) -> dict[str, Any]:
+    """Trend of the maxima, and the sentence that says what it means."""
+    if trend is None:
+        keys = ("winters", "kendall_tau", "p_value", "slope_kN_per_m_per_decade")
+        told = say("winter_trend.none", least=LEAST_FOR_TREND)
+        return {**dict.fromkeys(keys), "is_shown": False, "why": render(told, language)}
+    slope = _YEARS * kilonewton_from_newton(trend.slope)
+    shown = math.ceil(1e3 * trend.p_value) / 1e3  # "at most 0.001", never 0
+    told = say(_choose_meaning(trend), count=trend.count, p=shown, slope=slope)
+    return {
+        "winters": trend.count,
+        "kendall_tau": trend.rank_correlation,
+        "p_value": trend.p_value,
+        "slope_kN_per_m_per_decade": slope,
+        "is_shown": trend.is_shown,
+        "why": render(told, language),
+    }
+
+
+def _choose_meaning(trend: Trend) -> str:
+    if not trend.is_shown:
+        return "winter_trend.not_shown"
+    grows = trend.rank_correlation > 0.0
+    return "winter_trend.grown" if grows else "winter_trend.fallen"
+
+
+_YEARS = 10.0  # of a decade
 
 
 def _write_range(

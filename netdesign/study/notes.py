@@ -9,6 +9,7 @@ from netdesign.checks import Standard
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.ranges import Interval
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
@@ -19,6 +20,7 @@ from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.winter.model_code import find_model_code_density
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
@@ -124,6 +126,7 @@ def list_judged_notes(
     return [
         *list_row_notes(row, effects, pulls),
         *list_end_notes(row, site.ranges, law, effects),
+        describe_model_code(row, site.ranges["density"]),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
         *list_case_notes(cases),
@@ -165,6 +168,20 @@ def _list_pull_notes(pulls: Sequence[AnchorPull]) -> list[Message]:
         and not one.is_axis_given
         and one.position == "intermediate"
     ]
+
+
+def describe_model_code(row: NetRow, density: Interval) -> Message:
+    """Mean density of the row's snow by a model code, beside the range; (Y20)."""
+    height = row.snow_thickness / math.cos(row.slope_angle)
+    by_code = find_model_code_density(height)
+    told = say(
+        "row.model_code",
+        height=height,
+        density=by_code,
+        low=density.low,
+        high=density.high,
+    )
+    return say("row.model_code_above", told=told) if by_code > density.high else told
 
 
 def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[Message]:

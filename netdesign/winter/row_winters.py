@@ -13,6 +13,7 @@ from netdesign.winter.day import DaySolver
 from netdesign.winter.gumbel import Gumbel, fit_gumbel
 from netdesign.winter.maxima import AnnualMaximum, find_annual_maximum, find_many_maxima
 from netdesign.winter.season import CURVE_STEP, Season, follow_season
+from netdesign.winter.trend import Trend, find_trend
 
 FIRST_DENSITY = 300.0  # of snow that lies on the first day of a series [kg/m3]; assumed
 MANY = 4  # more winters than these go through a table
@@ -55,6 +56,8 @@ class RowWinters:
     statistics : Gumbel or None
         Of the complete winters with a proven maximum [N/m]; None of fewer than
         ``gumbel.LEAST_WINTERS``, or where a complete winter proves none.
+    trend : Trend or None
+        Of the same winters [N/m]; None of fewer than ``trend.LEAST_FOR_TREND``.
     """
 
     row_id: str
@@ -63,6 +66,7 @@ class RowWinters:
     seasons: tuple[Season, ...]
     others: Mapping[str, tuple[AnnualMaximum, ...]]
     statistics: Gumbel | None
+    trend: Trend | None
 
     @property
     def density_range(self) -> tuple[float, float] | None:
@@ -166,13 +170,16 @@ def follow_winters(
     if not maxima:
         maxima = {one: _find_maxima(station.packs[one], solver) for one in rest}
         maxima[chosen] = tuple(season.maximum for season in seasons)
+    counted = _count(maxima[chosen], list_complete(station.series))
+    pulls = [one.foot for one in counted]
     return RowWinters(
         row_id=solver.row.id,
         model=chosen,
         maxima=maxima[chosen],
         seasons=seasons,
         others={one: maxima[one] for one in rest},
-        statistics=_fit(maxima[chosen], list_complete(station.series)),
+        statistics=fit_gumbel(pulls),
+        trend=find_trend([int(one.winter[:4]) for one in counted], pulls),
     )
 
 
@@ -184,8 +191,9 @@ def _find_maxima(
     )
 
 
-def _fit(maxima: Sequence[AnnualMaximum], complete: Sequence[str]) -> Gumbel | None:
+def _count(
+    maxima: Sequence[AnnualMaximum], complete: Sequence[str]
+) -> list[AnnualMaximum]:
+    """Maxima of the complete winters; none where one of these is not proven."""
     counted = [one for one in maxima if one.winter in complete]
-    if not all(one.is_proven for one in counted):
-        return None
-    return fit_gumbel([one.foot for one in counted])
+    return counted if all(one.is_proven for one in counted) else []

@@ -1,11 +1,15 @@
 """The command ``winter``: document, page, refusals, exit codes."""
 
 import json
+from html import escape
 
 import openpyxl
 import pytest
 
-from netdesign.words.catalogue import LANGUAGES
+from netdesign.commands.winter import _list_statistics
+from netdesign.files.winter import _write_statistics
+from netdesign.winter.gumbel import Gumbel
+from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.numerals import set_marks
 from tests.report.accessible import list_violations
 from tests.report.printing import PAPER_PX, PHONE_PX, list_too_wide
@@ -41,6 +45,7 @@ def test_document_is_that_of_the_interface(call, site, heights):
     (row,) = document["rows"]
     (winter,) = row["winters"]
     assert (row["statistics"], row["fit"]) == (None, None)
+    assert row["trend"]["winters"] is None
     assert winter["name"] == "2002/2003"
     assert winter["height_max_m"] == pytest.approx(1.6)
     assert winter["height_max_date"] == "2003-02-09"
@@ -64,6 +69,21 @@ def test_document_is_that_of_the_interface(call, site, heights):
     assert document["station"]["height_factor_given"] is False
 
 
+def test_terminal_has_each_return_value_with_its_error_and_winters():
+    fit = Gumbel(count=23, mean=17.3e3, deviation=5.2e3)
+    row = {"id": "R1", "statistics": _write_statistics(fit), "trend": {"why": "Flat."}}
+    told = [render(one, "en") for one in _list_statistics(row)]
+    assert told == [
+        "R1: foot's pull once in 30 years 28.7 kN/m, standard error 3.2 kN/m,"
+        " from 23 winters",
+        "R1: foot's pull once in 100 years 33.6 kN/m, standard error 4.3 kN/m,"
+        " from 23 winters",
+        "R1: Flat.",
+    ]
+    alone = [render(one, "en") for one in _list_statistics(row | {"statistics": None})]
+    assert alone == told[2:]
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_page_shows_the_document_in_each_language(
     call, site, heights, tmp_path, language
@@ -82,6 +102,9 @@ def test_page_shows_the_document_in_each_language(
     assert f">{peak}<" in page
     assert page.count("<svg") == 1
     assert winter["why"].split(":")[0] in page
+    trend = document["rows"][0]["trend"]["why"]
+    assert escape(trend, quote=False) in page.replace("&#39;", "'")
+    assert trend in ended.out
     assert "<script" not in page
     wide = list_too_wide(page, PHONE_PX, tmp_path, media="screen")
     assert {one.split()[1] for one in wide} <= {"table"}  # in what can be scrolled

@@ -13,6 +13,7 @@ from netdesign.winter.row_winters import (
     list_complete,
     split_packs,
 )
+from netdesign.winter.trend import find_trend
 from tests.winter.made_up_row import a_formula_solver
 
 
@@ -50,7 +51,7 @@ def test_few_winters_have_curves_and_no_return_values():
     found = follow_winters(station, a_formula_solver(), step=40)
     assert [season.name for season in found.seasons] == ["1990/1991", "1991/1992"]
     assert found.maxima == tuple(season.maximum for season in found.seasons)
-    assert found.statistics is None
+    assert (found.statistics, found.trend) == (None, None)
     assert found.model == "hs2swe"
     assert [one.winter for one in found.others["delta-snow"]] == [
         "1990/1991",
@@ -72,6 +73,7 @@ def test_many_winters_have_return_values_and_curves_of_the_largest():
     ]
     mean = sum(one.foot for one in found.maxima) / 16
     assert found.statistics.mean == pytest.approx(mean, rel=1e-12)
+    assert found.trend == find_trend(range(16), [one.foot for one in found.maxima])
     for season in found.seasons:
         (looked_up,) = [one for one in largest if one.winter == season.name]
         assert looked_up.foot == pytest.approx(season.maximum.foot, rel=1e-6)
@@ -83,4 +85,4 @@ def test_one_winter_above_the_net_and_there_are_no_return_values():
     station = follow_station(a_series(tops), [HS2SWE])
     found = follow_winters(station, a_formula_solver(), step=0)
     assert [one.winter for one in found.maxima if not one.is_proven] == ["1995/1996"]
-    assert found.statistics is None
+    assert (found.statistics, found.trend) == (None, None)

@@ -129,6 +129,7 @@ def _show_row(
     statistics = _tabulate_statistics(row["statistics"], words)
     without = Paragraph(text=words("winter_page.no_statistics"))
     yield statistics.shown("study") if statistics else without
+    yield _show_trend(row["trend"])
     yield Heading(text=words("winter_page.density_heading"), level=3)
     for text in _describe_range(row, document, words):
         yield Paragraph(text=text)
@@ -297,6 +298,12 @@ def _tabulate_statistics(
             for one in statistics["return_values"]
         ),
     )
+
+
+def _show_trend(trend: Mapping[str, Any]) -> Block:
+    """Sentence on the trend of the maxima, set off where there is one."""
+    told = show_text(trend["why"])
+    return notes(told, look="notes open") if trend["is_shown"] else Paragraph(text=told)
 
 
 def _describe_range(

@@ -1,6 +1,6 @@
-"""Page of a winter: days without a force."""
+"""Page of a winter: days without a force, the trend of the maxima."""
 
-from netdesign.report.page.winter_page import _list_failed
+from netdesign.report.page.winter_page import _list_failed, _show_trend
 from netdesign.report.words import Words
 
 
@@ -21,3 +21,12 @@ def test_days_of_one_reason_stand_together():
         "1 × calculated as uniform snow (the net folds): 2021-01-16",
         "1 × without a force (the snow lifts): 2021-01-20",
     ]
+
+
+def test_a_trend_is_set_off_and_none_is_plain():
+    shown, plain = (
+        _show_trend({"why": "The maxima", "is_shown": one}) for one in (True, False)
+    )
+    assert (shown.look, plain.look) == ("notes open", "")
+    assert "The maxima" in str(shown)
+    assert plain.text == "The maxima"
