@@ -21,6 +21,7 @@ from netdesign.words.names import name_mode
 
 # Members from the net into the ground.
 _CHAINS = (
+    ("mesh", "ridge_rope", "lower_rope"),
     ("foot_anchor",),
     ("uphill_guy", "uphill_anchor"),
     ("downhill_guy", "downhill_anchor"),

@@ -20,8 +20,8 @@ from netdesign.report.words import (
     append_unit,
     show_member,
 )
-from netdesign.structure.members import EndMember
-from netdesign.study.find_input import find_input
+from netdesign.structure.members import EndMember, NetPart
+from netdesign.study.find_input import find_input, find_word
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.message import say
 from netdesign.words.names import name_mode
@@ -83,6 +83,8 @@ def _describe_place(row: RowStudy, member: str, words: Words) -> str:
     """Number of a part for each post or row end, and where it stands."""
     if member in (*EndMember,):
         return words("schedule.per_end")
+    if member in (*NetPart,):
+        return words("schedule.along")
     side = next((one for one in _SIDES if member.startswith(one)), None)
     if side is None:
         return words(_name_foot(row) if member == "foot_anchor" else _PER_POST, count=1)
@@ -92,8 +94,9 @@ def _describe_place(row: RowStudy, member: str, words: Words) -> str:
             "schedule.per_post", count=MISSING if count is None else f"{count:.0f}"
         )
     distance = find_input(row, f"{side}_anchor_distance")
+    is_shared = count == 2.0 and find_word(row, "guy_anchors") == "shared"
     return words(
-        f"schedule.per_post_{side}",
+        f"schedule.{'shared' if is_shared else 'per_post'}_{side}",
         count=MISSING if count is None else f"{count:.0f}",
         distance=MISSING if distance is None else words.write(f"{distance:.2f}"),
     )

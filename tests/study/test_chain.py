@@ -1,0 +1,259 @@
+"""The whole chain of a row: mesh, ropes, links, steel over its life, ground."""
+
+import math
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.outcome import Verdict
+from netdesign.resistance.corrosion import find_loss, leave_area
+from netdesign.site.reader import read_site
+from netdesign.site.template.workbook import load_example
+from netdesign.study.cases import solve_site
+from netdesign.study.check_run import CheckRun
+from netdesign.study.judge import judge_site
+from netdesign.study.rejudge import rejudge
+from tests.study.knowing_less.drawn_site import write_lines
+
+RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))
+NF = load_standard("nf-p-95-304-style")
+TOPICS = ("mesh", "connections", "corrosion", "anchor_ground")
+WORST = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    """Row R4 of the example, whose foot anchor is a bar, on three cases."""
+    lines = load_example()
+    for sheet, key in (("Nets", "id"), ("Ends", "row"), ("Declared", "row")):
+        lines[sheet] = [one for one in lines[sheet] if one[key] == "R4"]
+    spans = {"density": (270, 400, 3), "friction angle": (30, 30, 1)}
+    for one in lines["Ranges"]:
+        low, high, count = spans.get(one["quantity"], (30, 30, 1))
+        one |= {"low": low, "high": high, "samples": count}
+    path = tmp_path_factory.mktemp("chain") / "site.xlsx"
+    write_lines(path, lines)
+    site = read_site(path)
+    return site, solve_site(site, RUN)
+
+
+def judge(solved, standard=NF, links=None, **changes):
+    """Study of the row with some of its inputs changed; its forces stay."""
+    site, rows = solved
+    changed = replace(site, rows=tuple(replace(row, **changes) for row in site.rows))
+    if links is not None:
+        changed = replace(changed, links=links)
+    study = judge_site(changed, rows, standard, RUN)
+    return study, {check.id: check for check in study.rows[0].checks}
+
+
+def change(resistances, member, **special):
+    return tuple(
+        replace(one, **special) if one.member == member else one for one in resistances
+    )
+
+
+def test_as_built_all_of_the_chain_passes_and_can_be_judged_again(solved):
+    study, checks = judge(solved)
+    named = [
+        *("mesh.mesh.end", "ridge_rope.rope.end", "lower_rope.rope.end"),
+        *("foot_anchor.connection", "uphill_guy.connection.end"),
+        *("lower_rope.connection.end", "end_guy.connection.end"),
+        *("geometry.anchors", "geometry.cover", "foot_anchor.tendon"),
+    ]
+    assert {checks[one].verdict for one in named} == {Verdict.PASS}
+    assert list(rejudge(study)) == []
+
+
+def test_mesh_has_the_whole_end_effect_and_never_less_than_the_guideline(solved):
+    _, checks = judge(solved)
+    check = checks["mesh.mesh.end"]
+    solved_kn, floor = check.read("E_s"), check.read("E_g0")
+    largest = max(
+        result.solution.tension_max
+        for result in solved[1][0].results
+        if result.is_converged
+    )
+    assert solved_kn == pytest.approx(largest / 1e3, rel=2e-3)
+    ends = max(solved_kn, floor) * (1.0 + check.read("f_R"))
+    assert check.demand_kN == pytest.approx(1.5 * ends)
+    assert check.resistance_kN == pytest.approx(400.0 / 1.5)
+
+
+@pytest.mark.parametrize("rope", ["ridge", "lower"])
+def test_border_rope_grows_by_what_the_end_effect_brings_to_its_post(solved, rope):
+    study, checks = judge(solved)
+    check = checks[f"{rope}_rope.rope.end"]
+    name = {"ridge": "panel_upper_tension", "lower": "panel_lower_tension"}[rope]
+    (force,) = (one for one in study.rows[0].forces if one.quantity == name)
+    grown = 1.0 + check.read("f_R") * 2.0 * check.read("Δl") / check.read("b")
+    assert check.read("E_k") == pytest.approx(force.value_kN * grown)
+    assert force.high_kN >= force.value_kN
+
+
+def test_a_stronger_or_weaker_mesh_turns_its_check_alone(solved):
+    _, as_built = judge(solved)
+    parts = solved[0].rows[0].net_parts
+    _, weak = judge(solved, net_parts=change(parts, "mesh", value=140e3))
+    turned = {name for name in weak if weak[name].verdict != as_built[name].verdict}
+    assert turned == {"mesh.mesh.end"}
+    assert weak["mesh.mesh.end"].verdict is Verdict.FAIL
+
+
+@pytest.mark.parametrize("years", [17, 50, 80, 100])
+def test_bar_loses_the_share_that_its_ground_takes_over_the_years(solved, years):
+    _, checks = judge(solved, design_life=years)
+    check = checks["foot_anchor.tendon"]
+    loss = find_loss("natural", years).value / 1e3
+    whole = math.pi / 4.0 * 0.040**2 * 500e3
+    expected = whole * leave_area(0.040, 0.0, loss)
+    assert check.read("R_k") == pytest.approx(expected)
+    assert check.resistance_years == years
+    bent = checks["foot_anchor.bending"].read("R_k")
+    assert bent < judge(solved, design_life=1)[1]["foot_anchor.bending"].read("R_k")
+
+
+@pytest.mark.parametrize(
+    ("member", "wear", "said"),
+    [
+        ("foot_anchor", {"soil": ""}, "ground class for corrosion"),
+        ("foot_anchor", {"protection": ""}, "corrosion protection"),
+        ("foot_anchor", {"outer": None}, "bar diameter"),
+        ("uphill_anchor", {"protected_years": None}, "protected for years"),
+        ("uphill_anchor", {"protected_years": 79}, "declared for 79 years"),
+        ("uphill_anchor", {"protection": "none"}, "no thickness to lose"),
+        ("uphill_guy", {"protected_years": 40}, "declared for 40 years"),
+        ("uphill_guy", {"protected_years": None}, "protected for years"),
+    ],
+)
+def test_steel_of_which_something_is_not_said_is_not_proven(solved, member, wear, said):
+    given = solved[0].rows[0].resistances
+    found = tuple(
+        replace(one, wear=replace(one.wear, **wear))
+        if one.member == member and one.wear
+        else one
+        for one in given
+    )
+    study, checks = judge(solved, resistances=found)
+    mode = "rope" if "guy" in member else "tendon"
+    check = checks[f"{member}.{mode}"]
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert said in str(check.reason)
+    assert list(rejudge(study)) == []
+
+
+def test_without_a_design_life_no_steel_is_proven(solved):
+    _, checks = judge(solved, design_life=None)
+    steel = [
+        one for one in checks.values() if one.mode in ("tendon", "rope", "bending")
+    ]
+    assert steel
+    assert {one.verdict for one in steel} == {Verdict.NOT_PROVEN}
+    assert all("design life" in str(one.reason) for one in steel)
+
+
+def test_beyond_the_table_a_bare_bar_is_not_proven(solved):
+    _, checks = judge(solved, design_life=120)
+    assert "100 years" in str(checks["foot_anchor.tendon"].reason)
+    assert checks["foot_anchor.tendon"].verdict is Verdict.NOT_PROVEN
+
+
+def test_the_weakest_link_of_a_chain_bears_and_is_named(solved):
+    links = dict(solved[0].links)
+    (eye,) = links["B40-tested"]
+    weak = replace(eye, kind="plate", breaking=0.31 * eye.breaking, source="Links!C99")
+    _, checks = judge(solved, links=links | {"B40-tested": (eye, weak, eye)})
+    check = checks["foot_anchor.connection"]
+    assert check.read("R_k") == pytest.approx(0.31 * eye.breaking / 1e3)
+    assert check.resistance_cell == "Links!C99"
+    assert "swivel plate" in str(check.resistance_derivation)
+
+
+def test_a_chain_of_which_no_link_is_given_is_not_proven(solved):
+    links = {name: one for name, one in solved[0].links.items() if name != "G24"}
+    _, checks = judge(solved, links=links)
+    check = checks["uphill_guy.connection"]
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert "no link of type G24 is given on sheet Links" in str(check.reason)
+
+
+def test_a_shackle_is_turned_by_the_angle_of_its_anchor(solved):
+    study, checks = judge(solved)
+    (pull,) = (one for one in study.rows[0].pulls if one.anchor == "uphill_anchor")
+    check = checks["uphill_guy.connection"]
+    (shackle,) = solved[0].links["G24"]
+    assert 20.0 < pull.angle_deg < 30.0
+    # 0.75 at 20 degrees, 0.70 at 30
+    factor = 0.75 - 0.05 * (pull.angle_deg - 20.0) / 10.0
+    expected = factor * shackle.limit / 1e3 * 1.5 * 1.5
+    assert check.read("R_k") == pytest.approx(expected)
+
+
+def test_anchors_of_guys_are_not_proven_until_somebody_says_whose_they_are(solved):
+    row = solved[0].rows[0]
+    unsaid = replace(row.guys, are_shared=None)
+    study, checks = judge(solved, guys=unsaid)
+    for anchor in ("uphill_anchor", "downhill_anchor"):
+        for mode in ("tendon", "pull_out"):
+            assert checks[f"{anchor}.{mode}"].verdict is Verdict.NOT_PROVEN
+    assert checks["geometry.anchors"].verdict is Verdict.NOT_PROVEN
+    assert checks["uphill_guy.rope"].verdict is Verdict.PASS
+    assert list(rejudge(study)) == []
+
+
+def test_a_shared_anchor_has_more_than_one_of_its_own(solved):
+    row = solved[0].rows[0]
+    own = judge(solved, guys=replace(row.guys, are_shared=False))[1]
+    shared = judge(solved)[1]
+    for anchor in ("uphill_anchor.tendon", "downhill_anchor.tendon"):
+        assert shared[anchor].demand_kN > 1.3 * own[anchor].demand_kN
+    assert shared["uphill_guy.rope"].demand_kN == own["uphill_guy.rope"].demand_kN
+
+
+def test_a_bond_too_near_to_the_surface_or_an_edge_fails(solved):
+    row = solved[0].rows[0]
+
+    def demand(**asked):
+        return tuple((member, replace(kind, **asked)) for member, kind in row.anchors)
+
+    deep = judge(solved, anchors=demand(least_cover=4.0))[1]["geometry.cover"]
+    near = judge(solved, anchors=demand(least_edge=13.0))[1]["geometry.cover"]
+    open_ = judge(solved, edge_distance=None)[1]["geometry.cover"]
+    assert (deep.verdict, near.verdict) == (Verdict.FAIL, Verdict.FAIL)
+    assert "4 m is asked" in str(deep.reason)
+    assert "next edge is 12 m away" in str(near.reason)
+    assert open_.verdict is Verdict.NOT_PROVEN
+
+
+def test_anchors_that_cross_in_the_ground_are_not_proven(solved):
+    row = solved[0].rows[0]
+    crossing = replace(row.guys, are_shared=False)
+    check = judge(solved, guys=crossing)[1]["geometry.anchors"]
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert "two anchors come as near as" in str(check.reason)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_topic_more_never_makes_a_verdict_better(solved, seed):
+    draw = random.Random(seed)
+    row = solved[0].rows[0]
+    changes = {
+        "design_life": draw.choice((None, 50, 80, 130)),
+        "edge_distance": draw.choice((None, 1.0, 12.0)),
+        "net_parts": change(row.net_parts, "mesh", value=draw.choice((90e3, 500e3))),
+        "guys": replace(row.guys, are_shared=draw.choice((None, True, False))),
+    }
+    links = {name: one for name, one in solved[0].links.items() if draw.random() < 0.8}
+    left_out = tuple(draw.sample(TOPICS, draw.randint(1, 4)))
+    everything, checks = judge(solved, links=links, **changes)
+    less = replace(NF, not_checked=left_out)
+    study, fewer = judge(solved, less, links=links, **changes)
+    assert WORST.index(everything.verdict) <= WORST.index(study.verdict)
+    for name, check in fewer.items():
+        better = WORST.index(checks[name].verdict) > WORST.index(check.verdict)
+        assert not better, name
+    assert list(rejudge(study)) == []
+    assert study.profile.not_checked == list(left_out)
