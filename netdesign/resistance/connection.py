@@ -63,9 +63,14 @@ def find_direction_factor(angle: float) -> Datum:
 
 
 def find_angle(link: Link, pulled: float | None) -> float:
-    """Angle of the force to the line of a link [rad].
+    """Angle of the force to the line of a link: of the pull, else as given, else right.
 
-    That of the pull, else as given, else a right angle.
+    Parameters
+    ----------
+    link : Link
+        One of a chain.
+    pulled : float or None
+        Angle of the pull to its line, where that is known [rad].
     """
     if pulled is not None:
         return pulled

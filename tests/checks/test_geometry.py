@@ -14,6 +14,7 @@ from netdesign.checks import (
     load_standard,
 )
 from netdesign.checks.geometry import check_slope, compute_largest_row_spacing
+from netdesign.checks.schema import SPACING_CAP
 from netdesign.outcome import Verdict
 
 SWISS = load_standard("swiss-guideline-2007")
@@ -72,6 +73,30 @@ def test_row_spacing_of_the_guideline():
     at_45 = {"slope_angle": math.radians(45)}
     assert verdicts(upslope_length=18.8, **at_45)["spacing"] is Verdict.PASS
     assert verdicts(upslope_length=18.9, **at_45)["spacing"] is Verdict.FAIL
+
+
+@pytest.mark.parametrize(
+    ("friction", "factor"), [(0.5, 4.95), (0.55, 5.8), (0.6, 7.02)]
+)
+def test_factor_of_the_row_spacing_at_40_degrees(friction, factor):
+    height = 2.7 / math.cos(math.radians(40))
+    largest = compute_largest_row_spacing(math.radians(40), 2.7, friction)
+    assert largest / height == pytest.approx(factor, abs=5e-3)
+
+
+def test_beyond_the_cap_a_distance_that_the_formula_allows_is_not_proven():
+    # at 32 degrees f_L is 16.7; the cap of 7 is 7 * 3 / cos 32 = 24.76 m
+    flat = {"slope_angle": math.radians(32)}
+    assert verdicts(upslope_length=24.7, **flat)["spacing"] is Verdict.PASS
+    assert verdicts(upslope_length=24.8, **flat)["spacing"] is Verdict.NOT_PROVEN
+    uncapped = tuple(one for one in SWISS.values if one.id != SPACING_CAP)
+    row = replace(ROW, upslope_length=3.0, **flat)
+    (check,) = (
+        one
+        for one in check_geometry(row, replace(SWISS, values=uncapped))
+        if one.mode == "spacing"
+    )
+    assert check.verdict is Verdict.NOT_PROVEN
 
 
 def test_flat_slope_needs_no_rows():

