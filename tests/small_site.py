@@ -4,6 +4,8 @@ import math
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.resistance.connection import Link
+from netdesign.resistance.corrosion import Wear
 from netdesign.site.model import (
     DEPENDENT_MODES,
     MEMBER_MODES,
@@ -24,7 +26,16 @@ from netdesign.words.message import say
 from netdesign.words.names import as_given
 
 STRONG, WEAK = 1e7, 1e3  # [N]
-TURNS = AnchorType(kind="rope anchor", section=None, lever=None)
+TURNS = AnchorType(
+    kind="rope anchor",
+    section=None,
+    lever=None,
+    drilled=6.0,
+    least_cover=0.2,
+    least_edge=2.0,
+)
+LASTS = Wear(kind="rope", protected_years=100)
+EYE = Link(kind="eye", breaking=1e8, limit=None, count=1, angle=None, source="Links!C2")
 RUN = CheckRun(
     settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
     command="netdesign check site.xlsx",
@@ -48,6 +59,7 @@ def resist(value=STRONG, **special):
             type_id="T1",
             source="Anchors!B2",
             ground="till",
+            wear=LASTS if mode in ("tendon", "rope") else None,
         )
         for member, mode in (*MEMBER_MODES, *DEPENDENT_MODES)
     )
@@ -63,6 +75,7 @@ def list_net_parts(value=STRONG, *, has_ropes):
             basis="declared",
             type_id="B22",
             source="Ropes!B4",
+            wear=LASTS if mode == "rope" else None,
         )
         for part, mode in (NET_MODES if has_ropes else NET_MODES[:1])
     )
@@ -83,7 +96,9 @@ def build_row(name, **changes):
         "layout": SupportLayout(
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),
-        "guys": Guys(count=2, splay=math.radians(30.0)),
+        "guys": Guys(count=2, splay=math.radians(30.0), are_shared=True),
+        "design_life": 50,
+        "edge_distance": 15.0,
         "resistances": resist(),
         "net_parts": list_net_parts(has_ropes=changes.get("panel") is not None),
         "ground_type": "till",
@@ -107,6 +122,7 @@ def build_site(*rows, **changes):
         "project": Project(name="Combe"),
         "ranges": RANGES,
         "rows": rows,
+        "links": dict.fromkeys(("T1", "T2", "B22"), (EYE,)),
         "file_name": "site.xlsx",
         "sha256": "0" * 64,
         "notes": (as_given("column X was not read"),),

@@ -101,7 +101,7 @@ def _list_missing(site: Site) -> list[Message]:
     """Lines on what the net rows lack for a verdict; rows that lack the same share."""
     by_lack: dict[tuple[Message, ...], list[str]] = {}
     for row in site.rows:
-        if names := list_missing(row):
+        if names := list_missing(row, site.links):
             by_lack.setdefault(names, []).append(row.id)
     return [
         say("plan.missing", rows=tuple(rows), names=names)

@@ -2,21 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import chain
 
+from netdesign.resistance.connection import Link
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.model import NetRow, Resistance
+from netdesign.site.model import CONNECTED, NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.words.message import Message, say
 
 _SHEET_BY_MODE = {"rope": ROPES, "compression": POSTS, "bearing": POSTS}
 
 
-def list_missing(row: NetRow) -> tuple[Message, ...]:
-    """Names of columns and sheets that a verdict on a net row lacks, each once."""
-    found = chain(row.unsaid, _list_of_row(row), _list_of_types(row), _list_of_end(row))
+def list_missing(
+    row: NetRow, links: Mapping[str, tuple[Link, ...]]
+) -> tuple[Message, ...]:
+    """Names of columns and sheets that a verdict on a net row lacks, each once.
+
+    Parameters
+    ----------
+    row : NetRow
+        As read.
+    links : mapping of str to tuple of Link
+        Chains of sheet Links, by type.
+    """
+    found = chain(
+        row.unsaid,
+        _list_of_row(row),
+        _list_of_types(row),
+        _list_chains(row, links),
+        _list_of_end(row),
+    )
     return tuple(dict.fromkeys(found))
 
 
@@ -29,7 +46,8 @@ def _list_of_row(row: NetRow) -> Iterator[Message]:
         yield _name(NETS, "anchor_axes")
     for anchor, _ in row.anchors:
         yield from row.list_unsaid_cover(anchor, "intermediate")
-    if row.guys.count > 1 and row.guys.are_shared is None:
+    may_be_two = row.guys.count > 1 or _name(NETS, "guy_count") in row.unsaid
+    if may_be_two and row.guys.are_shared is None:
         yield _name(NETS, "guy_anchors")
 
 
@@ -44,6 +62,17 @@ def _list_of_types(row: NetRow) -> Iterator[Message]:
         elif one.value is None and not (one.tests or one.dimensions):
             yield from _list_lacking(row, one)
         yield from (*row.list_unsaid_grounds(one), *row.list_unsaid_wear(one))
+
+
+def _list_chains(
+    row: NetRow, links: Mapping[str, tuple[Link, ...]]
+) -> Iterator[Message]:
+    """Types of ropes and anchors whose links nobody gives."""
+    at_end = (*(row.end_resistances or ()), *_list_along(row))
+    for one in (*row.resistances, *row.net_parts, *at_end):
+        is_rope = one.mode in ("rope", "tendon") and one.member in CONNECTED
+        if is_rope and one.type_id and one.type_id not in links:
+            yield say("links.of_type", type=one.type_id)
 
 
 def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:

@@ -11,6 +11,7 @@ from types import MappingProxyType
 from netdesign.checks import list_standards
 from netdesign.edge.given_files import is_there
 from netdesign.outcome import SiteDataError
+from netdesign.resistance.connection import Link
 from netdesign.site.cells.cells import UNDECLARED, Answers, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
@@ -152,7 +153,7 @@ def read_site(
     rows = tuple(
         replace(
             mark_replaced(row, replaced),
-            unsaid=_name_unsaid(row, ranges),
+            unsaid=_name_unsaid(row, ranges, links),
             questions=questions.get(row.id, ()),
         )
         for row in net_rows
@@ -209,13 +210,16 @@ def _list_unknown_profiles(workbook: Workbook, cover: _Cover) -> Iterator[Findin
     )
 
 
-def _name_unsaid(row: NetRow, ranges: RangesSheet) -> tuple[Message, ...]:
+def _name_unsaid(
+    row: NetRow, ranges: RangesSheet, links: Mapping[str, tuple[Link, ...]]
+) -> tuple[Message, ...]:
     """Lacks of every force of a row, with all that its checks lack besides.
 
     What the forces lack would hide the rest: a row is completed in one go.
     """
     unsaid = row.unsaid + ranges.unsaid
-    return tuple(dict.fromkeys((*unsaid, *list_missing(row)))) if unsaid else ()
+    missing = list_missing(row, links) if unsaid else ()
+    return tuple(dict.fromkeys((*unsaid, *missing)))
 
 
 def _find_tables(

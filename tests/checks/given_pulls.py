@@ -14,6 +14,7 @@ from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site
 from netdesign.structure import compute_anchor_forces, place_support
+from netdesign.structure.members import NetPart
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 
@@ -41,6 +42,11 @@ NETS = {
     "layers of the snow": "uniform",
     "panel system": "none",
     "axes of the anchors": "along the pull",
+    "anchors of the guys": "own",
+    "ground of the anchors": "till",
+    "design life in years": 50,
+    "distance to the next edge [m]": 20,
+    "mesh strength [kN/m]": 300,
 }
 AXES = ("foot anchor axis", "uphill anchor axis", "downhill anchor axis")
 ROPE = {
@@ -49,6 +55,7 @@ ROPE = {
     "construction": "6x36-IWRC",
     "rope grade [MPa]": 1770,
     "termination": "clips",
+    "protected for years": 60,
 }
 POST = {
     "id": "P",
@@ -63,6 +70,16 @@ POST = {
     "post width [mm]": 120,
     "section modulus [cm3]": 144,
     "friction of the base": 0.6,
+}
+
+
+OF_ANCHOR = {  # where and how long it holds, unless a test says so itself
+    "ground": "till",
+    "corrosion protection": "cover",
+    "protected for years": 100,
+    "drilled length [m]": 5.5,
+    "least cover of the bond [m]": 0.5,
+    "least distance to an edge [m]": 2.0,
 }
 
 
@@ -98,11 +115,12 @@ def study_row(
 def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets):
     """Workbook of the row; pulls are none of its cells."""
     line = NETS | {key.replace("_", " "): v for key, v in nets.items()}
+    line |= {"ground of the anchors": anchor.get("ground", "till")}
     if any(key.startswith(AXES) for key in line):
         del line["axes of the anchors"]
     sheets = {
         "Nets": line,
-        "Anchors": {"id": "A"} | anchor,
+        "Anchors": {"id": "A"} | OF_ANCHOR | anchor,
         "Ropes": ROPE,
         "Posts": post,
         "Ends": {"row": "R", "types of the support": "as inside"},
@@ -113,6 +131,10 @@ def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets
         sheet = workbook.create_sheet(name)
         sheet.append(list(line))
         sheet.append(list(line.values()))
+    links = workbook.create_sheet("Links")
+    links.append(["type", "link", "strength of the link [kN]"])
+    for kind in ("A", ROPE["id"]):
+        links.append([kind, "eye", 900])
     ranges = workbook.create_sheet("Ranges")
     for line in (
         ["quantity", "low", "high", "samples"],
@@ -141,7 +163,10 @@ def give_pulls(site, foot, head) -> CaseResult:
         outcome=Outcome.CONVERGED,
         member_forces={
             member: Band(low=force, value=force, high=force)
-            for member, force in anchors.member_forces.items()
+            for member, force in {
+                **anchors.member_forces,
+                NetPart.MESH: 1e3 * max(math.hypot(*foot), math.hypot(*head)),
+            }.items()
         },
         anchors=anchors,
     )

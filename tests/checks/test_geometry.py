@@ -196,7 +196,7 @@ def test_each_check_says_what_it_compared(mode, changes, reason):
         ("inclination", ("geometry.inclination.min", "geometry.inclination.max")),
         ("slope", ("geometry.slope.min", "geometry.slope.max")),
         ("height", ("geometry.height.ratio",)),
-        ("spacing", ("geometry.spacing.ground_friction",)),
+        ("spacing", ("geometry.spacing.ground_friction", SPACING_CAP)),
         ("gap", ("geometry.gap.max",)),
     ],
 )

@@ -28,7 +28,7 @@ from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say
 from tests.read_check import bring, scale_force, scale_step
-from tests.small_site import RANGES, RUN, build_row, build_site, resist
+from tests.small_site import LASTS, RANGES, RUN, build_row, build_site, resist
 
 PROFILE = load_standard("eurocode")
 ACCEPTED = Project(accepted_law=RUN.creep_law.name)
@@ -55,6 +55,7 @@ def an_end(angle=40.0, value=1e7):
             type_id="T2",
             source="Anchors!B3",
             ground="till",
+            wear=LASTS if mode in ("tendon", "rope") else None,
         )
         for member, mode in END_MODES
     )
