@@ -37,6 +37,8 @@ CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
 POST_EFFICIENCY = "post.efficiency"
+TEST_SCATTER = "tests.scatter"  # coefficient of variation, where it is known
+TEST_COUNT = "tests.count"  # of each anchor type in each ground
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
@@ -47,6 +49,8 @@ MODES_WITHOUT_FORCE = ("direction", "lateral")
 BASES = ("tested", "computed", "declared")
 # What no demand lies below: the guideline's load, or nothing.
 Floor = Literal["guideline", "none"]
+# Way from tests to a characteristic resistance.
+Route = Literal["correlation", "scatter_known", "scatter_unknown"]
 
 # Accepted values of each file, with the unit in which they stand there.
 LIMIT_UNITS = {
@@ -98,6 +102,8 @@ MODEL_UNITS = {
     "end.isolated_gap": "m",
     LATERAL_SHARE: "-",
     POST_EFFICIENCY: "-",
+    TEST_SCATTER: "-",
+    TEST_COUNT: "-",
 }
 # Values by a count, such as the number of tests; the counts need no gap.
 TABLE_COUNTS = {
@@ -144,6 +150,12 @@ class LoadTable(_Table):
     floor: Floor = "guideline"
 
 
+class RouteTable(_Table):
+    """``tests``: which way from tests to a characteristic resistance counts."""
+
+    route: Route = "correlation"
+
+
 class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
@@ -158,6 +170,7 @@ class DocumentFile(_Table):
     what_it_is_not: Text
     choice: str = ""  # one of those in choices.toml
     load: LoadTable = LoadTable()
+    tests: RouteTable = RouteTable()
 
 
 class Entry(_Table):
@@ -432,14 +445,16 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
     """Keys accepted at the level of an unknown one."""
     depth = sum(isinstance(part, int) for part in detail["loc"])
     fields = shape.model_fields
-    if detail["loc"][0] == "load" and len(detail["loc"]) > 1:
-        fields = LoadTable.model_fields
+    inner: Mapping[str, type[BaseModel]] = {"load": LoadTable, "tests": RouteTable}
+    own = inner.get(str(detail["loc"][0]))
+    if own and len(detail["loc"]) > 1:
+        fields = own.model_fields
     if depth:
         (element,) = get_args(next(iter(fields.values())).annotation)
         fields = element.model_fields
     if depth > 1:
-        inner = TableRow if element is TableEntry else FactorEntry
-        fields = inner.model_fields
+        part = TableRow if element is TableEntry else FactorEntry
+        fields = part.model_fields
     return tuple(field.alias or name for name, field in fields.items())
 
 

@@ -33,7 +33,9 @@ def record_profile(standard: Standard) -> ProfileRecord:
         sha256=standard.sha256,
         version=standard.version,
         choice=standard.choice,
+        choice_text=standard.choice_text,
         floor=standard.floor,
+        route=standard.route,
         is_floor_overruled=standard.is_floor_overruled,
         is_default=standard.is_default,
         values=[

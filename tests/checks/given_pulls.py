@@ -81,13 +81,14 @@ def study_row(
     head,
     floor="none",
     post=POST,
+    tests=(),
     **nets,
 ):
     """Study of the row under a profile, given by its id or its folder.
 
     Without a floor by the guideline's load the given pulls are the demand.
     """
-    path = write_row(tmp_path, anchor=anchor, post=post, **nets)
+    path = write_row(tmp_path, anchor=anchor, post=post, tests=tests, **nets)
     site = read_site(path)
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
@@ -95,8 +96,10 @@ def study_row(
     return judge_site(site, [RowGrid(results=[result])], standard, run)
 
 
-def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets):
-    """Workbook of the row; pulls are none of its cells."""
+def write_row(
+    tmp_path: Path, *, anchor, post=POST, tests=(), foot=None, head=None, **nets
+):
+    """Workbook of the row; pulls are none of its cells. ``tests``: force and result."""
     line = NETS | {key.replace("_", " "): v for key, v in nets.items()}
     if any(key.startswith(AXES) for key in line):
         del line["axes of the anchors"]
@@ -113,6 +116,12 @@ def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets
         sheet = workbook.create_sheet(name)
         sheet.append(list(line))
         sheet.append(list(line.values()))
+    if tests:
+        sheet = workbook.create_sheet("Tests")
+        headings = ("pull-out force [kN]", "outcome of the test")
+        sheet.append(["anchor type", *headings, "planned proof load [kN]"])
+        for line in tests:
+            sheet.append(["A", *line])
     ranges = workbook.create_sheet("Ranges")
     for line in (
         ["quantity", "low", "high", "samples"],
