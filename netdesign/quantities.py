@@ -158,7 +158,7 @@ QUANTITIES: Mapping[str, Form] = MappingProxyType({row.key: row for row in _ROWS
 _DIGITS_OF_UNIT = {"kN": 1, "m": 2, "deg": 1, "-": 4}
 _DIGITS: Mapping[str, int | None] = {
     **dict.fromkeys(("γ_E", "γ_R", "ξ_m", "ξ_min", "μ_b"), None),  # as given
-    **{"f_R": 2, "A": 2, "c": 3, "w": 3, "k_q": 3},
+    **{"ξ_5": 3, "f_R": 2, "A": 2, "c": 3, "w": 3, "k_q": 3},
 }
 
 

@@ -85,6 +85,7 @@ THIRD_PARTY = {
         "numerics.newton",
         "snow.*",
         "planview.special",
+        "resistance.fractile",
         "winter.table",
         "winter.trend",
         "solving.identity",

@@ -7,20 +7,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign.calculation.quantity import Kind, Quantity, given
-from netdesign.checks.forces import rate, resist_by_tests
+from netdesign.checks.forces import rate
 from netdesign.checks.loader import Standard, StandardValue
 from netdesign.checks.result import CheckResult, Declaration, GivenResistance
-from netdesign.checks.schema import (
-    ACTION_FACTOR,
-    CORRELATION_LEAST,
-    CORRELATION_MEAN,
-)
+from netdesign.checks.routes import TestedResistance, find_tested_resistance
+from netdesign.checks.schema import ACTION_FACTOR
 from netdesign.outcome import Verdict
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_member, name_mode
-
-_CORRELATIONS = (CORRELATION_MEAN, CORRELATION_LEAST)
 
 
 def judge(
@@ -108,6 +103,7 @@ def check_member(
         reason=_explain(verdict, gaps, is_slack=action.high == 0.0),
         used=used,
         assumed=_list_assumed_factors(resistance, standard),
+        tested=find_tested(resistance, standard),
     )
 
 
@@ -199,26 +195,18 @@ def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity
     if tests is None:
         lack = resistance.lack or say("check.no_resistance", what=what)
         return given("R_k", None, "kN", source, lack=lack)
-    factors = [_find_correlation(tests.count, standard, key) for key in _CORRELATIONS]
-    if None in factors:
-        lack = say("check.no_correlation", count=tests.count, what=what)
-        return given("R_k", None, "kN", source, lack=lack)
-    on_mean, on_least = (
-        given(symbol, factor, "-", key, kind=Kind.PROFILE)
-        for symbol, factor, key in zip(
-            ("ξ_m", "ξ_min"), factors, _CORRELATIONS, strict=True
-        )
-    )
-    mean, least = (
-        given(symbol, kilonewton_from_newton(force), "kN", source)
-        for symbol, force in (("R_m", tests.mean), ("R_min", tests.least))
-    )
-    return resist_by_tests(mean, on_mean, least, on_least)
+    return find_tested_resistance(tests, standard, source, what).counting
 
 
-def _find_correlation(count: int, standard: Standard, key: str) -> float | None:
-    table = standard.find_table(key)
-    return table.find(count) if table else None
+def find_tested(
+    resistance: GivenResistance, standard: Standard
+) -> TestedResistance | None:
+    """Resistance from tests by every way; None where it is not from tests."""
+    tests = resistance.tests
+    if tests is None or resistance.value is not None:
+        return None
+    what = _name_place(resistance)
+    return find_tested_resistance(tests, standard, resistance.source, what)
 
 
 def _name_place(resistance: GivenResistance) -> Message:

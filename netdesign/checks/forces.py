@@ -1,8 +1,8 @@
 """Forces on the members of a support and their utilisation, step by step.
 
 Each function is a line of a theory page: checks/THEORY.md, (V1) and (V2);
-structure/THEORY.md, (S9) to (S19); panel/THEORY.md, (P7) to (P9);
-resistance/THEORY.md, (R1) and (R12). Forces in kN, lengths in m, angles in degrees.
+structure/THEORY.md, (S9) to (S20); panel/THEORY.md, (P7) to (P9);
+resistance/THEORY.md, (R1), (R12), (R15). Forces in kN, lengths in m, angles in degrees.
 """
 
 from __future__ import annotations
@@ -225,6 +225,11 @@ def resist_by_tests(
     return smallest(mean / on_mean, least / on_least).named("R_k", "kN", "(R1)")
 
 
+def resist_by_fractile(median: Quantity, over: Quantity) -> Quantity:
+    """Pull-out resistance from tests, as a fractile of their distribution."""
+    return (median / over).named("R_k", "kN", "(R15)")
+
+
 def rate(
     force: Quantity, on_action: Quantity, resistance: Quantity, on_resistance: Quantity
 ) -> Quantity:
@@ -357,6 +362,8 @@ def calculate_resistance(leaves: Leaves, force: SupportForce | None) -> Quantity
         return resist_by_tests(
             *(leaves[one] for one in ("R_m", "ξ_m", "R_min", "ξ_min"))
         )
+    if "R_G" in leaves:
+        return resist_by_fractile(leaves["R_G"], leaves["ξ_5"])
     if "μ_b" in leaves and force is not None and force.pressing is not None:
         return resist_by_friction(leaves["μ_b"], leaves["γ_E"], force.pressing)
     return leaves["R_k"]

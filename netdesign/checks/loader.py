@@ -21,6 +21,7 @@ from netdesign.checks.schema import (
     Floor,
     LimitsFile,
     ModelFile,
+    Route,
     TableEntry,
     TablesFile,
     check_table,
@@ -137,9 +138,11 @@ class StandardTable:
 class Standard:
     """A limit profile: its identity, its values, and the hash of its files.
 
-    ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
+    ``choice`` names the set of factors taken from ``choices.toml``, ``choice_text`` is
+    what it says of itself; "" for none.
     ``floor`` is what no demand lies below: the guideline's load, unless the profile
     says "none"; ``is_floor_overruled`` tells that somebody chose the other one,
+    ``route`` which way from tests to a characteristic resistance counts,
     ``is_default`` that nobody named the profile; ``not_checked`` names the topics that
     others must check.
     """
@@ -154,7 +157,9 @@ class Standard:
     what_it_is: str
     what_it_is_not: str
     choice: str = ""
+    choice_text: str = ""
     floor: Floor = "guideline"
+    route: Route = "correlation"
     is_floor_overruled: bool = False
     is_default: bool = False
     not_checked: tuple[str, ...] = ()
@@ -256,8 +261,10 @@ def _load_folder(folder: Path) -> Standard:
     if choice is not None:
         tables = _take_from_choice(tables, choice.table)
     return Standard(
-        **document.model_dump(exclude={"load", "scope"}),
+        **document.model_dump(exclude={"load", "scope", "tests"}),
+        choice_text=choice.text if choice else "",
         floor=document.load.floor,
+        route=document.tests.route,
         not_checked=tuple(
             topic
             for topic, said in document.scope.model_dump().items()

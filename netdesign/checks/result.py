@@ -8,6 +8,7 @@ from typing import Protocol
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.steps import list_named
+from netdesign.checks.routes import TestedResistance
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.words.message import Message, say
@@ -136,6 +137,8 @@ class CheckResult:
         Ids of the profile's values in this check that are only assumed.
     declaration : Declaration or None
         Where it is said to be proven, whatever the verdict.
+    tested : TestedResistance or None
+        Resistance from tests by every way; None where it is not from tests.
     is_unbounded : bool
         Nothing is left to resist the demand: its utilisation is infinite, and no
         number.
@@ -151,6 +154,7 @@ class CheckResult:
     assumed: tuple[str, ...] = ()
     declaration: Declaration | None = None
     is_unbounded: bool = False
+    tested: TestedResistance | None = None
 
     def find(self, symbol: str) -> Quantity | None:
         """Quantity of the calculation under a symbol; None if it has no value."""

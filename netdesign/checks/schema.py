@@ -39,6 +39,8 @@ GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
 ANCHOR_DISTANCE = "anchor.distance.min"
 POST_EFFICIENCY = "post.efficiency"
+TEST_SCATTER = "tests.scatter"  # coefficient of variation, where it is known
+TEST_COUNT = "tests.count"  # of each anchor type in each ground
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
@@ -49,6 +51,8 @@ MODES_WITHOUT_FORCE = ("direction", "lateral")
 BASES = ("tested", "computed", "declared")
 # What no demand lies below: the guideline's load, or nothing.
 Floor = Literal["guideline", "none"]
+# Way from tests to a characteristic resistance.
+Route = Literal["correlation", "scatter_known", "scatter_unknown"]
 
 # Accepted values of each file, with the unit in which they stand there.
 LIMIT_UNITS = {
@@ -102,6 +106,8 @@ MODEL_UNITS = {
     "end.isolated_gap": "m",
     LATERAL_SHARE: "-",
     POST_EFFICIENCY: "-",
+    TEST_SCATTER: "-",
+    TEST_COUNT: "-",
 }
 # Values by a count, such as the number of tests; the counts need no gap.
 TABLE_COUNTS = {
@@ -163,6 +169,12 @@ class ScopeTable(_Table):
     corrosion: Checked = "checked"  # of anchors and ropes over the design life
 
 
+class RouteTable(_Table):
+    """``tests``: which way from tests to a characteristic resistance counts."""
+
+    route: Route = "correlation"
+
+
 class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
@@ -178,6 +190,7 @@ class DocumentFile(_Table):
     choice: str = ""  # one of those in choices.toml
     load: LoadTable = LoadTable()
     scope: ScopeTable = ScopeTable()
+    tests: RouteTable = RouteTable()
 
 
 class Entry(_Table):
@@ -389,7 +402,11 @@ def _describe_gap(number: int, start: int, expected: float) -> Message:
 
 
 # Tables of document.toml.
-_INNER: Mapping[str | int, type[_Table]] = {"load": LoadTable, "scope": ScopeTable}
+_INNER: Mapping[str | int, type[_Table]] = {
+    "load": LoadTable,
+    "scope": ScopeTable,
+    "tests": RouteTable,
+}
 
 FileT = TypeVar(
     "FileT",
@@ -461,8 +478,8 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
         (element,) = get_args(next(iter(fields.values())).annotation)
         fields = element.model_fields
     if depth > 1:
-        inner = TableRow if element is TableEntry else FactorEntry
-        fields = inner.model_fields
+        part = TableRow if element is TableEntry else FactorEntry
+        fields = part.model_fields
     return tuple(field.alias or name for name, field in fields.items())
 
 

@@ -13,6 +13,7 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
+    DEFAULT_STANDARD,
     accuracy_option,
     choice,
     example_option,
@@ -47,8 +48,6 @@ if TYPE_CHECKING:
     from netdesign.checks.schema import Floor
     from netdesign.site.model import Site
     from netdesign.words.catalogue import Language
-
-DEFAULT_STANDARD = "nf-p-95-304-style"
 
 
 @click.command(cls=ConfiguredCommand)

@@ -22,6 +22,7 @@ from netdesign.words.message import Message, say
 
 Decorator = Callable[..., Any]
 
+DEFAULT_STANDARD = "nf-p-95-304-style"
 SETTLING_MODELS = ("delta-snow-ageing", "hs2swe", "delta-snow")  # first: the default
 _MOST_PROCESSES = 256
 DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}

@@ -60,8 +60,11 @@ def show_profile(name: str, *, language: Language) -> None:
     tell(told, language)
     if profile.choice:
         tell(say("standard.choice", choice=profile.choice), language)
+        click.echo(show_own(words, profile.choice_text))
     floor = f"floor.profile_{profile.floor}"
     tell(say(floor), language)
+    route = render(name_of("route", profile.route), language)
+    tell(say("standard.route", route=route), language)
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:

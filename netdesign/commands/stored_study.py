@@ -86,7 +86,7 @@ def _parse_command(command: str) -> dict[str, Any] | None:
         place = words.index("check")
         if program != "netdesign" or check is None:
             return None
-        with click.Context(check) as context:
+        with click.Context(check, **group.context_settings) as context:
             parser = check.make_parser(context)
             values, left, _ = parser.parse_args(words[place + 1 :])
     except (ValueError, click.UsageError):

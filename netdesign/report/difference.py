@@ -427,6 +427,7 @@ def _list_profile(study: Study) -> Named:
         say("diff.version"): profile.version,
         say("diff.choice"): profile.choice,
         say("diff.floor"): profile.floor,
+        say("diff.route"): profile.route,
         **values,
     }
 

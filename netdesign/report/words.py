@@ -312,6 +312,7 @@ def show_own(words: Words, text: str) -> str:
 
 _OWN = (
     *("profile_title", "profile_about", "profile_text", "profile_source"),
+    "profile_choice",
     *("creep_law", "reference", "measured", "model_source"),
 )
 

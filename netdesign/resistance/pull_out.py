@@ -9,6 +9,42 @@ from netdesign.outcome import require_count, require_positive, require_within
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SingleTest:
+    """One anchor that was pulled.
+
+    Attributes
+    ----------
+    load : float
+        Largest load that it held [N]; a lower bound of its resistance where the test
+        stopped before it gave way.
+    is_held : bool or None
+        It held that load to the end; False: it was pulled out; None: not said.
+    proof_load : float or None
+        Load that the test was to reach [N]; None where none is given.
+    displacement : float or None
+        Of its head at the largest load [m]; None where none is given.
+    source : str
+        Cell of the load.
+    """
+
+    load: float
+    is_held: bool | None = None
+    proof_load: float | None = None
+    displacement: float | None = None
+    source: str = ""
+
+    @property
+    def is_accepted(self) -> bool:
+        """It held the load that it was to reach."""
+        reached = self.proof_load is not None and self.load >= self.proof_load
+        return self.is_held is True and reached
+
+    def __post_init__(self) -> None:
+        """Refuse a load that is none."""
+        require_positive("load of a test", self.load, "N")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PullOutTests:
     """Pull-out tests on the site.
 
@@ -18,11 +54,14 @@ class PullOutTests:
         Number of tests.
     least, mean : float
         Least and mean of the tested resistances [N].
+    singles : tuple of SingleTest
+        Each test; empty where only number, least and mean are given.
     """
 
     count: int
     least: float
     mean: float
+    singles: tuple[SingleTest, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse what no series of tests can give."""

@@ -86,6 +86,8 @@ def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
         yield _name(POSTS, "base_friction")
     elif isinstance(names, tuple) and names:
         yield from (one for one in names if isinstance(one, Message))
+    elif one.lack is not None and one.lack.key == "type.sleeve_unsaid":
+        yield _name(ANCHORS, "sleeve")
     else:
         yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), one.mode)
 

@@ -9,6 +9,7 @@ from decimal import Decimal
 from typing import Literal
 
 from netdesign.outcome import ModelError
+from netdesign.resistance.pull_out import SingleTest
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, Severity, add_nearest
 from netdesign.site.cells.numbers import (
@@ -53,6 +54,8 @@ class Reading:
         None where the sheet has no such column.
     derivation : Message or None
         How the value follows from other inputs; None where it was typed.
+    singles : tuple of SingleTest
+        Pull-out tests of sheet Tests that it is the number of.
     """
 
     field: Field
@@ -61,6 +64,7 @@ class Reading:
     text: str = ""
     cell: Cell | None = None
     derivation: Message | None = None
+    singles: tuple[SingleTest, ...] = ()
 
     @property
     def place(self) -> str:

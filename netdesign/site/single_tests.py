@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from statistics import fmean
 
+from netdesign.resistance.pull_out import SingleTest
 from netdesign.site.cells.findings import Finding
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.readings import Reading, Row, refuse
@@ -92,5 +93,23 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
         for key, value in zip(TEST_COLUMNS, numbers, strict=True)
         if line[key].state == "blank"
     }
+    if "test_count" in counted:
+        singles = tuple(map(read_single, tests))
+        counted = {
+            **counted,
+            "test_count": replace(counted["test_count"], singles=singles),
+        }
     field = line["ground"].field
     return {**line, **counted, "ground": replace(ground, field=field)}
+
+
+def read_single(test: Row) -> SingleTest:
+    """One test; what is not said of its result stays open."""
+    words = {"held": True, "pulled out": False}
+    return SingleTest(
+        load=test["force"].si,
+        is_held=words.get(test["result"].word),
+        proof_load=test["proof_load"].given_si,
+        displacement=test["displacement"].given_si,
+        source=test["force"].place,
+    )

@@ -217,6 +217,9 @@ def _describe_type(
     place = kind["test_least"].place if tests else resistance.place
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
+    if mode == "pull_out" and basis == "computed" and is_given and not tests:
+        key = _find_sleeve(kind["sleeve"].word)
+        value, derivation = (None, None) if key else (value, derivation)
     return Resistance(
         member=member,
         mode=mode,
@@ -261,6 +264,14 @@ def _find_lacking(kind: Row, mode: str) -> str:
     if mode == "tendon" and lacks_inner(kind):
         return "type.no_inner"
     return "type.no_ground" if mode == "pull_out" and lacks_ground(kind) else ""
+
+
+def _find_sleeve(word: str) -> str:
+    """Text of why a computed pull-out resistance does not count; empty where it does.
+
+    Fabric sleeves scatter widely: only tests of the type on the site tell its bond.
+    """
+    return {"no": "", "yes": "type.sleeve_untested"}.get(word, "type.sleeve_unsaid")
 
 
 def _bend_anchor(

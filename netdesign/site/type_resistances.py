@@ -80,7 +80,12 @@ def find_tests(row: Row) -> PullOutTests | None:
         return None
     if least.si > mean.si:  # ``check_tests`` has refused it
         return None
-    return PullOutTests(count=int(count.number), least=least.si, mean=mean.si)
+    return PullOutTests(
+        count=int(count.number),
+        least=least.si,
+        mean=mean.si,
+        singles=count.singles,
+    )
 
 
 def check_tests(row: Row, findings: list[Finding]) -> None:

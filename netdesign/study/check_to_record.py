@@ -17,15 +17,23 @@ from netdesign.checks import (
     withhold,
 )
 from netdesign.checks.check import find_missing_force, not_proven
+from netdesign.checks.routes import TestedResistance
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
+from netdesign.resistance.pull_out import SingleTest
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.dependent import resist
 from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.member_force import MemberForce
-from netdesign.study.records import CheckRecord, DeclarationRecord
+from netdesign.study.records import (
+    CheckRecord,
+    DeclarationRecord,
+    SingleTestRecord,
+    TestsRecord,
+)
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 INCLINATION = "column.quantities.inclination"  # name of the net's inclination
@@ -183,9 +191,39 @@ def record_result(
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
         resistance_derivation=given.derivation if given else None,
+        tests=_record_tests(given, result.tested) if given else None,
         steps=[] if result.used is None else list_steps(result.used),
         declared=_record_declaration(declared) if declared else None,
         is_unbounded=result.is_unbounded,
+    )
+
+
+def _record_tests(
+    given: Resistance, tested: TestedResistance | None
+) -> TestsRecord | None:
+    tests = given.tests
+    if tests is None or tested is None:
+        return None
+    return TestsRecord(
+        count=tests.count,
+        least_kN=kilonewton_from_newton(tests.least),
+        mean_kN=kilonewton_from_newton(tests.mean),
+        singles=[_record_single(one) for one in tests.singles],
+        route=tested.route,
+        routes={name: one.value for name, one in tested.routes.items()},
+        reasons={n: one.lacks[0] for n, one in tested.routes.items() if one.lacks},
+        proof_factor=tested.proof_factor,
+    )
+
+
+def _record_single(test: SingleTest) -> SingleTestRecord:
+    proof, moved = test.proof_load, test.displacement
+    return SingleTestRecord(
+        cell=test.source,
+        load_kN=kilonewton_from_newton(test.load),
+        is_held=test.is_held,
+        proof_load_kN=None if proof is None else kilonewton_from_newton(proof),
+        displacement_mm=None if moved is None else 1e3 * moved,
     )
 
 

@@ -172,6 +172,33 @@ class HoldRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SingleTestRecord:
+    """One pull-out test."""
+
+    cell: str  # "Tests!C2"
+    load_kN: float  # largest that the anchor held
+    is_held: bool | None  # False: it was pulled out; None: not said
+    proof_load_kN: float | None  # that the test was to reach
+    displacement_mm: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TestsRecord:
+    """Pull-out tests of a type, and what follows from them by each way."""
+
+    __test__: ClassVar = False  # for pytest
+
+    count: int
+    least_kN: float
+    mean_kN: float
+    singles: list[SingleTestRecord]  # empty where each is not given
+    route: str  # way that counts
+    routes: dict[str, float | None]  # characteristic resistance [kN]
+    reasons: dict[str, Text]  # why there is none
+    proof_factor: float | None  # proof load over design force
+
+
+@dataclass(frozen=True, kw_only=True)
 class CheckRecord:
     """One check. Demand and resistance are design values.
 
@@ -201,6 +228,7 @@ class CheckRecord:
     resistance_ground: str = ""  # of a pull-out; "" where type or row gives none
     resistance_years: int | None = None  # for which its steel lasts; None: not known
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
+    tests: TestsRecord | None = None  # of a pull-out resistance that is from them
     steps: list[Step] = field(default_factory=list)
     declared: DeclarationRecord | None = None  # whatever the verdict
     spreads: list[SpreadRecord] = field(default_factory=list)
@@ -367,7 +395,9 @@ class ProfileRecord:
     values: list[ProfileValue]
     version: str = ""
     choice: str = ""  # set of factors in force; "" where the profile has none
+    choice_text: str = ""  # what that set is
     floor: str = "guideline"  # what no demand lies below: or "none"
+    route: str = "correlation"  # way from tests to a resistance that counts
     is_floor_overruled: bool = False  # the profile itself takes the other one
     is_default: bool = False  # nobody named it
     not_checked: list[str] = field(default_factory=list)  # topics that others check

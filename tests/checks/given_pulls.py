@@ -98,13 +98,14 @@ def study_row(
     head,
     floor="none",
     post=POST,
+    tests=(),
     **nets,
 ):
     """Study of the row under a profile, given by its id or its folder.
 
     Without a floor by the guideline's load the given pulls are the demand.
     """
-    path = write_row(tmp_path, anchor=anchor, post=post, **nets)
+    path = write_row(tmp_path, anchor=anchor, post=post, tests=tests, **nets)
     site = read_site(path)
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
@@ -112,8 +113,10 @@ def study_row(
     return judge_site(site, [RowGrid(results=[result])], standard, run)
 
 
-def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets):
-    """Workbook of the row; pulls are none of its cells."""
+def write_row(
+    tmp_path: Path, *, anchor, post=POST, tests=(), foot=None, head=None, **nets
+):
+    """Workbook of the row; pulls are none of its cells. ``tests``: force and result."""
     line = NETS | {key.replace("_", " "): v for key, v in nets.items()}
     line |= {"ground of the anchors": anchor.get("ground", "till")}
     if any(key.startswith(AXES) for key in line):
@@ -135,6 +138,12 @@ def write_row(tmp_path: Path, *, anchor, post=POST, foot=None, head=None, **nets
     links.append(["type", "link", "strength of the link [kN]"])
     for kind in ("A", ROPE["id"]):
         links.append([kind, "eye", 900])
+    if tests:
+        sheet = workbook.create_sheet("Tests")
+        headings = ("pull-out force [kN]", "outcome of the test")
+        sheet.append(["anchor type", *headings, "planned proof load [kN]"])
+        for line in tests:
+            sheet.append(["A", *line])
     ranges = workbook.create_sheet("Ranges")
     for line in (
         ["quantity", "low", "high", "samples"],

@@ -155,6 +155,7 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
             "bond length [m]": 5.0,
             "ground": "gravel",
             "grouting": "B",
+            "fabric sleeve": "no",
         },
         foot=(15.0, 12.0),
         head=(4.0, -15.0),

@@ -63,7 +63,7 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "resistance.sliding": 1.1,
         "anchor.angle.rope": 30.0,
     }
-    borrowed = ("end.", "lateral.", "post.")
+    borrowed = ("end.", "lateral.", "post.", "tests.")
     assert {k: v for k, v in values.items() if not k.startswith(borrowed)} == of_notes
 
 
@@ -216,8 +216,9 @@ def test_choices_without_a_choice_are_refused_with_what_is_accepted(folder):
     with pytest.raises(StandardError) as caught:
         load_standard(folder)
     assert str(caught.value) == (
-        f"{folder / 'document.toml'}: 'choice' = '': must be one of recommended-da2, "
-        "anchors-da2, en-1537, denmark, grouted-anchors-2013 (choices.toml)"
+        f"{folder / 'document.toml'}: 'choice' = '': must be one of "
+        "piles-in-tension-da2, nails-da2, en-1537, denmark, grouted-anchors-2013 "
+        "(choices.toml)"
     )
 
 

@@ -142,7 +142,7 @@ def test_profile_without_correlation_does_not_prove_by_tests(folder, tmp_path):
 def test_national_choice_takes_the_place_of_its_factors(folder):
     mine = folder("eurocode")
     recommended = load_standard(mine)
-    edit(mine / "document.toml", '"recommended-da2"', '"denmark"')
+    edit(mine / "document.toml", '"piles-in-tension-da2"', '"denmark"')
     danish = load_standard(mine)
     assert recommended.find("resistance.pull_out.tested").value == 1.15
     assert danish.find("resistance.pull_out.tested").value == 1.43
@@ -165,9 +165,9 @@ def test_consequence_class_3_is_stricter(folder):
         (
             "eurocode",
             "document.toml",
-            '"recommended-da2"',
+            '"piles-in-tension-da2"',
             '"frence"',
-            "'choice' = 'frence': must be one of recommended-da2",
+            "'choice' = 'frence': must be one of piles-in-tension-da2",
         ),
         (
             "eurocode",

@@ -31,6 +31,8 @@ COMMANDS = {
     "summary": "report out/study.json --out short --detail summary",
     "diff": "diff out/study.json b/what-if-study.json",
     "verify --study": "verify --study out/study.json --site site.xlsx --jobs 1",
+    "plan": "tests site.xlsx --plan --study out/study.json --out form.xlsx",
+    "tests": "tests form.xlsx",
     "map": "map site.xlsx",
     "refused": "check refused.xlsx --annotate marked.xlsx",
     "solve": "solve scene.toml --out solved",
@@ -84,6 +86,19 @@ def spoil_site(language):
     book.save("refused.xlsx")
 
 
+def fill_form():
+    """Every test of the form held its proof load, but for the first."""
+    book = openpyxl.load_workbook("form.xlsx")
+    sheet = book.worksheets[0]
+    rule = next(r for r in sheet.data_validations.dataValidation if "D2" in r.sqref)
+    held, pulled = rule.formula1.strip('"').split(",")
+    for row in range(2, sheet.max_row + 1):
+        if sheet.cell(row, 5).value:
+            sheet.cell(row, 3).value = 0.9 * sheet.cell(row, 5).value
+            sheet.cell(row, 4).value = pulled if row == 2 else held
+    book.save("form.xlsx")
+
+
 def run_all(folder, language, patch):
     """What each command told, by its name; its files are in the folder."""
     patch.chdir(folder)
@@ -95,6 +110,8 @@ def run_all(folder, language, patch):
     for name, line in COMMANDS.items():
         if name == "refused":
             spoil_site(language)
+        if name == "tests":
+            fill_form()
         if name in _ONCE and language != FIRST:
             continue
         words = line.format(nets=NETS.name_in(language)).split()

@@ -17,7 +17,7 @@ from tests.words.english import list_vocabulary, list_words
 NAMES = re.compile(
     r"netdesign \w+|--[a-z-]+|\S*\w[._/\\]\w\S*|\b[A-Z_]{3,}\b"  # commands, files, keys
     r"|\b[\w]+(-[\w]+)*-\d{4,5}(-style)?\b|\bnf-p-95-304-style\b"  # profiles
-    r"|\b(?:[AB]|HEB)\d+-\w+|\brecommended-da2\b"  # types of the example; a choice
+    r"|\b(?:[AB]|HEB)\d+-\w+|\bpiles-in-tension-da2\b"  # types of the example; a choice
     r"|\b(?:dans|in) (?:solved|history|wide|winter)\b"  # folders
     r"|\blaw-[a-z]+(-[a-z…]+)*|\bown\b|\b[0-9a-f]{16,}\b"  # cases, a folder, digests
     r"|\[[a-z]+(\|[a-z]+)+\]|^  [a-z]+(?=  )",  # in help: choices and commands

@@ -171,6 +171,7 @@ WRITING = {
     ("validate",): "validate --out {}",
     ("verify",): "verify --out {}",
     ("standards", "copy"): "standards copy eurocode {}/mine",
+    ("tests",): "tests {}/site.xlsx --plan --out {}/form.xlsx",
 }
 
 
@@ -178,7 +179,7 @@ TAKEN = (
     "site.map.toml",
     *("study.json", "copy.xlsx", "solution.html", "envelope.json", "plot.svg"),
     *("paper.html", "index.html", "mine/document.toml"),
-    *("winter.json", "validation.html"),
+    *("winter.json", "validation.html", "form.xlsx"),
 )
 
 

@@ -195,6 +195,7 @@ NOT_NEEDED = {
     "resistance.pull_out.computed",
     "resistance.bending",
     "post.efficiency",
+    *("tests.scatter", "tests.count"),  # no anchor here has single tests
 }
 LIMITS = {
     "end." if one.id.startswith("end.") else one.id

@@ -95,6 +95,7 @@ def test_shipped_profiles_are_translated(language):
         for one in profile.listed
         for text in (one.text, one.source)
     ]
+    texts += [profile.choice_text for profile in profiles if profile.choice]
     assert len(set(texts)) > 90
     assert [text for text in texts if show_own(words, text) == text] == []
 

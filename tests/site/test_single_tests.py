@@ -83,7 +83,8 @@ def test_they_are_what_the_same_numbers_on_sheet_anchors_are(site, save):
     for line in site["Anchors"][1:]:
         line += [2, 210.0, 235.0]
     typed = find_pull_out(save(site))
-    assert replace(by_test, source="") == replace(typed, source="")
+    counted = replace(by_test, tests=replace(by_test.tests, singles=()))
+    assert replace(counted, source="") == replace(typed, source="")
 
 
 @pytest.mark.parametrize(

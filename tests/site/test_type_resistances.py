@@ -27,6 +27,7 @@ BOND = {
     "drill diameter [mm]": 90,
     "bond length [m]": 3.0,
     "ground": "gravel",
+    "fabric sleeve": "no",
 }
 
 
@@ -109,11 +110,17 @@ def test_bearing_has_the_value_of_its_post_type_or_none(sheets, save):
 @pytest.mark.parametrize(
     "columns",
     [
-        {"Bohrdurchmesser [cm]": 9, "Verbundlänge [m]": 3.0, "Baugrund": "Kies"},
+        {
+            "Bohrdurchmesser [cm]": 9,
+            "Verbundlänge [m]": 3.0,
+            "Baugrund": "Kies",
+            "Gewebestrumpf": "nein",
+        },
         {
             "diamètre de forage [m]": 0.09,
             "longueur de scellement [cm]": 300,
             "terrain": "gravier",
+            "gaine textile": "non",
         },
     ],
 )

@@ -61,10 +61,10 @@ def french_site() -> Sheets:
         "Ancrages": [
             [
                 *("Type", "Résistance de l'armature [kN]"),
-                *("Résistance à l'arrachement [kN]", "Justification"),
+                *("Résistance à l'arrachement [kN]", "Justification", "gaine textile"),
             ],
-            ["GEWI 32", "442,5", "380", "essai"],
-            ["GEWI 28", "338", "300,25", "calcul"],
+            ["GEWI 32", "442,5", "380", "essai", None],
+            ["GEWI 28", "338", "300,25", "calcul", "non"],
         ],
         "Câbles": [
             ["Type", "Charge de rupture minimale [kN]"],

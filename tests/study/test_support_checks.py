@@ -299,7 +299,7 @@ def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path)
     path = mine / "document.toml"
     text = path.read_text("utf-8")
     path.write_text(
-        text.replace('"recommended-da2"', '"grouted-anchors-2013"'), "utf-8"
+        text.replace('"piles-in-tension-da2"', '"grouted-anchors-2013"'), "utf-8"
     )
     bond = {
         "bar diameter [mm]": 32,
@@ -307,6 +307,7 @@ def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path)
         "drill diameter [mm]": 110,
         "bond length [m]": 9.0,
         "ground": "gravel",
+        "fabric sleeve": "no",
     }
     computed = judge(tmp_path, mine, anchor=bond)["foot_anchor.pull_out"]
     assert computed.verdict is Verdict.NOT_PROVEN

@@ -87,6 +87,7 @@ def _list_anchors(vary):
         "kind": "rope anchor",
         "tendon": vary(433.0),
         "drill_diameter": vary(91.0),
+        "sleeve": "no",
         "bond_length": vary(4.3),
         "ground": "sandstone",
     }

@@ -22,7 +22,7 @@ from netdesign.report.sections.profile import (
     list_below_one,
     name_profile,
 )
-from netdesign.report.words import Words, name_heading, show_text, understand
+from netdesign.report.words import Words, name_heading, show_own, show_text, understand
 from netdesign.study.records import Study
 from netdesign.words.message import say
 
@@ -91,7 +91,7 @@ def _show_profile(study: Study, words: Words) -> Iterator[Block]:
     told = {
         "limit_profile": name_profile(study, words),
         "profile_version": profile.version,
-        "profile_choice": profile.choice,
+        "profile_choice": show_own(words, profile.choice_text or profile.choice),
         "unconfirmed": words("show.assumed_counted", assumed=assumed, count=count),
         "floor": describe_floor(study, words),
     }

@@ -26,6 +26,7 @@ from netdesign.report.blocks.table import (
 from netdesign.report.blocks.text import Badge, Piece, keep_units, small
 from netdesign.report.drawing.row_drawings import RowDrawings, draw_row
 from netdesign.report.governing import find_shown
+from netdesign.report.sections.anchor_tests import show_tests
 from netdesign.report.sections.changes import show_changes
 from netdesign.report.sections.checks import (
     CheckLine,
@@ -136,6 +137,7 @@ class RowSections:
         if lines:
             yield self._tabulate_checks(lines)
             yield Figure(svg=drawn.chains)
+            yield from show_tests(row, t)
         further = [one for one in row.checks if not one.is_of_force]
         if further:
             yield from self._show_requirements(further)

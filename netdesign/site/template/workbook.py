@@ -60,8 +60,8 @@ _Lines = Sequence[Mapping[str, object]]  # of one sheet, by field key
 
 
 @dataclass(frozen=True, slots=True)
-class _Book:
-    """The workbook while it is written: its language and its formats."""
+class Book:
+    """Workbook while it is written: its language and its formats."""
 
     workbook: Workbook
     language: Language
@@ -69,6 +69,7 @@ class _Book:
 
     @property
     def texts(self) -> Mapping[str, str]:
+        """General texts of the workbook in its language."""
         return load_text(self.language)
 
 
@@ -99,23 +100,29 @@ def write_site_workbook(
     OutputError
         If the file exists and may not be replaced, or cannot be written.
     """
-    import xlsxwriter
-
     path = Path(path)
     require_free([path], overwrite=overwrite)
     lines = load_example() if example else _starting_lines()
     content = BytesIO()
+    book = start_book(content, language)
+    workbook = book.workbook
+    write_notes(workbook, language)
+    for plan in SHEETS:
+        write_sheet(book, plan, lines.get(plan.name, ()))
+    workbook.close()
+    write_files({path: content.getvalue()}, overwrite=overwrite)
+
+
+def start_book(content: BytesIO, language: Language) -> Book:
+    """Workbook that goes into ``content`` once it is closed."""
+    import xlsxwriter
+
     # a copy of the font: XlsxWriter writes into what it is given
     options = {**_OPTIONS, "default_format_properties": dict(_FONT)}
     workbook = xlsxwriter.Workbook(content, options)
     title = load_text(language)["title"]
     workbook.set_properties({"title": title, "created": _CREATED})
-    book = _Book(workbook, language, _add_formats(workbook))
-    write_notes(workbook, language)
-    for plan in SHEETS:
-        _write_sheet(book, plan, lines.get(plan.name, ()))
-    workbook.close()
-    write_files({path: content.getvalue()}, overwrite=overwrite)
+    return Book(workbook, language, _add_formats(workbook))
 
 
 def load_example() -> dict[str, _Lines]:
@@ -151,7 +158,8 @@ def _add_formats(workbook: Workbook) -> dict[str, Format]:
     }
 
 
-def _write_sheet(book: _Book, plan: SheetPlan, lines: _Lines) -> None:
+def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> Worksheet:
+    """Sheet of a plan: headings with notes, what cells accept, its lines."""
     sheet = book.workbook.add_worksheet(plan.name_in(book.language))
     last_row = max(_PRINTED_ROWS, len(lines))
     if plan in (PROJECT, RANGES):
@@ -179,6 +187,7 @@ def _write_sheet(book: _Book, plan: SheetPlan, lines: _Lines) -> None:
         _offer_profiles(sheet, lines)
     if plan is RANGES:
         _offer_quantities(sheet, book)
+    return sheet
 
 
 def _size_note(note: str) -> dict[str, Any]:
@@ -193,7 +202,7 @@ def _fit_words(heading: str) -> float:
     return max(_COLUMN_WIDTH, 1.2 * longest + 1)
 
 
-def _set_up_page(sheet: Worksheet, book: _Book, plan: SheetPlan, last_row: int) -> None:
+def _set_up_page(sheet: Worksheet, book: Book, plan: SheetPlan, last_row: int) -> None:
     texts = book.texts
     sheet.freeze_panes(1, 1)
     sheet.set_paper(_A4)
@@ -208,7 +217,7 @@ def _set_up_page(sheet: Worksheet, book: _Book, plan: SheetPlan, last_row: int) 
     sheet.set_footer(f"&L&F&R{texts['page']} &P {texts['of']} &N")
 
 
-def _choose_format(field: Field, book: _Book) -> Format:
+def _choose_format(field: Field, book: Book) -> Format:
     # Text cells keep an id such as 007, or a revision 1/2, as it is typed.
     kind = "number" if field.kind in ("number", "count") else "text"
     return book.formats[f"required {kind}" if field.required else kind]
@@ -216,7 +225,7 @@ def _choose_format(field: Field, book: _Book) -> Format:
 
 def _write_line(
     sheet: Worksheet,
-    book: _Book,
+    book: Book,
     plan: SheetPlan,
     row: int,
     line: Mapping[str, object],
@@ -244,7 +253,7 @@ def _translate(field: Field, value: str, language: Language) -> str:
     return value
 
 
-def _validation(field: Field, book: _Book) -> dict[str, Any] | None:
+def _validation(field: Field, book: Book) -> dict[str, Any] | None:
     """Rule that the spreadsheet program applies while the engineer types."""
     if field.words:
         words = [_translate(field, word, book.language) for word in field.words]
@@ -279,7 +288,7 @@ def _offer_profiles(sheet: Worksheet, lines: _Lines) -> None:
             sheet.data_validation(row, 1, row, 1, profiles)
 
 
-def _offer_quantities(sheet: Worksheet, book: _Book) -> None:
+def _offer_quantities(sheet: Worksheet, book: Book) -> None:
     names = [field.label_in(book.language) for field in RANGE_QUANTITIES]
     units = list(dict.fromkeys(u for field in RANGE_QUANTITIES for u in field.units))
     sheet.data_validation(1, 0, _LAST_ROW, 0, {"validate": "list", "source": names})

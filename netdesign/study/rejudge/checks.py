@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
+from statistics import fmean
 from typing import Any
 
 from netdesign.calculation.quantity import Kind, Quantity
@@ -20,8 +22,14 @@ from netdesign.checks.schema import (
     LATERAL_SHARE,
     MODES_WITHOUT_FORCE,
     ROPE_ANGLE,
+    TEST_SCATTER,
 )
-from netdesign.outcome import Verdict
+from netdesign.outcome import ModelError, Verdict
+from netdesign.resistance.fractile import (
+    find_fractile,
+    find_fractile_of_known_scatter,
+)
+from netdesign.resistance.pull_out import SingleTest
 from netdesign.site.model import (
     CONNECTED,
     DEPENDENT_MODES,
@@ -38,7 +46,12 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.study.member_force import PARTS, PUSHED, leave_out_governing
-from netdesign.study.records import CheckRecord, ProfileRecord, RowStudy
+from netdesign.study.records import (
+    CheckRecord,
+    ProfileRecord,
+    RowStudy,
+    SingleTestRecord,
+)
 from netdesign.study.rejudge.cases import (
     SAME,
     Pair,
@@ -52,6 +65,7 @@ from netdesign.study.rejudge.cases import (
     same_point,
 )
 from netdesign.study.support_records import HeldSidewaysRecord
+from netdesign.units import kilonewton_from_newton, newton_from_kilonewton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
@@ -90,6 +104,9 @@ def rejudge_checks(
             yield from _rejudge_direction(where, check, row, values)
         elif check.member != Member.NET:
             yield from _rejudge_factors(where, check, values, clauses)
+            yield from _rejudge_tests(
+                where, check, profile.route, values.get(TEST_SCATTER)
+            )
             steps = _rejudge_steps(where, check, known, values)
             yield from guard(where, steps)
             if check.is_of_force:
@@ -266,6 +283,52 @@ def _calculate(found: Mapping[str, Quantity]) -> Quantity:
     resistance = calculate_resistance(leaves, force)
     action = force.action if force else leaves["E_k"]
     return rate(action, leaves["γ_E"], resistance, leaves["γ_R"])
+
+
+def _rejudge_tests(
+    place: Message, check: CheckRecord, route: str, scatter: float | None
+) -> Iterator[Message]:
+    """Resistance by the way that counts, its leaves by the tests."""
+    tests = check.tests
+    if tests is None:
+        if {"R_m", "R_G"} & set(check.known):
+            yield say("audit.no_tests", place=place)
+        return
+    if tests.route != route:
+        yield report_value(place, "route", tests.route, route)
+    loads = [one.load_kN for one in tests.singles]
+    pairs: list[Pair] = [("R_k", check.read("R_k"), tests.routes.get(route))]
+    if "R_m" in check.known:
+        pairs.append(("R_m", check.read("R_m"), tests.mean_kN))
+        pairs.append(("R_min", check.read("R_min"), tests.least_kN))
+    if loads:
+        pairs.append(("count", float(tests.count), float(len(loads))))
+        pairs.append(("least_kN", tests.least_kN, min(loads)))
+        pairs.append(("mean_kN", tests.mean_kN, fmean(loads)))
+    singles = [_read_single(one) for one in tests.singles]
+    pairs += [
+        (key, tests.routes.get(key), one)
+        for key, one in _take_fractiles(singles, scatter)
+    ]
+    yield from report_unequal(place, pairs)
+
+
+def _read_single(one: SingleTestRecord) -> SingleTest:
+    return SingleTest(load=newton_from_kilonewton(one.load_kN), is_held=one.is_held)
+
+
+def _take_fractiles(
+    singles: Sequence[SingleTest], scatter: float | None
+) -> Iterator[tuple[str, float | None]]:
+    """Fractiles of single tests [kN], by the ways that take them."""
+    known = None
+    if singles and scatter is not None:
+        known = find_fractile_of_known_scatter(singles, scatter).value
+    unknown = None
+    with suppress(ModelError):
+        unknown = find_fractile(singles).value if singles else None
+    for key, found in (("scatter_known", known), ("scatter_unknown", unknown)):
+        yield key, None if found is None else kilonewton_from_newton(found)
 
 
 def _rejudge_leaf(

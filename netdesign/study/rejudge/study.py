@@ -403,7 +403,8 @@ def _rejudge_profile(study: Study, standard: Standard | None) -> Iterator[Messag
     for name in dict.fromkeys((*stored, *listed)):
         if stored.get(name) != listed.get(name):
             yield say("audit.other_profile", name=name)
-    for key in ("id", "title", "edition", "version", "choice", "floor"):
+    keys = ("id", "title", "edition", "version", "choice", "choice_text", "floor")
+    for key in (*keys, "route"):
         if getattr(study.profile, key) != getattr(again, key):
             yield say("audit.other_profile", name=key)
 

@@ -129,10 +129,10 @@ def build(path: Path) -> None:
             [],
             [
                 *("Désignation", "Nuance", "Armature Rt,k (kN)"),
-                *("Arrachement [kN]", "Origine", "Remarque"),
+                *("Arrachement [kN]", "Origine", "Remarque", "gaine textile"),
             ],
-            ["T32", "GEWI 500/550", "442,5", "380 kN", "essais", None],
-            ["T28", "GEWI 500/550", 338, "300,25 kN", "calcul", "à confirmer"],
+            ["T32", "GEWI 500/550", "442,5", "380 kN", "essais", None, None],
+            ["T28", "GEWI 500/550", 338, "300,25 kN", "calcul", "à confirmer", "non"],
         ],
     )
     fill(

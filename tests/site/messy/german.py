@@ -102,9 +102,16 @@ def build(path: Path) -> None:
     fill(
         book.create_sheet("Ankertypen"),
         [
-            ["Typ", "Zugglied [kN]", "Herausziehen [kN]", "Nachweis", "Bohrung"],
-            ["GEWI 32", "442,5", "380", "Versuch", "90 mm"],
-            ["GEWI 28", "338,0", "300,25", "berechnet", "90 mm"],
+            [
+                "Typ",
+                "Zugglied [kN]",
+                "Herausziehen [kN]",
+                "Nachweis",
+                "Bohrung",
+                "Gewebestrumpf",
+            ],
+            ["GEWI 32", "442,5", "380", "Versuch", "90 mm", None],
+            ["GEWI 28", "338,0", "300,25", "berechnet", "90 mm", "nein"],
         ],
     )
     fill(

@@ -29,10 +29,10 @@ def write_lines(path, lines):
         template.write_site_workbook(path, example=True, overwrite=True)
 
 
-def draw_lines(seed, *, is_placed=False):
+def draw_lines(seed, *, is_placed=False, is_tested=False):
     """Lines of all sheets; three densities, one friction angle and inclination.
 
-    A row that is placed may say its ground.
+    A row that is placed may say its ground; with tests, a type has them one by one.
     """
     draw = random.Random(seed)
     net = _draw_net(draw)
@@ -54,6 +54,8 @@ def draw_lines(seed, *, is_placed=False):
     if is_placed and draw.random() < 0.5:
         _stand_in_ground(draw, lines)
     _complete_chain(random.Random(f"chain {seed}"), lines)
+    if is_tested:
+        _test_one_by_one(lines)
     if net.get("row_end") == "continuous":
         lines["Nets"].append({**net, "id": "R2", "neighbour": "R1"})
         lines["Snow"] += [{**one, "row": "R2"} for one in lines["Snow"]]
@@ -77,8 +79,8 @@ def list_cells(lines):
 def list_groups(lines):
     """Cells that belong together: a sheet, a panel, all kinds, all dimensions."""
     cells = list_cells(lines)
-    sheets = ("Ends", "Snow", "Declared", "Anchors", "Ropes", "Posts", "Links")
-    groups = [[("sheet", sheet)] for sheet in sheets if lines[sheet]]
+    sheets = ("Ends", "Snow", "Declared", "Anchors", "Ropes", "Posts", "Links", "Tests")
+    groups = [[("sheet", sheet)] for sheet in sheets if lines.get(sheet)]
     for keys in (
         PANEL_COLUMNS,
         ("kind",),
@@ -249,6 +251,7 @@ def _draw_anchors(draw):
         "tendon": _round(330.0 * scale),
         "pull_out": _round(270.0 * scale),
         "basis": draw.choice(("tested", "computed")),
+        "sleeve": "no",
     }
     diameter = _round(draw.uniform(25.0, 57.0))
     bears = 0.25 * math.pi * diameter**2 * 0.5  # [kN]
@@ -291,6 +294,7 @@ def _draw_anchors(draw):
         "bond_length": _round(draw.uniform(2.5, 6.0)),
         "ground": ground,
         "grouting": "A" if ground == "limestone" else "B",
+        "sleeve": "no",
     }
 
 
@@ -350,6 +354,20 @@ def _draw_links(draw, lines):
             if link["link"] == "shackle" and draw.random() < 0.6:
                 link["angle"] = _round(draw.uniform(0.0, 60.0))
             yield link
+
+
+def _test_one_by_one(lines):
+    """Tests of a type on sheet Tests, in the place of their number, least and mean."""
+    shares = ((1.0, "pulled out"), (1.1, "held"), (1.2, "pulled out"))
+    lines["Tests"] = []
+    for tried in (one for one in lines["Anchors"] if one["id"] == "tried"):
+        least = tried.pop("test_least")
+        del tried["test_count"], tried["test_mean"]
+        ground = {"ground": tried["ground"]} if "ground" in tried else {}
+        lines["Tests"] += [
+            {"type": "tried", "force": _round(share * least), "result": result} | ground
+            for share, result in shares
+        ]
 
 
 def _draw_ropes(draw):

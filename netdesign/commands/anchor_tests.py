@@ -1,0 +1,210 @@
+"""``netdesign tests``: pull-out tests planned, and read from their form."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from statistics import fmean
+from typing import TYPE_CHECKING
+
+import click
+
+from netdesign.commands.options import (
+    DEFAULT_STANDARD,
+    flag,
+    force_option,
+    language_option,
+    refuse_without,
+)
+from netdesign.commands.report import DEFAULT_FOLDER
+from netdesign.commands.stored_study import require_sound
+from netdesign.commands.usage import tell
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
+from netdesign.words.names import as_given, name
+
+if TYPE_CHECKING:
+    from netdesign.checks import Standard
+    from netdesign.resistance.pull_out import SingleTest
+    from netdesign.site.readings import Row
+    from netdesign.study.planned_tests import PlannedTests
+
+_STUDY = f"{DEFAULT_FOLDER}/study.json"
+_FORM = "anchor-tests.xlsx"
+
+
+@click.command(name="tests")
+@click.argument("file", type=click.Path(path_type=Path, dir_okay=False))
+@flag("--plan", help="Plan tests of a site and write a form for them.")
+@click.option(
+    "--study",
+    "study_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help=f"Study of the site, with --plan [{_STUDY}].",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help=f"Form to write, with --plan [{_FORM}].",
+)
+@click.option(
+    "--standard",
+    metavar="ID",
+    help=f"Limit profile [the study's; of a form {DEFAULT_STANDARD}].",
+)
+@language_option("Of the form, and of what is printed.")
+@force_option
+def anchor_tests(
+    file: Path,
+    *,
+    plan: bool,
+    study_file: Path | None,
+    out: Path | None,
+    standard: str | None,
+    language: Language,
+    force: bool,
+) -> None:
+    """Plan pull-out tests of a site, or evaluate a form of them.
+
+    \b
+    netdesign tests site.xlsx --plan --out form.xlsx
+    netdesign tests form.xlsx --standard eurocode
+
+    A plan takes the design forces of a stored study. A form that is filled in gives the
+    resistance by three ways, and lines for sheet Tests of the site's workbook.
+    """
+    if plan:
+        form = out or Path(_FORM)
+        _write_plan(
+            file, study_file or Path(_STUDY), form, standard, language, force=force
+        )
+        return
+    refuse_without(("study_file", "out", "force"), ("--plan",), language)
+    from netdesign.checks import load_standard
+    from netdesign.site.template.form import read_form
+
+    rows = read_form(file)
+    profile = load_standard(standard or DEFAULT_STANDARD)
+    for told in _evaluate(rows, profile):
+        tell(told, language)
+    for line in _list_lines(rows, language):
+        click.echo(line)
+
+
+def _write_plan(
+    site_file: Path,
+    study_file: Path,
+    form: Path,
+    named: str | None,
+    language: Language,
+    *,
+    force: bool,
+) -> None:
+    from netdesign.commands.stored_study import read_own_site
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.site.template.form import build_form
+    from netdesign.study.document import load_study
+    from netdesign.study.planned_tests import STEPS, plan_tests
+    from netdesign.study.record_provenance import load_own_profile
+
+    require_free([form], overwrite=force)
+    study = load_study(study_file)
+    require_sound(study, study_file, site_file, named, language)
+    site = read_own_site(study, study_file, site_file)
+    profile = load_own_profile(study.profile, named)
+    planned, open_points = plan_tests(study, site, profile)
+    for told in _describe_plan(planned, profile):
+        tell(told, language)
+    for told in open_points:
+        tell(told, language, err=True)
+    lines = [
+        {"type": one.type_id, "proof_load": math.ceil(10.0 * one.proof_load) / 10.0}
+        | ({"ground": one.ground} if one.ground else {})
+        for one in planned
+        for _ in one.rows
+    ]
+    places = [(row, one.force) for one in planned for row in one.rows]
+    write_files({form: build_form(lines, places, STEPS, language)}, overwrite=force)
+    tell(say("cli.wrote", path=str(form)), language, err=True)
+
+
+def _describe_plan(
+    planned: Sequence[PlannedTests], profile: Standard
+) -> Iterator[Message]:
+    from netdesign.checks.schema import TEST_COUNT
+
+    wanted = profile.find(TEST_COUNT)
+    if wanted is not None:
+        status = name("status", wanted.status)
+        yield say("plan.count", count=wanted.value, profile=profile.id, status=status)
+    for one in planned:
+        yield say(
+            "plan.line",
+            what=_name_type(one.type_id, one.ground),
+            count=len(one.rows),
+            load=one.proof_load,
+            factor=one.proof_load / one.force,
+            force=one.force,
+            rows=tuple(dict.fromkeys(one.rows)),
+        )
+        if one.is_beyond_steel:
+            yield say("plan.steel", what=_name_type(one.type_id, one.ground))
+
+
+def _name_type(type_id: str, ground: str) -> Message:
+    if not ground:
+        return as_given(type_id)
+    from netdesign.site.columns.fields import name_word
+
+    return say("plan.in_ground", type=type_id, ground=name_word("ground", ground))
+
+
+def _evaluate(rows: Sequence[Row], profile: Standard) -> Iterator[Message]:
+    """Resistance of each type and ground by every way, and what is accepted."""
+    from netdesign.checks.routes import find_tested_resistance
+    from netdesign.resistance.pull_out import PullOutTests
+    from netdesign.site.single_tests import read_single
+
+    groups: dict[tuple[str, str], list[SingleTest]] = {}
+    for row in rows:
+        key = (row["type"].word, row["ground"].word)
+        groups.setdefault(key, []).append(read_single(row))
+    for (kind, ground), tests in groups.items():
+        loads = [one.load for one in tests]
+        counted = PullOutTests(
+            count=len(tests), least=min(loads), mean=fmean(loads), singles=tuple(tests)
+        )
+        what = _name_type(kind, ground)
+        found = find_tested_resistance(counted, profile, tests[0].source, what)
+        held = sum(one.is_held is True for one in tests)
+        met = sum(one.is_accepted for one in tests)
+        yield say("plan.tested", what=what, count=len(tests), held=held, met=met)
+        for route, resistance in found.routes.items():
+            way = name("route", route)
+            if resistance.value is None:
+                reason = resistance.lacks[0]
+                yield say("plan.open_route", route=way, reason=reason)
+            elif route == found.route:
+                yield say("plan.counts", route=way, resistance=resistance.value)
+            else:
+                yield say("plan.beside", route=way, resistance=resistance.value)
+
+
+def _list_lines(rows: Sequence[Row], language: Language) -> Iterator[str]:
+    """Lines of sheet Tests, with tabs between the cells."""
+    from netdesign.site.columns.all_tables import TESTS
+    from netdesign.words.numerals import set_marks
+
+    yield "\t".join(field.heading_for(language) for field in TESTS.fields)
+    for row in rows:
+        cells = []
+        for field in TESTS.fields:
+            value = row[field.key].value
+            text = "" if value is None else str(value)
+            if isinstance(value, float):
+                text = set_marks(f"{value:.10g}", language)
+            elif text in field.words:
+                text = render(field.name_word(text), language)
+            cells.append(" ".join(text.split()))
+        yield "\t".join(cells)

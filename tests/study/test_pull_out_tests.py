@@ -1,0 +1,183 @@
+"""Pull-out tests of sheet Tests, from the workbook to the judged study."""
+
+import shutil
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.checks.routes import find_proof_factor
+from netdesign.edge.given_files import find_resource
+from netdesign.outcome import Verdict
+from netdesign.report.sections.anchor_tests import show_tests
+from netdesign.report.words import Words
+from netdesign.study.rejudge import rejudge
+from tests.checks.given_pulls import study_row
+
+STEEL = {"kind of anchor": "rope anchor", "tendon resistance [kN]": 500}
+ROW = {
+    "anchor": STEEL,
+    "foot": (20.0, 18.0),
+    "head": (5.0, -22.0),
+    "gap to next work [m]": 0.5,
+}
+TESTS = [
+    (300.0, "pulled out", 250.0),
+    (340.0, "held", 340.0),
+    (360.0, "pulled out", None),
+]
+ROUTES = ("correlation", "scatter_known", "scatter_unknown")
+
+
+def take_profile(tmp_path, route):
+    mine = tmp_path / "own"
+    if not mine.exists():
+        shutil.copytree(find_resource("standards") / "eurocode", mine)
+    path = mine / "document.toml"
+    text = path.read_text("utf-8")
+    path.write_text(
+        text.replace('route = "correlation"', f'route = "{route}"'), "utf-8"
+    )
+    return mine
+
+
+def judge(tmp_path, route, tests=TESTS):
+    study = study_row(tmp_path, take_profile(tmp_path, route), tests=tests, **ROW)
+    checks = {check.id: check for check in study.rows[0].checks}
+    return study, checks["foot_anchor.pull_out"]
+
+
+def contradictions(study, standard):
+    """What the given pulls, which nothing solved, do not bring about."""
+    told = map(str, rejudge(study, standard))
+    return [one for one in told if "foot_anchor.pull_out" in one and "case" not in one]
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_the_way_of_the_profile_counts(tmp_path, route):
+    study, check = judge(tmp_path, route)
+    tests = check.tests
+    assert set(tests.routes) == set(ROUTES)
+    assert tests.route == study.profile.route == route
+    assert check.read("R_k") == pytest.approx(tests.routes[route], rel=1e-12)
+    assert tests.routes["correlation"] == pytest.approx(
+        min(1000.0 / 3 / 1.2, 300.0 / 1.05), rel=1e-12
+    )
+    assert tests.routes["scatter_unknown"] < tests.routes["scatter_known"]
+    standard = load_standard(tmp_path / "own")
+    assert contradictions(study, standard) == []
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_what_is_altered_in_the_tests_is_found(tmp_path, route):
+    study, check = judge(tmp_path, route)
+    standard = load_standard(tmp_path / "own")
+    better = {key: 1.3 * value for key, value in check.tests.routes.items()}
+    singles = [replace(one, load_kN=400.0) for one in check.tests.singles]
+    for tests in (
+        replace(check.tests, routes=better),
+        replace(check.tests, singles=singles),
+        replace(check.tests, route="other"),
+        None,
+    ):
+        altered = replace(check, tests=tests)
+        checks = [altered if one is check else one for one in study.rows[0].checks]
+        other = replace(study, rows=[replace(study.rows[0], checks=checks)])
+        assert contradictions(other, standard)
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_a_result_left_out_never_helps(tmp_path, route):
+    _, known = judge(tmp_path, route)
+    for left_out in range(len(TESTS)):
+        tests = [
+            (load, None if k == left_out else result, proof)
+            for k, (load, result, proof) in enumerate(TESTS)
+        ]
+        _, check = judge(tmp_path, route, tests)
+        found = check.read("R_k")
+        assert found is None or found <= known.read("R_k") * (1 + 1e-12)
+        if route == "scatter_unknown":
+            assert check.verdict is Verdict.NOT_PROVEN
+            assert "outcome of each test" in str(check.reason)
+
+
+def test_held_tests_alone_give_lower_bounds_and_no_scatter(tmp_path):
+    tests = [(300.0, "held", None)] * 3
+    study, check = judge(tmp_path, "correlation", tests)
+    assert check.tests.routes["scatter_unknown"] is None
+    assert check.tests.routes["correlation"] == pytest.approx(250.0)
+    routes, singles = show_tests(study.rows[0], Words("en"))
+    text = f"{routes.rows}"
+    assert "all 3 tests held: their loads are lower bounds" in text
+    assert len(singles.rows) == 3
+
+
+def test_acceptance_follows_load_result_and_design_force(tmp_path):
+    study, check = judge(tmp_path, "correlation")
+    wanted = 1.2 * 1.15 * check.read_band("E_d")[1]
+    _, singles = show_tests(study.rows[0], Words("en"))
+    assert float(singles.rows[0][6].text) == pytest.approx(wanted, abs=0.06)
+    assert [line[-1].text for line in singles.rows] == ["no", "yes", "no"]
+    low = [(0.9 * wanted, "held", None), (1.1 * wanted, "held", 1.2 * wanted)]
+    low.append((1.1 * wanted, None, None))
+    study, _ = judge(tmp_path, "correlation", low)
+    _, singles = show_tests(study.rows[0], Words("en"))
+    assert [line[-1].text for line in singles.rows] == ["no", "no", "open"]
+
+
+def test_number_and_mean_alone_prove_by_correlation_only(tmp_path):
+    numbers = {"number of tests": 3, "least tested resistance [kN]": 300}
+    anchor = STEEL | numbers | {"mean tested resistance [kN]": 330}
+    row = ROW | {"anchor": anchor}
+    for route in ROUTES:
+        study = study_row(tmp_path, take_profile(tmp_path, route), **row)
+        check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
+        (tmp_path / "own" / "document.toml").unlink()
+        shutil.rmtree(tmp_path / "own")
+        if route == "correlation":
+            assert check.read("R_k") == pytest.approx(min(330 / 1.2, 300 / 1.05))
+        else:
+            assert check.verdict is Verdict.NOT_PROVEN
+            assert "the load of each test is wanted" in str(check.reason)
+
+
+BOND = {
+    "tendon resistance [kN]": 500,
+    "kind of anchor": "rope anchor",
+    "drill diameter [mm]": 110,
+    "bond length [m]": 9.0,
+    "ground": "gravel",
+}
+
+
+@pytest.mark.parametrize(
+    ("sleeve", "tests", "told"),
+    [
+        ("no", (), ""),
+        ("yes", (), "without tests of that type on this site"),
+        (None, (), "is not said: yes or no"),
+        ("yes", TESTS, ""),
+    ],
+)
+def test_a_sleeve_is_proven_by_tests_alone(tmp_path, sleeve, tests, told):
+    anchor = {**(STEEL if tests else BOND), "fabric sleeve": sleeve}
+    row = ROW | {"anchor": anchor}
+    study = study_row(tmp_path, "eurocode", tests=tests, **row)
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
+    assert (check.read("R_k") is None) is bool(told)
+    assert told in str(check.reason)
+    if told:
+        assert check.verdict is Verdict.NOT_PROVEN
+
+
+@pytest.mark.parametrize(
+    ("profile", "factor"),
+    [("eurocode", 1.2 * 1.15), ("nf-p-95-304-style", 1.2 * 1.35)],
+)
+def test_proof_load_proves_the_anchor_by_as_many_held_tests(profile, factor):
+    assert find_proof_factor(load_standard(profile)) == pytest.approx(factor)
+    bare = load_standard(profile)
+    bare = replace(bare, values=tuple(v for v in bare.values if v.id != "tests.count"))
+    assert find_proof_factor(bare) is None
+    assert find_proof_factor(replace(load_standard(profile), tables=())) is None
