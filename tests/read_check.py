@@ -1,12 +1,15 @@
 """Parts of a check's calculation as its record has them, and spoilt ones."""
 
+import math
 from dataclasses import replace
 
 
 def compare_support(check) -> float:
     """Force on the support over that of the section inside the row [-]."""
-    known = {symbol: check.read(symbol) for symbol in ("b", "b_e", "k_q")}
+    known = {symbol: check.read(symbol) for symbol in ("b", "b_e", "k_q", "f_R")}
     is_end = known["b_e"] is not None
+    if not is_end and known["f_R"] is not None:  # of the mesh, which has all of it
+        return 1.0 + known["f_R"]
     return (known["b_e"] / known["b"] if is_end else 1.0) * (known["k_q"] or 1.0)
 
 
@@ -14,6 +17,8 @@ def bring(check, force: float) -> float:
     """Force of the section on the member and its support [kN]."""
     share, added = check.read("g"), check.read("A") or 0.0
     inside = (1.0 if share is None else share) * force + added
+    if check.read("B") is not None:  # of two guys on one anchor
+        inside = math.hypot(force, check.read("B"))
     return inside * compare_support(check)
 
 

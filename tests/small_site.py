@@ -7,7 +7,9 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.resistance.connection import Link
 from netdesign.resistance.corrosion import Wear
 from netdesign.site.model import (
+    CONNECTED,
     DEPENDENT_MODES,
+    END_MODES,
     MEMBER_MODES,
     NET_MODES,
     AnchorType,
@@ -65,6 +67,24 @@ def resist(value=STRONG, **special):
     )
 
 
+def name_force_checks(*, has_ropes=False, has_end=False):
+    """Ids of all checks of a force on a row with an end, in their order."""
+    inside = _add_chains((*MEMBER_MODES, *DEPENDENT_MODES))
+    beside = _add_chains(NET_MODES if has_ropes else NET_MODES[:1])
+    beside += _add_chains(END_MODES if has_end else ())
+    return [*inside, *(f"{one}.end" for one in (*inside, *beside))]
+
+
+def _add_chains(modes):
+    """Ids by member and mode, that of its links behind a rope's."""
+    found = []
+    for member, mode in modes:
+        found.append(f"{member}.{mode}")
+        if mode in ("tendon", "rope") and member in CONNECTED:
+            found.append(f"{member}.connection")
+    return found
+
+
 def list_net_parts(value=STRONG, *, has_ropes):
     """Resistances of the mesh, and of border ropes where there are some."""
     return tuple(
@@ -96,7 +116,7 @@ def build_row(name, **changes):
         "layout": SupportLayout(
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),
-        "guys": Guys(count=2, splay=math.radians(30.0), are_shared=True),
+        "guys": Guys(count=2, splay=math.radians(29.0), are_shared=True),
         "design_life": 50,
         "edge_distance": 15.0,
         "resistances": resist(),

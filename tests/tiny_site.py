@@ -31,11 +31,17 @@ SHEETS = {
             "layers of the snow",
             "axes of the anchors",
             "panel system",
+            "anchors of the guys",
+            "ground of the anchors",
+            "design life in years",
+            "distance to the next edge [m]",
+            "mesh strength [kN/m]",
         ],
         [
             *("R1", 38, 2.5, 6, "free", 2.5, 8000, 3),
-            *("A1", "A1", "A1", "G1", "G1", "P1", 2, 30),
+            *("A1", "A1", "A1", "G1", "G1", "P1", 2, 29),
             *(0.02, 15, 2.5, 2.5, "uniform", "along the pull", "none"),
+            *("shared", "till", 40, 30, 980),
         ],
     ],
     "Ranges": [
@@ -47,11 +53,24 @@ SHEETS = {
     "Anchors": [
         [
             *("id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"),
-            "kind of anchor",
+            *("kind of anchor", "ground", "corrosion protection"),
+            *("protected for years", "drilled length [m]"),
+            *("least cover of the bond [m]", "least distance to an edge [m]"),
         ],
-        ["A1", 2500, 2400, "tested", "rope anchor"],
+        [
+            *("A1", 2500, 2400, "tested", "rope anchor", "till", "cover", 80),
+            *(6, 0.5, 2),
+        ],
     ],
-    "Ropes": [["id", "minimum breaking force [kN]"], ["G1", 2300]],
+    "Ropes": [
+        ["id", "minimum breaking force [kN]", "protected for years"],
+        ["G1", 2300, 50],
+    ],
+    "Links": [
+        ["type", "link", "strength of the link [kN]"],
+        ["A1", "eye", 2000],
+        ["G1", "eye", 2000],
+    ],
     "Posts": [
         [
             *("id", "section area [cm2]", "bearing resistance [kN]"),

@@ -276,7 +276,7 @@ def _size(
     sized = []
     for study, profile in zip(studies, profiles, strict=True):
         cells = size_site(solved, study, profile, run, read)
-        instead = {one.cell: one.now for one in cells if one.now and not one.is_asked}
+        instead = {one.cell: one.now for one in cells if one.now}
         if not instead:
             sized.append(Sized(cells=cells, study=None))
             continue
@@ -334,8 +334,6 @@ def print_sizes(
         lines += list_sized(one.cells, words) or [words("what_if.nothing")]
         if one.study is not None:
             lines.append(describe_overall(one.study, words))
-        elif any(cell.is_asked for cell in one.cells):
-            lines.append(words("what_if.no_study_asked"))
         elif one.cells:
             lines.append(words("what_if.no_study"))
     return lines

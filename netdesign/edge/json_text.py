@@ -17,11 +17,11 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
     from pydantic_core import SchemaValidator
 
 # A study of as many net rows and cases as a site may have (``site/cells/limits.py``,
-# ``envelope/ranges.py``), with some room: a row has up to 280 kB, 10,600 values and
-# 1,600 objects, a case 520 bytes, 13 values and 2 objects.
+# ``envelope/ranges.py``), with some room: a row has up to 400 kB, 15,200 values and
+# 2,600 objects, a case 520 bytes, 13 values and 2 objects.
 MAX_JSON_BYTES = 512 * 2**20
-MAX_VALUES = 18_000_000
-MAX_OBJECTS = 2_800_000
+MAX_VALUES = 24_000_000
+MAX_OBJECTS = 3_600_000
 _SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
 _MOST_KEYS = 200  # of one object
 

@@ -108,7 +108,7 @@ def _print_sizes(one: SizedCell, words: Words) -> str:
         return words.join((told, left_out))
     used = words.show_number("utilisation", one.used)
     return words(
-        "what_if.type_to_ask" if one.is_asked else "what_if.type",
+        "what_if.type",
         **place,
         cell=one.cell,
         was=one.was or MISSING,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import tomllib
+from bisect import bisect_left
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
@@ -90,6 +92,21 @@ def find_imperfection(curve: str) -> Datum:
     return Datum(
         value=value, status=table["status"], source=say("resistance_source.buckling")
     )
+
+
+def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> float:
+    """Value of a table between its places, linear.
+
+    Parameters
+    ----------
+    places, values : sequence of float, shape (n,)
+        Of the table, rising places, in units of its own.
+    at : float
+        Among the places, in their unit.
+    """
+    end = max(bisect_left(places, at), 1)
+    share = (at - places[end - 1]) / (places[end] - places[end - 1])
+    return float(values[end - 1] + share * (values[end] - values[end - 1]))
 
 
 def pick(what: Message, name: str, known: dict[str, Any]) -> Any:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from netdesign.resistance.catalogue import Datum, load_catalogue
+from netdesign.resistance.catalogue import Datum, interpolate, load_catalogue
 from netdesign.words.message import say
 
 SHACKLE = "shackle"
@@ -57,9 +55,10 @@ def find_direction_factor(angle: float) -> Datum:
     tests/verification/test_connection.py
     """
     table = load_catalogue()["shackle"]
-    factor = np.interp(math.degrees(abs(angle)), table["angle_deg"], table["factor"])
+    angles, factors = table["angle_deg"], table["factor"]
+    factor = interpolate(angles, factors, min(math.degrees(abs(angle)), angles[-1]))
     source = say("resistance_source.shackle")
-    return Datum(value=float(factor), status=table["status"], source=source)
+    return Datum(value=factor, status=table["status"], source=source)
 
 
 def find_angle(link: Link, pulled: float | None) -> float:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 from netdesign.outcome import ModelError
-from netdesign.resistance.catalogue import Datum, load_catalogue, pick
+from netdesign.resistance.catalogue import Datum, interpolate, load_catalogue, pick
 from netdesign.words.message import say
 
 # Protections under which the steel itself corrodes, and is counted with what is left.
@@ -60,13 +59,11 @@ def find_loss(soil: str, years: int) -> Datum:
     """
     table = load_catalogue()["corrosion"]
     losses = pick(say("catalogue.soil"), soil, table["loss_mm"])
-    points = list(zip([0, *table["years"]], [0.0, *losses], strict=True))
-    for (start, least), (end, most) in pairwise(points):
-        if start <= years <= end:
-            loss = least + (most - least) * (years - start) / (end - start)
-            source = say("resistance_source.corrosion")
-            return Datum(value=loss, status=table["status"], source=source)
-    raise ModelError(say("corrosion.beyond", years=years, most=table["years"][-1]))
+    if not 0 <= years <= table["years"][-1]:
+        raise ModelError(say("corrosion.beyond", years=years, most=table["years"][-1]))
+    loss = interpolate([0, *table["years"]], [0.0, *losses], years)
+    source = say("resistance_source.corrosion")
+    return Datum(value=loss, status=table["status"], source=source)
 
 
 def leave_area(outer: float, inner: float, loss: float) -> float:

@@ -38,8 +38,8 @@ class Lines:
         too, whose ids cannot be read.
     ranges : RangesSheet
         Of sheet Ranges.
-    links : sequence of Row
-        Of sheet Links.
+    links, tests : sequence of Row
+        Of sheets Links and Tests.
     """
 
     nets: Sequence[Row]
@@ -50,6 +50,7 @@ class Lines:
     unreadable: Sequence[str]
     ranges: RangesSheet
     links: Sequence[Row] = ()
+    tests: Sequence[Row] = ()
 
     @property
     def places(self) -> dict[str, str]:

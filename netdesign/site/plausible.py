@@ -17,6 +17,7 @@ from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.unit_names import from_si
 from netdesign.site.declared_sheet import Confirmation, show_value
+from netdesign.site.grounds import name_bare
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.type_resistances import list_beside
@@ -91,8 +92,7 @@ def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
             yield from _give([row], list_doubts(layer))
     for line in lines.ranges.lines:
         yield from _give(every, list_doubts(line))
-    for sheet in TYPE_SHEETS:
-        yield from _list_of_types(lines, sheet)
+    yield from _list_of_types(lines)
 
 
 def _give(
@@ -101,19 +101,42 @@ def _give(
     return ((rows, doubt) for doubt in doubts)
 
 
-def _list_of_types(lines: Lines, sheet: str) -> Iterator[tuple[list[str], Doubt]]:
-    """Doubts about the types of a sheet, with the net rows that name each."""
-    types = lines.types[sheet]
-    users: dict[str, dict[str, None]] = {name: {} for name in types}
+def _list_of_types(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
+    """Doubts about the types, and about the links and tests of each."""
+    of_types: dict[str, dict[str, None]] = {}
+    for sheet in TYPE_SHEETS:
+        users = _list_users(lines, sheet)
+        yield from _name_users(users, list(lines.types[sheet].items()), sheet)
+        for name, rows in users.items():
+            for one in (name, name_bare(name)):
+                of_types.setdefault(one, {}).update(rows)
+    for sheet, found in (("Links", lines.links), ("Tests", lines.tests)):
+        named = [(line["type"].word, line) for line in found]
+        yield from _name_users(of_types, named, sheet)
+
+
+def _list_users(lines: Lines, sheet: str) -> dict[str, dict[str, None]]:
+    """Net rows that name each type of a sheet."""
+    users: dict[str, dict[str, None]] = {name: {} for name in lines.types[sheet]}
     for line in lines.nets:
         row = line["id"].word
         beside = [lines.ends[row]] if row in lines.ends else []
         for one in list_references([line, *beside], sheet):
             users.setdefault(one.word, {})[row] = None
-    owner = {id(one): name for name, line in types.items() for one in line.values()}
-    doubts = [one for line in types.values() for one in list_doubts(line)]
-    for doubt in (*doubts, *list_column_doubts(list(types.values()), sheet)):
-        yield list(users[owner[id(doubt[0])]]), doubt
+    return users
+
+
+def _name_users(
+    users: Mapping[str, Mapping[str, None]],
+    named: Sequence[tuple[str, Row]],
+    sheet: str,
+) -> Iterator[tuple[list[str], Doubt]]:
+    """Doubts about lines of a sheet, each of a type, with the net rows that name it."""
+    owner = {id(one): name for name, line in named for one in line.values()}
+    rows = [line for _, line in named]
+    doubts = [one for line in rows for one in list_doubts(line)]
+    for doubt in (*doubts, *list_column_doubts(rows, sheet)):
+        yield list(users.get(owner[id(doubt[0])], ())), doubt
 
 
 Doubt: TypeAlias = tuple[Reading, Message]

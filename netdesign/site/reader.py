@@ -283,9 +283,8 @@ def _read_lines(
     ends = list(read_rows(ends_table, findings)) if ends_table else []
     ends = spread_over_rows(ends, [row["id"].word for row in nets])
     anchors = list(read_rows(anchors_table, findings)) if anchors_table else []
-    tests_table = tables[TESTS.name]
-    if tests_table:
-        tests = list(read_rows(tests_table, findings))
+    tests = list(read_rows(table, findings)) if (table := tables[TESTS.name]) else []
+    if tests:
         anchors = count_in_tests(anchors, tests, findings)
     grounds = {
         row["id"].word: row["ground"] for row in nets if row["ground"].state == "given"
@@ -312,6 +311,7 @@ def _read_lines(
         unreadable=[sheet for sheet, found in types.items() if found is None],
         ranges=ranges,
         links=list(read_rows(table, findings)) if (table := tables[LINKS.name]) else (),
+        tests=tests,
     )
     if nets:
         for lines_of in snow.values():

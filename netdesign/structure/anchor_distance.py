@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
-
-import numpy as np
 
 Place = tuple[float, float, float]
 
@@ -42,7 +41,7 @@ def find_least_distance(bores: Sequence[Bore]) -> float:
     tests/verification/test_anchor_distance.py
     """
     pairs = combinations(bores, 2)
-    return min((measure_distance(one, other) for one, other in pairs), default=np.inf)
+    return min((measure_distance(one, other) for one, other in pairs), default=math.inf)
 
 
 def measure_distance(one: Bore, other: Bore) -> float:
@@ -54,11 +53,12 @@ def measure_distance(one: Bore, other: Bore) -> float:
     -----------
     tests/verification/test_anchor_distance.py
     """
-    ways = [np.array(bore.direction) for bore in (one, other)]
+    ways = (one.direction, other.direction)
     lengths = [_LONG if bore.length is None else bore.length for bore in (one, other)]
-    gap = np.subtract(one.start, other.start)
-    cosine = float(ways[0] @ ways[1])
-    along = (float(ways[0] @ gap), float(ways[1] @ gap))
+    x, y, z = (a - b for a, b in zip(one.start, other.start, strict=True))
+    gap = (x, y, z)
+    cosine = _dot(*ways)
+    along = (_dot(ways[0], gap), _dot(ways[1], gap))
     sine = 1.0 - cosine**2
     tried = [(end, along[1] + end * cosine) for end in (0.0, lengths[0])]
     tried += [(end * cosine - along[0], end) for end in (0.0, lengths[1])]
@@ -66,6 +66,18 @@ def measure_distance(one: Bore, other: Bore) -> float:
         first = (cosine * along[1] - along[0]) / sine
         tried.append((first, along[1] + first * cosine))
     return min(
-        float(np.linalg.norm(gap + s * ways[0] - t * ways[1]))
-        for s, t in (np.clip(point, 0.0, lengths) for point in tried)
+        math.dist(_go(one, s, lengths[0]), _go(other, t, lengths[1])) for s, t in tried
     )
+
+
+def _dot(one: Place, other: Place) -> float:
+    return sum(a * b for a, b in zip(one, other, strict=True))
+
+
+def _go(bore: Bore, way: float, length: float) -> Place:
+    """Place on an anchor, so far along it, or at the nearer end."""
+    x, y, z = (
+        start + min(max(way, 0.0), length) * slope
+        for start, slope in zip(bore.start, bore.direction, strict=True)
+    )
+    return x, y, z

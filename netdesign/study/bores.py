@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import list_assumed, not_proven
@@ -32,11 +33,14 @@ def check_anchor_distance(
     """Check how near the anchors of a row come to each other in the ground.
 
     Nearer than the profile says is not proven: a test of the group may show it. None
-    where the profile has no such distance, or without any pull.
+    without any pull.
     """
     limit = standard.find(ANCHOR_DISTANCE)
-    if limit is None or not pulls:
+    if not pulls:
         return None
+    if limit is None:
+        lack = say("check.no_limit", limit=ANCHOR_DISTANCE)
+        return _result("anchors", Verdict.NOT_PROVEN, not_proven(lack))
     gap = gap or _find_lack(row, pulls)
     ends = ranges["inclination"]
     least = min(
@@ -47,14 +51,19 @@ def check_anchor_distance(
     reason = say("bores.apart", **told)
     if gap is not None or not least >= limit.value:
         reason = not_proven(gap or say("bores.near", **told))
+    verdict = Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN
+    found = _result("anchors", verdict, reason)
+    return replace(found, clause=limit.clause, assumed=list_assumed(limit))
+
+
+def _result(mode: str, verdict: Verdict, reason: Message) -> CheckResult:
     return CheckResult(
-        id="geometry.anchors",
-        clause=limit.clause,
+        id=f"geometry.{mode}",
+        clause="-",
         member=Member.NET,
-        mode="anchors",
-        verdict=Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN,
+        mode=mode,
+        verdict=verdict,
         reason=reason,
-        assumed=list_assumed(limit),
     )
 
 
@@ -77,15 +86,11 @@ def check_cover(
     elif any(not one.is_axis_known for one in pulls):
         gap = gap or say("bending.no_axis")
     short = None if unsaid else next(_list_short(row, pulls), None)
-    verdict = Verdict.NOT_PROVEN if gap else Verdict.PASS
-    return CheckResult(
-        id="geometry.cover",
-        clause="-",
-        member=Member.NET,
-        mode="cover",
-        verdict=Verdict.FAIL if short else verdict,
-        reason=short or (not_proven(gap) if gap else say("bores.covered")),
-    )
+    if short is not None:
+        return _result("cover", Verdict.FAIL, short)
+    if gap is not None:
+        return _result("cover", Verdict.NOT_PROVEN, not_proven(gap))
+    return _result("cover", Verdict.PASS, say("bores.covered"))
 
 
 def _list_short(row: NetRow, pulls: Sequence[AnchorPull]) -> Iterator[Message]:

@@ -111,6 +111,8 @@ def _count(
         return None
     if not is_shared(row, member):
         return supports * (row.guys.count if member in _BESIDE_GUYS else 1)
+    if row.guys.are_shared is None:
+        return None
     if row.end_resistances is None:
         return supports + 1
     if position == "edge":

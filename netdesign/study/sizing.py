@@ -51,9 +51,7 @@ class SizedCell:
     tried : int
         Number of types that were tried.
     left_out : int
-        Number of types that were not, since they are for another ground.
-    is_asked : bool
-        Nobody says whether ``now`` holds in the ground of the row: no solution yet.
+        Number of types that were not, since they are for another ground, or none.
     """
 
     row_id: str
@@ -64,7 +62,6 @@ class SizedCell:
     used: float | None = None
     tried: int = 0
     left_out: int = 0
-    is_asked: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -76,9 +73,8 @@ class _Slot:
     column: Column
     cell: str
     was: str
-    types: tuple[str, ...]  # of its sheet, but for those of another ground
-    asked: frozenset[str]  # those of which the ground is not known to be the row's
-    left_out: int  # those of another ground
+    types: tuple[str, ...]  # of its sheet, in the ground of the row
+    left_out: int  # those of another ground, or of none
 
     def choose(self, number: int) -> str | None:
         """Type of a trial; None where all were tried."""
@@ -95,7 +91,7 @@ def size_site(
     """Find the smallest type for every cell whose checks do not all pass.
 
     The smallest is the one that is used most while everything passes; of two alike the
-    first by its name. Types that are known to hold in the ground come before others.
+    first by its name.
 
     Parameters
     ----------
@@ -142,7 +138,6 @@ def _join(one: _Slot, other: _Slot) -> _Slot:
         checks={**one.checks, **other.checks},
         open_rows=one.open_rows + other.open_rows,
         types=tuple(kind for kind in one.types if kind in other.types),
-        asked=one.asked | other.asked,
         left_out=max(one.left_out, other.left_out),
     )
 
@@ -150,7 +145,7 @@ def _join(one: _Slot, other: _Slot) -> _Slot:
 def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
     best = min(
         passing,
-        key=lambda kind: (kind in slot.asked, -passing[kind], kind),
+        key=lambda kind: (-passing[kind], kind),
         default="",
     )
     return SizedCell(
@@ -162,7 +157,6 @@ def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
         used=passing.get(best),
         tried=len(slot.types) if slot.cell else 0,
         left_out=slot.left_out,
-        is_asked=best in slot.asked,
     )
 
 
@@ -189,15 +183,14 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
             column=column,
             cell=cell,
             was=was,
-            types=tuple(kind for kind, fits in holding.items() if fits is not False),
-            asked=frozenset(kind for kind, fits in holding.items() if fits is None),
-            left_out=sum(fits is False for fits in holding.values()),
+            types=tuple(kind for kind, is_here in holding.items() if is_here),
+            left_out=sum(not is_here for is_here in holding.values()),
         )
 
 
 def _compare_grounds(
     site: Site, row: NetRow, column: Column, was: str
-) -> dict[str, bool | None]:
+) -> dict[str, bool]:
     """Other types of a column's sheet: whether each holds in the ground of the row."""
     ground = row.ground_type or find_ground(site, was)
     return {

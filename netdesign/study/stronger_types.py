@@ -27,36 +27,27 @@ def find_ground(site: Site, type_id: str) -> str:
     return next((ground for ground in found if ground), "")
 
 
-def holds_in_ground(member: str, now: str, other: Resistance) -> bool | None:
+def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
     """Validity of a type in the ground of the type that it would replace.
+
+    A type whose ground nobody gives proves nothing in any.
 
     Parameters
     ----------
     member : str
         What the type is for; only anchors stand in a ground.
     now : str
-        Ground of the type that is there; "" for an unknown one.
+        Ground of the row, or of the type that is there; "" for an unknown one.
     other : Resistance
         Of the type that would replace it.
-
-    Returns
-    -------
-    bool or None
-        None where either ground is unknown: somebody has to be asked.
     """
-    if member not in _ANCHORS:
-        return True
-    return now == other.ground if now and other.ground else None
+    return member not in _ANCHORS or not now or now == other.ground
 
 
 @dataclass(frozen=True, slots=True, order=True, kw_only=True)
 class _Enough:
-    """A type that reaches a demand, in the order in which types are offered.
+    """A type that reaches a demand, in the order in which types are offered."""
 
-    ``is_asked``: nobody says whether it holds in the ground of the row.
-    """
-
-    is_asked: bool
     design: float  # [kN]
     characteristic: float  # [kN]
 
@@ -70,8 +61,7 @@ def find_type_change(
     smallest part of the catalogue. None where the type that is there does, where
     it is that of another member, or nothing is known that would.
 
-    An anchor type of another ground is none of them. One whose ground is not known, or
-    in the place of such a one, comes last, and asks for it.
+    An anchor type of another ground, or of one that is not known, is none of them.
     """
     if given.member in NAMED_BY:
         return None
@@ -81,8 +71,6 @@ def find_type_change(
     if enough:
         weakest = min(enough, key=lambda key: (enough[key], key))
         told = say("change.type_of_workbook", type=weakest)
-        if enough[weakest].is_asked:
-            told = say("change.type_to_ask", type=weakest)
         return _record(told, enough[weakest].characteristic, given)
     basis = "computed" if given.mode == "pull_out" else "declared"
     factor = standard.find_resistance_factor(given.mode, basis)
@@ -105,9 +93,9 @@ def _list_enough(
     found = {}
     for other in site.catalogue:
         ground = row.ground_type or given.ground
-        fits = holds_in_ground(given.member, ground, other)
+        is_here = holds_in_ground(given.member, ground, other)
         lasting, worn = corrode(other, row, standard)
-        is_other = other.mode != given.mode or fits is False
+        is_other = other.mode != given.mode or not is_here
         if is_other or worn or find_short_post(other, row, site.ranges):
             continue
         factor = standard.find_resistance_factor(other.mode, other.basis)
@@ -116,7 +104,6 @@ def _list_enough(
             continue
         if value / factor.value_si >= demand:
             found[other.type_id] = _Enough(
-                is_asked=fits is None,
                 design=value / factor.value_si,
                 characteristic=value,
             )

@@ -141,9 +141,10 @@ def write_row(
     if tests:
         sheet = workbook.create_sheet("Tests")
         headings = ("pull-out force [kN]", "outcome of the test")
-        sheet.append(["anchor type", *headings, "planned proof load [kN]"])
+        headings = ("anchor type", "ground", *headings, "planned proof load [kN]")
+        sheet.append(headings)
         for line in tests:
-            sheet.append(["A", *line])
+            sheet.append(["A", anchor.get("ground", "till"), *line])
     ranges = workbook.create_sheet("Ranges")
     for line in (
         ["quantity", "low", "high", "samples"],

@@ -23,6 +23,7 @@ ROW = {
     "foot": (20.0, 18.0),
     "head": (5.0, -22.0),
     "gap to next work [m]": 1.0,
+    "anchors of the guys": "shared",  # those of two posts would cross in the ground
 }
 
 
@@ -84,6 +85,7 @@ def test_geometry_is_checked_as_far_as_a_profile_has_limits(tmp_path):
         return {key: c.verdict for key, c in checks.items() if key.startswith("geom")}
 
     few = {"geometry.inclination", "geometry.slope", "geometry.height"}
+    few |= {"geometry.anchors", "geometry.cover"}
     assert set(geometry("nf-p-95-304-style")) == few
     swiss = geometry("swiss-guideline-2007")
     assert set(swiss) == few | {

@@ -24,7 +24,12 @@ from netdesign.panel.solution import FailedPanel
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.structure.layout import place_support
-from netdesign.structure.members import CARRYING_MEMBERS, RopeForce, name_in_panel
+from netdesign.structure.members import (
+    CARRYING_MEMBERS,
+    NetPart,
+    RopeForce,
+    name_in_panel,
+)
 from netdesign.words.message import say
 from tests.solving.small_scene import COARSE, LAYOUT, PANEL, build_scene
 
@@ -80,7 +85,7 @@ def test_a_case_has_both_sets_and_the_panel_carries_the_same_load(mid):
     )
     forces, panel = result.member_forces, result.panel
     assert isinstance(panel, PanelForces)
-    assert set(forces) == {*CARRYING_MEMBERS, *PANEL_QUANTITIES}
+    assert set(forces) == {*CARRYING_MEMBERS, NetPart.MESH, *PANEL_QUANTITIES}
     for band in forces.values():
         assert 0.0 <= band.low <= band.value <= band.high
     solution = panel.solution
@@ -97,16 +102,16 @@ def test_a_case_has_both_sets_and_the_panel_carries_the_same_load(mid):
 def test_without_a_panel_nothing_is_added():
     result = solve(draw_case(np.random.default_rng(6)), None)
     assert result.panel is None
-    assert set(result.member_forces) == set(CARRYING_MEMBERS)
+    assert set(result.member_forces) == {*CARRYING_MEMBERS, NetPart.MESH}
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_bands_hold_the_forces_on_finer_meshes(seed):
-    """The error of the section's pulls covers that of the panel, ropes too."""
+    """The error of the section's pulls covers that of panel, ropes and mesh."""
     case = draw_case(np.random.default_rng(900 + seed))
     coarse = solve(case)
     fine = solve(case, settings=SolverSettings(accuracy=2e-3))
-    for name in PANEL_QUANTITIES:
+    for name in (NetPart.MESH, *PANEL_QUANTITIES):
         band, value = coarse.member_forces[name], fine.member_forces[name].value
         assert band.low <= value <= band.high, name
 

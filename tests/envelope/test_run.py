@@ -23,6 +23,7 @@ MEMBERS = {
     "downhill_anchor",
     "post",
     "post_base",
+    "mesh",
 }
 
 
@@ -50,7 +51,10 @@ def test_a_solved_case_names_every_member_with_its_band(task):
     assert set(result.member_forces) == MEMBERS
     for band in result.member_forces.values():
         assert 0.0 <= band.low <= band.value <= band.high
-    assert sizes(result) == result.anchors.member_forces
+    assert sizes(result) == {
+        **result.anchors.member_forces,
+        "mesh": result.solution.tension_max,
+    }
     foot = result.member_forces["foot_anchor"]
     assert foot.low < foot.value < foot.high
 

@@ -7,6 +7,7 @@ import pytest
 from netdesign.panel.inputs import CUTS
 from netdesign.site.model import END_MODES
 from netdesign.site.reader import read_site
+from netdesign.structure.members import NetPart
 from netdesign.words.catalogue import LANGUAGES, render
 
 HEADINGS = {
@@ -63,8 +64,10 @@ def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
     assert panel.upper.sag == pytest.approx(0.053, rel=1e-12)
     assert panel.lower.sag == 0.041
     assert (panel.cut, panel.has_mid_anchors) == ("upper", True)
-    assert (row.panel.upper.breaking, row.panel.lower.breaking) == (241e3, None)
-    assert (row.panel.upper.type_id, row.panel.lower.type_id) == ("B1", "B2")
+    ridge, below = map(row.find_net_part, (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE))
+    assert (ridge.value, below.value) == (pytest.approx(0.75 * 241e3), None)
+    assert (ridge.type_id, below.type_id) == ("B1", "B2")
+    assert (ridge.mode, below.mode) == ("rope", "rope")
     assert row.panel_lack is None
     assert other.panel.assumed
     assert "panel system" in lack(other)
@@ -134,6 +137,7 @@ def test_a_net_without_ropes_has_nothing_to_say(sheets, save):
     sheets["Nets"][1].append("none")
     row = read_site(save(sheets)).rows[0]
     assert row.panel is row.panel_lack is None
+    assert [one.member for one in row.net_parts] == [NetPart.MESH]
 
 
 @pytest.mark.parametrize(
@@ -206,7 +210,7 @@ def test_what_holds_the_row_along_itself(with_end, save):
     assert row.row_end.guy_angle == pytest.approx(math.radians(41.0), rel=1e-12)
     assert found["lateral_anchor", "tendon"].value == 400e3
     assert found["lateral_anchor", "pull_out"].basis == "tested"
-    assert found["end_guy", "rope"].value == 200e3
+    assert found["end_guy", "rope"].value == 0.75 * 250e3
     assert found["end_guy_anchor", "pull_out"].value is None
     # judged all the same, with nothing that holds it
     assert {one.value for one in other.row_end.resistances} == {None}

@@ -182,7 +182,7 @@ def test_there_is_a_resistance_for_every_member_and_mode(sheets, save):
     assert (pull_out.value, pull_out.basis) == (300e3, "tested")
     assert (pull_out.type_id, pull_out.source) == ("A1", "Anchors!C2")
     assert found["foot_anchor", "tendon"].basis == "declared"
-    assert found["uphill_guy", "rope"].value == 200e3
+    assert found["uphill_guy", "rope"].value == 0.75 * 250e3
     assert found["post", "compression"].value == 380e3
 
 

@@ -16,14 +16,17 @@ FIELDS = {one.key: one for one in NETS.fields}
 
 def forget_places(row):
     """Net row without the cells that its values stand in."""
-    resistances = tuple(replace(one, source="") for one in row.resistances)
-    panel = row.panel and replace(
-        row.panel,
-        lower=replace(row.panel.lower, source=""),
-        upper=replace(row.panel.upper, source=""),
+    resistances, parts = (
+        tuple(replace(one, source="") for one in given)
+        for given in (row.resistances, row.net_parts)
     )
     return replace(
-        row, inputs=(), resistances=resistances, panel=panel, questions=(), unsaid=()
+        row,
+        inputs=(),
+        resistances=resistances,
+        net_parts=parts,
+        questions=(),
+        unsaid=(),
     )
 
 

@@ -48,7 +48,9 @@ def judge(folder, panel, without=()):
     row = {**row, "slack": 0.043, **panel}
     lines["Nets"] = [{key: one for key, one in row.items() if key not in without}]
     lines["Ranges"] = [one for one in lines["Ranges"] if one["quantity"] != "slack"]
-    lines["Ropes"].append({"id": "border", "rope": 266.0, "axial_stiffness": 17600.0})
+    border = {"id": "border", "rope": 266.0, "axial_stiffness": 17600.0}
+    lines["Ropes"].append(border | {"protected_years": 90})
+    lines["Links"].append({"type": "border", "link": "eye", "strength": 301.0})
     lines["Ends"], lines["Declared"] = [END], []
     path = folder / "site.xlsx"
     with pytest.MonkeyPatch.context() as patch:

@@ -13,7 +13,7 @@ from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.structure.members import CARRYING_MEMBERS, Member
+from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
@@ -327,7 +327,7 @@ def test_study_agrees_with_itself_its_site_and_its_floor(solved):
         again = read_document(write_document(study))
         assert rejudge(again, standard, site) == []
     floor = study_floor(judge(solved)[1])
-    assert set(floor) == set(CARRYING_MEMBERS)
+    assert set(floor) == {*CARRYING_MEMBERS, NetPart.MESH}
 
 
 def study_floor(study):

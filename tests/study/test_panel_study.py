@@ -28,7 +28,17 @@ from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
 from netdesign.words.message import say
 from tests.read_check import bring, scale_force, scale_step
-from tests.small_site import LASTS, RANGES, RUN, build_row, build_site, resist
+from tests.small_site import (
+    LASTS,
+    RANGES,
+    RUN,
+    STRONG,
+    build_row,
+    build_site,
+    list_net_parts,
+    name_force_checks,
+    resist,
+)
 
 PROFILE = load_standard("eurocode")
 ACCEPTED = Project(accepted_law=RUN.creep_law.name)
@@ -106,7 +116,7 @@ def test_numbers_of_the_record_give_the_demand(pair):
             continue
         letter = check.name_force("k")[0]
         section, panel = (
-            bring(check, check.read(f"{letter}_{one}")) for one in ("s", "p0")
+            bring(check, check.read(f"{letter}_{one}") or 0.0) for one in ("s", "p0")
         )
         panel += check.read("Z") or 0.0
         least = check.read(f"{letter}_g") or 0.0
@@ -154,7 +164,7 @@ def test_ropes_are_told_as_information(pair):
     panel = pair[1].rows[0].panel
     forces = {one.quantity: one for one in panel.extremes}
     for rope in panel.ropes:
-        assert rope.breaking_kN == 290.0
+        assert rope.breaking_kN == STRONG / 1e3
         assert rope.tension_kN >= forces[f"panel_{rope.rope}_tension"].max_kN
         assert rope.tension_kN > rope.along_kN > 0.0
     assert not [one for one in pair[1].rows[0].checks if "panel" in one.member]
@@ -188,12 +198,20 @@ def _list_ends(check):
 def test_no_demand_falls_below_that_without_a_panel(seed):
     row, panel = draw_row(np.random.default_rng(700 + seed), seed)
     plain, both = (
-        judge(replace(row, panel=one, row_end=end))[1]
+        judge(
+            replace(
+                row,
+                panel=one,
+                row_end=end,
+                net_parts=list_net_parts(has_ropes=one is not None),
+            )
+        )[1]
         for one, end in ((None, None), (panel, an_end()))
     )
     before, after = checks_of(plain), checks_of(both)
     assert [name for name in after if name in before] == list(before)
-    added = {f"{member}.{mode}.end" for member, mode in END_MODES}
+    force_checks = name_force_checks(has_ropes=True, has_end=True)
+    added = set(force_checks) - set(name_force_checks())
     assert set(after) == set(before) | added
     order = [Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL]
     for name, check in after.items():

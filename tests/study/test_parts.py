@@ -15,6 +15,7 @@ BARE = {
     **{"id": "R1", "slope_angle": 38.0, "snow_thickness": 2.4, "upslope_length": 18.0},
     **{"ground_law": "no-slip", "net_height": 2.5, "net_stiffness": 9000.0},
     **{"post_spacing": 3.5, "post_tilt": 0.0, "guy_count": 2, "guy_splay": 20.0},
+    **{"guy_anchors": "own"},
     **{"uphill_anchor_distance": 3.0, "downhill_anchor_distance": 2.0},
     **{"foot_anchor": "A", "uphill_anchor": "A", "downhill_anchor": "A"},
     **{"uphill_guy": "G", "downhill_guy": "G", "post": "P"},
@@ -35,7 +36,7 @@ def read_row(tmp_path, ends=(END,), **net):
         **lines,
         "Nets": [{**BARE, **net}],
         **TYPES,
-        **{"Ends": list(ends), "Snow": [], "Declared": []},
+        **{"Ends": list(ends), "Snow": [], "Declared": [], "Links": []},
     }
     write_lines(tmp_path / "site.xlsx", lines)
     (row,) = read_site(tmp_path / "site.xlsx").rows
@@ -67,6 +68,16 @@ def test_posts_and_what_stands_at_each(tmp_path, given, posts):
         assert found[member, "A"] == (2 * posts, pytest.approx(4.2))
     for member in ("uphill_guy", "downhill_guy"):
         assert found[member, "G"][0] == 2 * posts
+
+
+@pytest.mark.parametrize("posts", [2, 3, 7])
+def test_an_anchor_of_two_guys_stands_once_between_two_posts(tmp_path, posts):
+    shared = {"panel_system": "none", "guy_anchors": "shared", "post_count": posts}
+    found = count_parts(read_row(tmp_path, **shared))
+    assert found["uphill_anchor", "A"][0] == posts + 1
+    assert found["uphill_guy", "G"][0] == 2 * posts
+    shared["guy_anchors"] = ""
+    assert count_parts(read_row(tmp_path, **shared))["uphill_anchor", "A"][0] is None
 
 
 def test_lengths_are_the_longest_over_the_inclinations(tmp_path):

@@ -15,7 +15,7 @@ from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
-from tests.small_site import build_row, build_site
+from tests.small_site import EYE, LASTS, build_row, build_site
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
 RANGES = Ranges.of(
@@ -35,6 +35,8 @@ def a_resistance(member, mode):
         basis="tested" if mode == "pull_out" else "declared",
         type_id="weak" if is_weak else "strong",
         source="Anchors!B2",
+        ground="till",
+        wear=LASTS if mode in ("tendon", "rope") else None,
     )
 
 
@@ -52,7 +54,8 @@ ROW = build_row(
 def study(row=ROW, ranges=RANGES, *, with_solver=False):
     project = Project(accepted_law=RUN.creep_law.name)
     site = build_site(row, ranges=ranges, project=project)
-    site = replace(site, catalogue=row.resistances)
+    links = dict.fromkeys(("weak", "strong", "B22"), (EYE,))
+    site = replace(site, catalogue=row.resistances, links=links)
     solver = CaseSolver(RUN.settings, RUN.creep_law) if with_solver else None
     results = solve_site(site, RUN)
     standard = load_standard("nf-p-95-304-style")
@@ -77,7 +80,7 @@ def test_weak_anchor_fails_and_every_change_is_solved(found, changes):
     assert check(found).verdict is Verdict.FAIL
     assert set(changes) == {
         "characteristic resistance",
-        "type strong of the workbook (was it tested in the ground of this row?)",
+        "type strong of the workbook",
         "post spacing",
         "snow density",
         "snow thickness",

@@ -181,6 +181,7 @@ def _work_out_derived(what, check, again):
         "rope": work_out_rope,
         "bearing": work_out_bearing,
         "compression": work_out_buckling,
+        "connection": work_out_chain,
     }
     mode = re.search(r", ([a-z -]+) \(", check.title)[1]
     rule = rules.get(mode)
@@ -189,9 +190,35 @@ def _work_out_derived(what, check, again):
 
 
 def work_out_bar(told):
-    *diameters, strength = list_numbers(told.replace("π/4", "π"))
-    area = math.pi / 4 * (diameters[0] ** 2 - sum(d**2 for d in diameters[1:]))
-    return area * strength / 1e3
+    built, _, corroded = told.partition("; ")
+    if " mm" not in built:  # a resistance that is given
+        corroded = built
+        return leave_steel(corroded) * list_numbers(corroded)[0]
+    *diameters, strength = list_numbers(built.replace("π/4", "π"))
+    loss = find_loss(corroded)
+    outer, inner = diameters[0] - 2.0 * loss, sum(diameters[1:])
+    return math.pi / 4 * (outer**2 - inner**2) * strength / 1e3
+
+
+def find_loss(told):
+    """Loss of each face [mm]; 0 of steel that loses none."""
+    found = re.search(r": ([\d.]+) mm", told)
+    return float(found[1]) if found else 0.0
+
+
+def leave_steel(told):
+    return list_numbers(told)[1]
+
+
+def work_out_chain(told):
+    """Number, strength, the factors of a working load limit, that of a direction."""
+    found = re.search(r": (\d+) · ([\d.]+) kN", told)
+    strength = int(found[1]) * float(found[2])
+    limit = re.search(r"limit · ([\d.]+) · ([\d.]+)", told)
+    beside = re.search(r"; · ([\d.]+) ", told)
+    for factor in (*(limit.groups() if limit else ()), beside[1] if beside else 1):
+        strength *= float(factor)
+    return strength
 
 
 def work_out_pull_out(told):

@@ -27,7 +27,7 @@ def draw_site(draw):
     def vary(value, digits=3):
         return float(f"{value * draw.uniform(0.97, 1.03):.{digits}g}")
 
-    return {
+    lines = {
         "Project": [
             {"item": "name", "value": "Drawn slope"},
             {"item": "author", "value": "A. Nobody"},
@@ -54,6 +54,38 @@ def draw_site(draw):
             }
         ],
     }
+    _complete_chain(lines, vary)
+    return lines
+
+
+def _complete_chain(lines, vary):
+    """Mesh, links, steel over its life, and ground around the anchors."""
+    for number, net in enumerate(lines["Nets"]):
+        net["ground"] = "sandstone"
+        net["mesh_strength"] = vary(231.0)
+        net["design_life"] = 67
+        net["edge_distance"] = vary(17.3)
+        if net["guy_count"] == 2:
+            net["guy_anchors"] = ("shared", "own")[number % 2]
+    for kind in lines["Anchors"]:
+        kind.setdefault("ground", "sandstone")
+        kind["drilled_length"] = vary(7.3)
+        kind["least_cover"] = vary(0.9)
+        kind["least_edge"] = vary(2.7)
+        if kind["kind"] == "rope anchor":
+            kind |= {"protection": "sheath", "protected_years": 83}
+        else:
+            kind |= {"protection": "sacrificial", "soil": "fill"}
+    for rope in lines["Ropes"]:
+        rope["protected_years"] = 71
+    lines["Links"] = [
+        {"type": "drilled", "link": "eye", "strength": vary(371.0)},
+        {"type": "bent", "link": "shackle", "working_limit": vary(133.0), "count": 2},
+        {"type": "guy", "link": "shackle", "strength": vary(310.0)},
+        {"type": "guy", "link": "thimble", "working_limit": vary(97.0)},
+        {"type": "number", "link": "turnbuckle", "strength": vary(287.0)},
+        {"type": "strong", "link": "plate", "strength": vary(613.0)},
+    ]
 
 
 def _range(quantity, unit, low, high):

@@ -9,7 +9,7 @@ from dataclasses import asdict, replace
 from netdesign.checks import Standard
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import build_cases
-from netdesign.outcome import merge_verdicts
+from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
@@ -273,7 +273,8 @@ def _hold_back(
     basis: Basis, one: MemberCheck, stored: CheckRecord | None
 ) -> MemberCheck:
     """A pass that the study holds back, for a fault beside its forces."""
-    if stored is None or not is_held_back(stored):
+    passes = one.result.verdict is Verdict.PASS
+    if stored is None or not passes or not is_held_back(stored):
         return one
     return judge_with_fault(basis, one, _UNKNOWN_GAP)
 

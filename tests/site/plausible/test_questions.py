@@ -9,6 +9,7 @@ from netdesign.site.template import workbook as template
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
+from tests.checks.given_pulls import write_row
 from tests.site.plausible.slips import PLANS
 from tests.study.knowing_less.drawn_site import draw_lines, write_lines
 
@@ -52,7 +53,9 @@ def test_nothing_is_asked_of_the_example(example):
         ("Nets_E2", "1.5", ["R1"], "4 to 100 m"),
         ("Ranges_C3", "1.5", ["R1", "R2", "R3", "R4", "R5", "R6", "R7"], "5 to 45 deg"),
         ("Ends_L2", "3", ["R1"], "5 to 65 deg"),
-        ("Ropes_G7", "145000", [f"R{n}" for n in range(1, 8)], "7.5e+03 to 4.8e+04 kN"),
+        ("Links_C2", "6200", ["R3", "R4", "R5"], "20 to 2000 kN"),
+        ("Links_D10", "3000", [f"R{n}" for n in range(2, 8)], "5 to 1000 kN"),
+        ("Ropes_G10", "145000", ["R2", "R3", "R4"], "1.62e+04 to 1.04e+05 kN"),
     ],
 )
 def test_a_slip_is_asked_for_with_its_cell_and_its_rows(
@@ -65,6 +68,14 @@ def test_a_slip_is_asked_for_with_its_cell_and_its_rows(
     (question,) = site.questions
     assert told in str(question)
     assert f"= {typed}" in str(question)
+
+
+def test_a_single_test_is_asked_for_with_the_rows_of_its_type(tmp_path):
+    strong = {"tendon resistance [kN]": 500}
+    path = write_row(tmp_path, anchor=strong, tests=[(3210, "held", None)])
+    site, places = asked(path)
+    assert (places, rows_in_question(site)) == (["Tests!C2"], ["R"])
+    assert "10 to 2000 kN" in str(site.questions[0])
 
 
 def declare(path, tmp_path, line, **cells):

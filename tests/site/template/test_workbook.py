@@ -184,6 +184,7 @@ def test_what_is_written_in_each_language_is_read_clean(tmp_path, language, kind
         assert site.notes == ()
         assert site.ranges == truth.ranges
         assert [strip(row) for row in site.rows] == [strip(row) for row in truth.rows]
+        assert strip_links(site) == strip_links(truth) != {}
         return
     with pytest.raises(SiteDataError) as caught:
         read_site(path)
@@ -196,17 +197,21 @@ def test_what_is_written_in_each_language_is_read_clean(tmp_path, language, kind
 
 def strip(row):
     """A row without its cells: their sheets are named in another language."""
-    bare = bare_resistances(row.resistances)
-    row = replace(row, inputs=(), resistances=bare, end_resistances=None)
-    if row.row_end is None:
-        return replace(row, panel=None)
-    ropes = [replace(one, source="") for one in (row.panel.lower, row.panel.upper)]
-    held = bare_resistances(row.row_end.resistances)
-    return replace(
+    row = replace(
         row,
-        panel=replace(row.panel, lower=ropes[0], upper=ropes[1]),
-        row_end=replace(row.row_end, resistances=held),
+        inputs=(),
+        resistances=bare_resistances(row.resistances),
+        net_parts=bare_resistances(row.net_parts),
+        end_resistances=None,
     )
+    if row.row_end is None:
+        return row
+    held = bare_resistances(row.row_end.resistances)
+    return replace(row, row_end=replace(row.row_end, resistances=held))
+
+
+def strip_links(site):
+    return {kind: bare_resistances(chain) for kind, chain in site.links.items()}
 
 
 def bare_resistances(resistances):
@@ -242,7 +247,7 @@ def test_sheets_are_set_up_for_printing(example):
     assert nets.print_title_cols == "$A:$A"
     assert nets.page_setup.orientation == "landscape"
     assert "&P" in nets.oddFooter.right.text
-    assert nets.print_area == "'Nets'!$A$1:$AQ$25"
+    assert nets.print_area == "'Nets'!$A$1:$AU$25"
 
 
 def test_profiles_and_quantities_are_offered(example):

@@ -27,7 +27,7 @@ def as_given(text):
     return {"key": "text.as_given", "arguments": {"text": text}}
 
 
-SOLVED = ("E_s", "V_s", "E_p0", "V_p0", "T_r", "P", "T_min")
+SOLVED = ("E_s", "V_s", "E_p0", "V_p0", "T_r", "T_b", "P", "T_min")
 FLOOR = ("E_g0", "V_g0")
 
 
