@@ -697,7 +697,7 @@ def test_standards_validates_a_folder(tmp_path):
     shutil.copytree(find_resource("standards") / PROFILE, own)
     result = start_program("standards", "validate", "mine", cwd=tmp_path)
     assert result.code == 0
-    assert result.out.startswith(f"{PROFILE}: version 3, 25 values, 2 tables")
+    assert result.out.startswith(f"{PROFILE}: version 3, 26 values, 2 tables")
     factors = own / "factors.toml"
     text = factors.read_text(encoding="utf-8").replace("value = 1.35", "value = -1.35")
     factors.write_text(text + "colour = 1\n", encoding="utf-8")

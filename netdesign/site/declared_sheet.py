@@ -17,7 +17,7 @@ from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids
-from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, END_MODES, LIFTED_MODE, MEMBER_MODES
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.replaced import find_cell, split_replacement
 from netdesign.site.tables import read_rows
@@ -48,6 +48,7 @@ _OF_DIRECTIONS = (
 DECLARABLE: tuple[tuple[str, str], ...] = (
     *MEMBER_MODES,
     *DEPENDENT_MODES,
+    LIFTED_MODE,
     *END_MODES,
     *_OF_DIRECTIONS,
     *_OF_GEOMETRY,

@@ -7,7 +7,7 @@ from itertools import chain
 
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.model import NetRow, Resistance
+from netdesign.site.model import LIFTED_MODE, NAMED_BY, NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.words.message import Message, say
 
@@ -33,8 +33,9 @@ def _list_of_types(row: NetRow) -> Iterator[Message]:
     """Types that no column names, and what those that are named do not say."""
     for one in row.resistances:
         if not one.type_id:
-            is_base = one.member == Member.POST_BASE
-            yield _name(NETS, Member.POST if is_base else one.member)
+            yield _name(NETS, NAMED_BY.get(Member(one.member), one.member))
+        elif (one.member, one.mode) == LIFTED_MODE:
+            pass  # asked for once some case lifts a post
         elif one.value is None and not (one.tests or one.dimensions):
             yield from _list_lacking(row, one)
 

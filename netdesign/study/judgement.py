@@ -36,6 +36,7 @@ from netdesign.study.member_force import (
     find_force,
     find_lack,
     find_other_panel,
+    lifts,
     name_governing,
     name_unsaid,
 )
@@ -140,9 +141,12 @@ def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
 def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     """Checks of the members of both supports, then of what holds the row's end."""
     effects, end = known.forces.effects, basis.row.row_end
+    floor = known.forces.floor or {}
+    is_lifted = lifts(known.forces.largest.values(), floor.values())
     judged = [
         _judge_member(basis, known, given, width)
         for width, given in list_checked(basis.row, effects)
+        if is_lifted or given.member != Member.POST_FOOT
     ]
     at_end = effects.find_support("edge")
     held = end.resistances if end else ()

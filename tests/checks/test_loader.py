@@ -61,6 +61,7 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "resistance.bending": pytest.approx(1.15 * 1.3, rel=1e-15),
         "resistance.compression_bending": 1.05,
         "resistance.sliding": 1.1,
+        "resistance.tension": 1.4,
         "anchor.angle.rope": 30.0,
     }
     borrowed = ("end.", "lateral.", "post.")

@@ -23,6 +23,7 @@ MEMBERS = {
     "downhill_anchor",
     "post",
     "post_base",
+    "post_foot",
 }
 
 

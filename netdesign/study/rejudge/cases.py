@@ -253,6 +253,15 @@ def _rejudge_force(
         if force.value_kN > extremes[Member.POST].max_kN * (1.0 + SAME):
             yield say("audit.more_on_base", place=place)
         return
+    if force.quantity == Member.POST_FOOT:  # no case has it beside its other forces
+        pulls = [one.post_foot_kN for one in row.statics if one.load is None]
+        least = max(pulls, default=0.0)
+        if not _are_ordered((0.0, force.low_kN, force.value_kN, force.high_kN)):
+            yield say("audit.outside_band", place=place)
+        if least > force.high_kN * (1.0 + SAME):
+            high = show_value(force.high_kN)
+            yield say("audit.too_low_end", place=place, high=high, least=least)
+        return
     largest = extremes[_find_bringing(force.quantity, row)]
     pairs = [
         ("value_kN", force.value_kN, largest.max_kN),
