@@ -11,7 +11,7 @@ from netdesign.checks.forces import rate
 from netdesign.checks.loader import Standard, StandardValue
 from netdesign.checks.result import CheckResult, Declaration, GivenResistance
 from netdesign.checks.routes import TestedResistance, find_tested_resistance
-from netdesign.checks.schema import ACTION_FACTOR
+from netdesign.checks.schema import ACTION_FACTOR, list_action_factors
 from netdesign.outcome import Verdict
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -88,7 +88,7 @@ def check_member(
         Never a pass where anything needed is missing.
     """
     strength = strength or find_resistance(resistance, standard)
-    on_action = find_action_factor(standard)
+    on_action = find_action_factor(standard, resistance.mode)
     on_resistance, clause = _find_resistance_factor(resistance, standard, strength)
     used = rate(action, on_action, strength, on_resistance)
     open_points = tuple(one for one in (gap, doubt) if one)
@@ -107,15 +107,21 @@ def check_member(
     )
 
 
-def find_action_factor(standard: Standard) -> Quantity:
-    """Factor on every action, gamma_E."""
-    found = standard.find(ACTION_FACTOR)
+def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
+    """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
+    found = _find_first(standard, mode)
     lack = None if found else lack_factor(ACTION_FACTOR)
+    source = found.id if found else ACTION_FACTOR
     return given(
-        *("γ_E", found.value_si if found else None, "-", ACTION_FACTOR),
+        *("γ_E", found.value_si if found else None, "-", source),
         kind=Kind.PROFILE,
         lack=lack,
     )
+
+
+def _find_first(standard: Standard, mode: str) -> StandardValue | None:
+    found = map(standard.find, list_action_factors(mode))
+    return next((one for one in found if one), None)
 
 
 def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
@@ -233,7 +239,7 @@ def _list_assumed_factors(
     resistance: GivenResistance, standard: Standard
 ) -> tuple[str, ...]:
     factor = standard.find_resistance_factor(resistance.mode, resistance.basis)
-    return list_assumed(standard.find(ACTION_FACTOR), factor)
+    return list_assumed(_find_first(standard, resistance.mode), factor)
 
 
 def lack_factor(factor: str) -> Message:

@@ -22,6 +22,7 @@ from netdesign.outcome import ContentError, StandardError
 from netdesign.words.message import Message, say
 
 ACTION_FACTOR = "action.snow"
+UPLIFT_FACTOR = "action.uplift"  # EN 1997-1 UPL, of what lifts a post
 MIN_INCLINATION = "geometry.inclination.min"
 MAX_INCLINATION = "geometry.inclination.max"
 MIN_SLOPE = "geometry.slope.min"
@@ -44,7 +45,8 @@ TEST_COUNT = "tests.count"  # of each anchor type in each ground
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
-    *("bending", "compression_bending", "sliding", "mesh", "connection"),
+    *("bending", "compression_bending", "sliding", "tension"),
+    *("mesh", "connection"),
 )
 # Checks of a member that compare no force with a resistance.
 MODES_WITHOUT_FORCE = ("direction", "lateral")
@@ -78,6 +80,7 @@ LIMIT_IDS = tuple(LIMIT_UNITS)
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (
     ACTION_FACTOR,
+    UPLIFT_FACTOR,
     ACCEPTANCE_TEST,
     *(f"resistance.{mode}" for mode in MODES),
     *(f"resistance.{mode}.{basis}" for mode in MODES for basis in BASES),
@@ -115,6 +118,11 @@ TABLE_COUNTS = {
     CORRELATION_LEAST: "tests",
     **dict.fromkeys(GLIDE_FACTORS, "ground class"),
 }
+
+
+def list_action_factors(mode: str) -> tuple[str, ...]:
+    """Ids of the factor on the force of a check, the closest one first."""
+    return (UPLIFT_FACTOR, ACTION_FACTOR) if mode == "tension" else (ACTION_FACTOR,)
 
 
 def _limit_id(text: str) -> str:

@@ -203,12 +203,11 @@ def _describe_support(
     """Forces of both sets, ropes and row end, a line each."""
     if support is None:
         return
-    from netdesign.report.page.solved_support import find_force
-    from netdesign.structure.members import REPORTED_MEMBERS
+    from netdesign.report.page.solved_support import find_force, list_shown
 
     if "reason" in support:
         yield say("solve.support_lack", reason=support["reason"])
-    for member in REPORTED_MEMBERS:
+    for member in list_shown(support):
         forces = {
             name: force
             for name, part in (("section", "plain"), ("panel", "panel"))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed import (
@@ -130,9 +131,13 @@ class ResultReader:
             self.signed = self._list_signed(behind[0] or {})
 
     def _list_members(self, first: CaseResult) -> tuple[str, ...]:
-        """Members of the section, and all quantities of a panel, found or not."""
+        """Members of the section, and all quantities of a panel, found or not.
+
+        A post that pulls is bounded apart, in lift.py.
+        """
         own = [one for one in first.member_forces if one not in PANEL_QUANTITIES]
-        return (*own, *(PANEL_QUANTITIES if self.has_panel else ()))
+        every = (*own, *(PANEL_QUANTITIES if self.has_panel else ()))
+        return tuple(one for one in every if one not in POST_PULLS)
 
     def _list_signed(self, first: Mapping[str, float]) -> tuple[str, ...]:
         own = [name for name in first if not name.startswith(_BY_PANEL)]

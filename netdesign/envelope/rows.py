@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -14,6 +14,7 @@ from netdesign.envelope.extremes import (
     describe_gap,
     find_extremes,
 )
+from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.parameters import place_scene
 from netdesign.envelope.ranges import Case, Ranges, build_case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task
@@ -129,6 +130,8 @@ class RowEnvelope:
     skipped, skips_tested : int
         Cases known without a solve because the snow stuck with less friction
         already, and how many of those were solved all the same as a test.
+    lifted : mapping of str to float
+        Upper bounds of the members where some post may pull; empty where none does.
     """
 
     task: RowTask
@@ -139,6 +142,7 @@ class RowEnvelope:
     confirmations: tuple[Confirmation, ...]
     skipped: int
     skips_tested: int
+    lifted: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def gap(self) -> Message | None:
@@ -166,11 +170,15 @@ class RowEnvelope:
         return {member: self._bound(one) for member, one in found.items()}
 
     def _bound(self, extreme: Extreme) -> Extreme:
-        place, member = self.members.index(extreme.member), extreme.member
-        gap = self.maxima.upper_bound[place] - self.maxima.maximum[place]
-        hidden = 0.0 if gap <= 0.0 else gap  # what is no number stays none
+        member, hidden = extreme.member, 0.0
+        if member not in POST_PULLS:
+            place = self.members.index(member)
+            gap = self.maxima.upper_bound[place] - self.maxima.maximum[place]
+            hidden = 0.0 if gap <= 0.0 else gap  # what is no number stays none
         if math.isinf(hidden):  # not searched, since some case has no panel: a gap
             hidden = 0.0
+        if member in self.lifted:
+            hidden = max(hidden, self.lifted[member] - extreme.force.value)
         confirmed = [
             one.confirmed.member_forces[member].high - hidden
             for one in self.confirmations

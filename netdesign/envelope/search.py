@@ -13,6 +13,7 @@ from itertools import islice
 
 from netdesign.envelope.cases import Cases, FirstCases
 from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.lift import bound_lifted
 from netdesign.envelope.result_reader import ResultReader
 from netdesign.envelope.rows import (
     Confirmation,
@@ -188,6 +189,9 @@ class RowSearch:
             ),
             skipped=self._skip.skipped,
             skips_tested=self._skip.tested,
+            lifted=bound_lifted(
+                self.task.layout, maxima.points, self._results, self.task.search
+            ),
         )
 
 

@@ -21,7 +21,7 @@ from netdesign.solving.state import keep_state
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support
-from netdesign.structure.members import REPORTED_MEMBERS, name_in_panel
+from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.catalogue import Language, render
 
@@ -76,7 +76,7 @@ def write_support(solved: SolvedSupport, language: Language = "en") -> dict[str,
         written["reason"] = render(lack, language)
     if result.anchors is None:
         return written
-    written["plain"] = _write_forces(result, result.anchors, REPORTED_MEMBERS)
+    written["plain"] = _write_forces(result, result.anchors, SOLVED_MEMBERS)
     if isinstance(result.panel, PanelForces):
         written["panel"] = _write_panel(result, result.panel)
     if solved.end is not None:
@@ -100,18 +100,19 @@ def _write_forces(
         "head_kN": _write_force(anchors.head_pull),
         "foot_anchor_kN": kilonewton_from_newton(bands[0].value),
         "post_kN": kilonewton_from_newton(head.post_compression),
-        "uphill_guy_kN": kilonewton_from_newton(head.uphill_guy_tension),
-        "downhill_guy_kN": kilonewton_from_newton(head.downhill_guy_tension),
+        "post_foot_kN": kilonewton_from_newton(head.post_tension),
+        "uphill_guy_kN": kilonewton_from_newton(head.guy_demands[0]),
+        "downhill_guy_kN": kilonewton_from_newton(head.guy_demands[1]),
         "error_kN": {
             member.value: kilonewton_from_newton(band.high - band.value)
-            for member, band in zip(REPORTED_MEMBERS, bands, strict=True)
+            for member, band in zip(SOLVED_MEMBERS, bands, strict=True)
         },
     }
 
 
 def _write_panel(result: CaseResult, panel: PanelForces) -> dict[str, Any]:
     solved = panel.solution
-    members = [name_in_panel(member) for member in REPORTED_MEMBERS]
+    members = [name_in_panel(member) for member in SOLVED_MEMBERS]
     written = _write_forces(result, panel.anchors, members)
     if solved.panel.has_mid_anchors:
         written["mid_foot_kN"] = _write_force(solved.mid_foot)

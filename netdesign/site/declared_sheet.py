@@ -21,6 +21,7 @@ from netdesign.site.model import (
     CONNECTED,
     DEPENDENT_MODES,
     END_MODES,
+    LIFTED_MODE,
     MEMBER_MODES,
     NET_MODES,
 )
@@ -56,6 +57,7 @@ _OF_DIRECTIONS = (
 DECLARABLE: tuple[tuple[str, str], ...] = (
     *MEMBER_MODES,
     *DEPENDENT_MODES,
+    LIFTED_MODE,
     *END_MODES,
     *NET_MODES,
     *((member, "connection") for member in CONNECTED),

@@ -8,7 +8,7 @@ from itertools import chain
 from netdesign.resistance.connection import Link
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.model import CONNECTED, NetRow, Resistance
+from netdesign.site.model import CONNECTED, LIFTED_MODE, NAMED_BY, NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.words.message import Message, say
 
@@ -57,8 +57,10 @@ def _list_of_types(row: NetRow) -> Iterator[Message]:
         if one.mode == "mesh":
             yield from () if one.basis else (_name(NETS, "mesh_strength"),)
         elif not one.type_id:
-            is_base = one.member == Member.POST_BASE
-            yield _name(NETS, Member.POST if is_base else one.member)
+            is_own = one.member not in NAMED_BY
+            yield _name(NETS, one.member if is_own else NAMED_BY[Member(one.member)])
+        elif (one.member, one.mode) == LIFTED_MODE:
+            pass  # asked for once some case lifts a post
         elif one.value is None and not (one.tests or one.dimensions):
             yield from _list_lacking(row, one)
         yield from (*row.list_unsaid_grounds(one), *row.list_unsaid_wear(one))

@@ -48,13 +48,17 @@ MEMBER_MODES: tuple[tuple[Member, str], ...] = (
     (Member.POST_BASE, "bearing"),
 )
 # Columns that name the type of a member without a type of its own.
-NAMED_BY: Mapping[Member, Member] = {Member.POST_BASE: Member.POST}
+NAMED_BY: Mapping[Member, Member] = {
+    Member.POST_BASE: Member.POST,
+    Member.POST_FOOT: Member.POST,
+}
 # Members whose resistance follows the demand; anchors that bend come in addition.
 DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
     (Member.POST, "compression_bending"),
     (Member.POST_BASE, "sliding"),
 )
-
+# Checked only where some case lifts a post.
+LIFTED_MODE = (Member.POST_FOOT, "tension")
 
 # What a row takes of a case, beside the usual three; glide if its ground slides.
 _GLIDE = frozenset(("slip_length", "glide_factor"))

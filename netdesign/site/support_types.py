@@ -18,6 +18,7 @@ from netdesign.resistance.steel import RoundSection
 from netdesign.site.lines import Types
 from netdesign.site.model import (
     END_MODES,
+    LIFTED_MODE,
     MEMBER_MODES,
     NAMED_BY,
     NET_MODES,
@@ -129,6 +130,7 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
         *(one for one in bent if one is not None),
         _bend_post(post, line),
         _slide(post, line),
+        _hold_foot(post, line),
     )
 
 
@@ -348,3 +350,13 @@ def _slide(named: Reading, line: Row | None) -> Resistance:
     return replace(
         found, value=given.si, basis="declared", source=given.place, lack=None
     )
+
+
+def _hold_foot(named: Reading, line: Row | None) -> Resistance:
+    """Resistance of a post's foot to tension, as declared; 0 is that of a loose one."""
+    held = line["foot_tension"] if line else None
+    if held is None or held.state != "given":
+        return _open(named, *LIFTED_MODE, lack=say("check.no_foot_tension"))
+    lack = None if held.si > 0.0 else say("check.foot_loose")
+    found = _open(named, *LIFTED_MODE, lack=lack, source=held.place)
+    return replace(found, value=None if lack else held.si, basis="declared")

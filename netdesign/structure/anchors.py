@@ -115,11 +115,18 @@ class AnchorForces:
         foot : float
             Size of that pull [N].
         """
+        head = self.head
         return _list_forces(
             foot=foot,
-            uphill=(self.head.uphill_guy_tension, self.uphill_anchor.size),
-            downhill=(self.head.downhill_guy_tension, self.downhill_anchor.size),
-            post=self.head.post_compression,
+            uphill=(
+                head.guy_demands[0],
+                max(self.uphill_anchor.size, head.loose_uphill),
+            ),
+            downhill=(
+                head.guy_demands[1],
+                max(self.downhill_anchor.size, head.loose_downhill),
+            ),
+            post=(head.post_compression, head.post_tension),
             out_of_ground=self.post_base.y,
             is_foot_shared=self.is_foot_shared,
         )
@@ -180,13 +187,14 @@ def compute_many_forces(
         find_direction(head, (ground - layout.uphill_anchor_distance, ground)),
         find_direction(head, (x_base + layout.downhill_anchor_distance, ground)),
     )
-    uphill, downhill = held.uphill_guy_tension, held.downhill_guy_tension
+    uphill = take_larger(held.uphill_guy_tension, held.loose_uphill)
+    downhill = take_larger(held.downhill_guy_tension, held.loose_downhill)
     return ManyForces(
         of_members=_list_forces(
             foot=measure_length(*foot),
             uphill=(uphill, uphill),
             downhill=(downhill, downhill),
-            post=held.post_compression,
+            post=(held.post_compression, held.post_tension),
             out_of_ground=held.post_compression * post[1],
             is_foot_shared=layout.is_foot_shared,
         ),
@@ -201,7 +209,7 @@ def _list_forces(
     foot: Number,
     uphill: Vector[Number],
     downhill: Vector[Number],
-    post: Number,
+    post: Vector[Number],
     out_of_ground: Number,
     is_foot_shared: bool,
 ) -> dict[str, Number]:
@@ -215,8 +223,9 @@ def _list_forces(
         Member.UPHILL_ANCHOR: uphill_anchor,
         Member.DOWNHILL_GUY: downhill_guy,
         Member.DOWNHILL_ANCHOR: downhill_anchor,
-        Member.POST: post,
+        Member.POST: post[0],
         Member.POST_BASE: take_larger(-out_of_ground, 0.0),
+        Member.POST_FOOT: post[1],
     }
 
 
@@ -277,7 +286,10 @@ def compute_anchor_forces(
             -head.downhill_guy_tension,
         ),
         post_base=_force_from_head(
-            Member.POST, points.head, points.post_base, head.post_compression
+            Member.POST,
+            points.head,
+            points.post_base,
+            head.post_compression - head.post_tension,
         ),
         head=head,
         is_foot_shared=points.uphill_anchor == points.net_foot,

@@ -11,6 +11,7 @@ from typing import ClassVar, Generic, TypeAlias
 from netdesign.numerics.arrays import Number
 from netdesign.numerics.either import (
     Truth,
+    as_mask,
     choose,
     find_none,
     measure_length,
@@ -30,27 +31,43 @@ _ROUNDING = 64 * sys.float_info.epsilon  # relative to the pull
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeadForces:
-    """Forces in the members that hold one post head; none has the wrong sign.
+    """Forces in the members that hold one post head; no guy has the wrong sign.
 
     Attributes
     ----------
     post_compression, uphill_guy_tension, downhill_guy_tension : float
         Size of each member's force, at least 0; a slack guy has 0 [N].
+    post_tension : float
+        Pull of the post on its foot, at least 0; 0 where it is pressed [N].
+    loose_uphill, loose_downhill : float
+        Tension of each guy at most, should the foot of a pulling post give way [N].
     reason : Message
         Which members carry.
     """
 
     post_compression: float
+    post_tension: float = 0.0
     uphill_guy_tension: float = 0.0
     downhill_guy_tension: float = 0.0
+    loose_uphill: float = 0.0
+    loose_downhill: float = 0.0
     reason: Message
     outcome: ClassVar[Outcome] = Outcome.CONVERGED
 
     def __post_init__(self) -> None:
-        """Refuse a strut that pulls, a rope that pushes, and what is no number."""
+        """Refuse a rope that pushes, and what is no number."""
         require_within("post compression", self.post_compression, 0.0, math.inf)
+        require_within("post tension", self.post_tension, 0.0, math.inf)
         require_within("uphill guy tension", self.uphill_guy_tension, 0.0, math.inf)
         require_within("downhill guy tension", self.downhill_guy_tension, 0.0, math.inf)
+
+    @property
+    def guy_demands(self) -> tuple[float, float]:
+        """Largest tension of uphill and downhill guy, whatever the foot does [N]."""
+        return (
+            max(self.uphill_guy_tension, self.loose_uphill),
+            max(self.downhill_guy_tension, self.loose_downhill),
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,9 +83,9 @@ def compute_head_forces(
 ) -> HeadForces | FailedSupport:
     """Find the forces in post and guys that hold the net's pull on the head.
 
-    The post only pushes and a guy only pulls. The post works with the uphill guy;
-    where that would have to push, it is slack and the downhill guy takes its place.
-    Theory: structure/THEORY.md, eqs. (S1) to (S4).
+    A guy only pulls. The post works with the uphill guy; where that would have to push,
+    it is slack and the downhill guy takes its place. A post that would be in tension
+    pulls on its foot. Theory: structure/THEORY.md, eqs. (S1) to (S4b).
 
     Parameters
     ----------
@@ -80,7 +97,7 @@ def compute_head_forces(
     Returns
     -------
     HeadForces or FailedSupport
-        Forces at least 0 [N], or why no pair of members can hold the pull.
+        Forces at least 0 [N], or why no guy holds the head sideways.
 
     Verified by
     -----------
@@ -104,8 +121,11 @@ def compute_head_forces(
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
     return HeadForces(
         post_compression=held.post_compression,
+        post_tension=held.post_tension,
         uphill_guy_tension=held.uphill_guy_tension,
         downhill_guy_tension=held.downhill_guy_tension,
+        loose_uphill=held.loose_uphill,
+        loose_downhill=held.loose_downhill,
         reason=say(_describe_carriers(held)),
     )
 
@@ -118,7 +138,7 @@ def hold_head(
 ) -> HeldHead[Number]:
     """Forces in post and guys that hold the pull on a head, or on each of many.
 
-    Theory: structure/THEORY.md, eqs. (S2) to (S4).
+    Theory: structure/THEORY.md, eqs. (S2) to (S4b).
 
     Parameters
     ----------
@@ -141,18 +161,89 @@ def hold_head(
     none = 0.0 * size
     by_up = find_none(is_alone, find_none(up.holds))
     by_down = find_none(is_alone, up.holds, find_none(down.holds))
-    of_pair = choose(by_up, up.compression, choose(by_down, down.compression, none))
+    is_lifted = find_none(is_alone, by_up, by_down)
+    by_up = by_up | is_lifted & up.can_pull & find_none(_pulls_more(down, up))
+    by_down = by_down | is_lifted & down.can_pull & find_none(by_up)
+    of_pair = choose(by_up, up.in_post, choose(by_down, down.in_post, none))
+    in_post = choose(is_alone, along, of_pair)
+    loose_uphill = loose_downhill = none
+    is_lifted = in_post < 0.0
+    if as_mask(is_lifted).any():
+        guys = _hold_without_post(pull, (uphill, downhill), (up, down))
+        loose_uphill, loose_downhill = (choose(is_lifted, one, none) for one in guys)
     return HeldHead(
-        post_compression=choose(is_alone, along, of_pair),
+        post_compression=take_larger(in_post, 0.0),
+        post_tension=take_larger(0.0 - in_post, 0.0),  # never -0
         uphill_guy_tension=choose(by_up, up.tension, none),
         downhill_guy_tension=choose(by_down, down.tension, none),
+        loose_uphill=loose_uphill,
+        loose_downhill=loose_downhill,
         is_alone=is_alone,
-        is_held=find_none(
-            find_none(is_alone, by_up, by_down), is_alone & (along < 0.0)
-        ),
+        is_held=is_alone | by_up | by_down,
         uphill=up,
         downhill=down,
     )
+
+
+def _pulls_more(one: _Pair[Number], other: _Pair[Number]) -> Truth:
+    """Beside one guy the post pulls more than beside another on the same side of it."""
+    return one.can_pull & (one.in_post < other.in_post)
+
+
+def _hold_without_post(
+    pull: Vector[Number],
+    guys: tuple[Vector[Number], Vector[Number]],
+    pairs: tuple[_Pair[Number], _Pair[Number]],
+) -> tuple[Number, Number]:
+    """Largest tensions of both guys while the post pulls less and less, (S4b).
+
+    Those of the two alone; where one of them would have to push, of each with the post.
+    """
+    up, down = _share_between_guys(pull, *guys)
+    hold, none = (up >= 0.0) & (down >= 0.0), 0.0 * up
+    by_up, by_down = (choose(one.can_pull, one.tension, none) for one in pairs)
+    return choose(hold, up, by_up), choose(hold, down, by_down)
+
+
+def _share_between_guys(
+    pull: Vector[Number], uphill: Vector[Number], downhill: Vector[Number]
+) -> tuple[Number, Number]:
+    """Tensions of two guys that hold a pull alone, signs allowed; (S4b).
+
+    Where both lie along one line each may have all of it.
+    """
+    sine, size = _cross(uphill, downhill), measure_length(*pull)
+    is_one_line = abs(sine) < math.sin(MIN_GUY_ANGLE)
+    divisor = sine + is_one_line
+    up, down = -_cross(pull, downhill) / divisor, _cross(pull, uphill) / divisor
+    return choose(is_one_line, size, up), choose(is_one_line, size, down)
+
+
+def resolve_loose(pull: Point, points: SupportPoints) -> tuple[float, float]:
+    """Find what both guys would need to hold a pull without their post, signs allowed.
+
+    No guy of a lifted head carries more, beside what `resolve_signed` gives. Theory:
+    structure/THEORY.md, eq. (S4b).
+
+    Parameters
+    ----------
+    pull : tuple of float, shape (2,)
+        Force of the net on the head, (x, y) [N].
+    points : SupportPoints
+        Of the support [m].
+
+    Returns
+    -------
+    tuple of float
+        Tension of uphill and downhill guy [N].
+
+    Verified by
+    -----------
+    tests/envelope/test_lift.py
+    """
+    ends = (points.uphill_anchor, points.downhill_anchor)
+    uphill, downhill = (find_direction(points.head, end) for end in ends)
+    return _share_between_guys(pull, uphill, downhill)
 
 
 def resolve_signed(
@@ -161,7 +252,8 @@ def resolve_signed(
     """Find what post and one guy would need to hold a pull, signs allowed.
 
     The members' forces are ``max(0, tension)`` of each guy, and of the two pairs the
-    larger compression. Theory: structure/THEORY.md, eq. (S2).
+    larger compression; a post that it leaves negative pulls. Theory:
+    structure/THEORY.md, eq. (S2).
 
     Parameters
     ----------
@@ -189,15 +281,16 @@ def resolve_signed(
 class _Pair(Generic[Number]):
     """Post and one guy under a pull, signs allowed; eqs. (S2) and (S4).
 
-    ``is_along``: the guy lies along the post, and the forces say nothing. ``holds``:
-    each of the two carries by its own sign.
+    ``is_along``: the guy lies along the post, and the forces say nothing. ``can_pull``:
+    the guy pulls, whatever the post does. ``holds``: the post is pressed, too.
+    ``in_post`` is the signed compression without what is rounding of none.
     """
 
     signed_compression: Number
-    compression: Number
+    in_post: Number
     tension: Number
     is_along: Truth
-    is_pushed: Truth
+    can_pull: Truth
     holds: Truth
 
 
@@ -209,6 +302,8 @@ class HeldHead(Generic[Number]):
     ----------
     post_compression, uphill_guy_tension, downhill_guy_tension : float or ndarray
         Of use only where the head is held.
+    post_tension, loose_uphill, loose_downhill : float or ndarray
+        As `HeadForces` has them.
     is_alone, is_held : bool or ndarray
         The post carries alone; some members can hold the head.
     uphill, downhill : _Pair
@@ -216,8 +311,11 @@ class HeldHead(Generic[Number]):
     """
 
     post_compression: Number
+    post_tension: Number
     uphill_guy_tension: Number
     downhill_guy_tension: Number
+    loose_uphill: Number
+    loose_downhill: Number
     is_alone: Truth
     is_held: Truth
     uphill: _Pair[Number]
@@ -234,19 +332,21 @@ def _resolve(
     tension = _cross(pull, post) / divisor
     # A pull along the guy's own line leaves a post force of rounding size.
     rounding = _ROUNDING * measure_length(*pull) / abs(divisor)
-    is_pushed = find_none(tension >= 0.0)  # also what is no number
-    is_pulled = find_none(compression >= -rounding)
+    is_slack = find_none(tension >= 0.0)  # also what is no number
+    is_pressed = compression >= -rounding
     return _Pair(
         signed_compression=compression,
-        compression=take_larger(compression, 0.0),
+        in_post=choose(is_pressed, take_larger(compression, 0.0), compression),
         tension=tension,
         is_along=is_along,
-        is_pushed=is_pushed,
-        holds=find_none(is_along, is_pushed, is_pulled),
+        can_pull=find_none(is_along, is_slack),
+        holds=find_none(is_along, is_slack, find_none(is_pressed)),
     )
 
 
 def _describe_carriers(held: HeldHead[float]) -> str:
+    if held.post_tension > 0.0:
+        return "support.post_pulls"
     if held.is_alone:
         return "support.post_alone"
     by_up = held.uphill.holds
@@ -255,8 +355,6 @@ def _describe_carriers(held: HeldHead[float]) -> str:
 
 def _explain(held: HeldHead[float]) -> Message:
     """Reason why nothing holds a head."""
-    if held.is_alone:
-        return say("support.post_in_tension")
     return say(
         "support.no_equilibrium",
         uphill=_explain_pair(held.uphill),
@@ -265,9 +363,7 @@ def _explain(held: HeldHead[float]) -> Message:
 
 
 def _explain_pair(pair: _Pair[float]) -> Message:
-    if pair.is_along:
-        return say("support.guy_along_post")
-    return say("support.guy_pushes" if pair.is_pushed else "support.post_pulls")
+    return say("support.guy_along_post" if pair.is_along else "support.guy_pushes")
 
 
 def _cross(a: Vector[Number], b: Vector[Number]) -> Number:

@@ -8,7 +8,10 @@ from types import MappingProxyType
 
 
 class Member(StrEnum):
-    """The net, and each part of a support that can fail: anchors, guys, post, base."""
+    """The net, and each part of a support that can fail: anchors, guys, post.
+
+    The base is pressed by its post; the foot is what holds a post that pulls.
+    """
 
     NET = "net"
     FOOT_ANCHOR = "foot_anchor"
@@ -18,6 +21,7 @@ class Member(StrEnum):
     DOWNHILL_ANCHOR = "downhill_anchor"
     POST = "post"
     POST_BASE = "post_base"
+    POST_FOOT = "post_foot"
 
 
 # Those that carry a force to be resisted: all but the net.
@@ -73,6 +77,8 @@ REPORTED_MEMBERS = (
     Member.DOWNHILL_GUY,
     Member.POST,
 )
+# Those of one solved support, whose post may pull.
+SOLVED_MEMBERS = (*REPORTED_MEMBERS, Member.POST_FOOT)
 # Points of a support on the ground, in their order, and what brings the force there.
 BROUGHT_BY: Mapping[str, Member] = MappingProxyType(
     {

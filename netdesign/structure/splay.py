@@ -48,8 +48,8 @@ class SplayedHead:
 
     Attributes
     ----------
-    post_compression : float
-        [N].
+    post_compression, post_tension : float
+        Of which one is 0 [N].
     uphill_guy_tension, downhill_guy_tension : float
         Of the more loaded guy of each side [N].
     is_one_sided : bool
@@ -57,6 +57,7 @@ class SplayedHead:
     """
 
     post_compression: float
+    post_tension: float
     uphill_guy_tension: float
     downhill_guy_tension: float
     is_one_sided: bool
@@ -123,12 +124,13 @@ def compute_splayed_head(
     if isinstance(flat, FailedSupport):
         return flat
     held = sideways / math.tan(splay)
-    tension = flat.uphill_guy_tension + flat.downhill_guy_tension  # one of them is 0
+    tension = flat.uphill_guy_tension + flat.downhill_guy_tension  # one is 0
     if tension >= held:
         larger = 0.5 * (tension + held) / math.cos(splay)
         is_uphill = flat.uphill_guy_tension > 0.0
         return SplayedHead(
             post_compression=flat.post_compression,
+            post_tension=flat.post_tension,
             uphill_guy_tension=larger if is_uphill else 0.0,
             downhill_guy_tension=0.0 if is_uphill else larger,
             is_one_sided=False,
@@ -172,10 +174,11 @@ def _share_on_loaded_side(
         + in_uphill * _dot(uphill, post)
         + in_downhill * _dot(downhill, post)
     )
-    if min(in_uphill, in_downhill, compression) < 0.0:
+    if min(in_uphill, in_downhill) < 0.0:
         return _fail()
     return SplayedHead(
-        post_compression=compression,
+        post_compression=max(compression, 0.0),
+        post_tension=max(-compression, 0.0),
         uphill_guy_tension=in_uphill / math.cos(splay),
         downhill_guy_tension=in_downhill / math.cos(splay),
         is_one_sided=True,

@@ -37,6 +37,9 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 INCLINATION = "column.quantities.inclination"  # name of the net's inclination
+FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
+# A post of which the snow's moment leaves nothing for its force; a foot without hold.
+UNBOUNDED = ("post_bending.too_much", LOOSE_LIFTS.key)
 
 
 def list_checked(
@@ -130,7 +133,8 @@ def judge_force(
 ) -> CheckResult:
     """Check of a force; it fails where a moment alone is too much for a post.
 
-    Nothing of the post is left for its force then: the utilisation has no bound.
+    Nothing of the post is left for its force then: the utilisation has no bound. So it
+    is with a loose foot that its post surely lifts.
     """
     missing = find_missing_force(gap or say("check.no_case_solved"))
     result = check_member(
@@ -142,7 +146,9 @@ def judge_force(
         strength=resist(given, standard, force) if force else None,
     )
     lack = given.lack
-    if lack is None or lack.key != "post_bending.too_much":
+    if lack == FOOT_LOOSE and force and force.action.low:
+        lack = LOOSE_LIFTS
+    if lack is None or lack.key not in UNBOUNDED:
         return result
     return replace(result, verdict=Verdict.FAIL, reason=lack, is_unbounded=True)
 

@@ -41,6 +41,7 @@ from netdesign.study.member_force import (
     find_force,
     find_lack,
     find_other_panel,
+    lifts,
     name_governing,
     name_unsaid,
 )
@@ -149,7 +150,14 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     at_end, not_checked = effects.find_support("edge"), basis.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
     parts = () if "mesh" in not_checked else row.net_parts
-    checked = list_checked(row, effects)
+    is_lifted = lifts(
+        known.forces.largest.values(), (known.forces.floor or {}).values()
+    )
+    checked = [
+        (width, given)
+        for width, given in list_checked(row, effects)
+        if is_lifted or given.member != Member.POST_FOOT
+    ]
     checked += [(at_end, given) for given in (*parts, *held)]
     judged = []
     for width, given in checked:

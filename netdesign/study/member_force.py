@@ -7,7 +7,7 @@ forces, the guideline's, cells of the workbook, values of the profile.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,6 +16,7 @@ from netdesign.checks import Standard
 from netdesign.checks.check import find_profile_value
 from netdesign.checks.forces import SupportForce, calculate_force, load_guy, load_post
 from netdesign.checks.schema import LATERAL_SHARE
+from netdesign.envelope.lift import POST_PULLS
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (
     ROPE_OF,
@@ -263,8 +264,8 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     held = forces.held
     if member in forces.effects.at_foot:
         return ([share] if share.is_known else []), 0.0
-    if held is None or member in (Member.FOOT_ANCHOR, NetPart.MESH):
-        return [], 0.0
+    if held is None or member in (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH):
+        return [], 0.0  # it presses a post, (S18)
     splay = given("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
     pull = given(
         *("P", held.pull_kN, "kN", "head_pull"),
@@ -289,6 +290,18 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     added = load_post(weight, share, pull, splay, least).added
     is_none = added is not None and added.high == 0.0
     return ([] if is_none else [weight, share, pull, splay, least]), rise
+
+
+def lifts(forces: Iterable[ForceRecord], floor: Iterable[FloorForceRecord]) -> bool:
+    """Some case, or the guideline's load, may pull a post off its base."""
+    pulls = (one.high_kN for one in forces if one.quantity in POST_PULLS)
+    return any(
+        force > 0.0
+        for force in (
+            *pulls,
+            *(one.force_kN for one in floor if one.member == Member.POST_FOOT),
+        )
+    )
 
 
 def _list_push_leaves(forces: RowForces) -> list[Quantity]:

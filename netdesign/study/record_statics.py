@@ -230,6 +230,7 @@ def _record_state(
     load: GuidelineLoadRecord | None,
 ) -> StaticsRecord:
     foot, head, points, anchors = pulls.foot, pulls.head, pulls.points, pulls.anchors
+    uphill, downhill = anchors.head.guy_demands
     return StaticsRecord(
         brings=keys,
         case=case,
@@ -246,10 +247,11 @@ def _record_state(
         uphill_x_m=points.uphill_anchor[0],
         downhill_x_m=points.downhill_anchor[0],
         foot_anchor_kN=kilonewton_from_newton(anchors.foot_anchor.size),
-        uphill_guy_kN=kilonewton_from_newton(anchors.head.uphill_guy_tension),
-        downhill_guy_kN=kilonewton_from_newton(anchors.head.downhill_guy_tension),
+        uphill_guy_kN=kilonewton_from_newton(uphill),
+        downhill_guy_kN=kilonewton_from_newton(downhill),
         post_kN=kilonewton_from_newton(anchors.head.post_compression),
         post_base_kN=kilonewton_from_newton(max(-anchors.post_base.y, 0.0)),
+        post_foot_kN=kilonewton_from_newton(anchors.head.post_tension),
         is_by_panel=pulls.is_by_panel,
         mid_foot_kN=kilonewton_from_newton(pulls.mid_foot),
     )

@@ -109,6 +109,7 @@ class StaticsRecord:
     downhill_guy_kN: float
     post_kN: float
     post_base_kN: float  # across the plate
+    post_foot_kN: float = 0.0  # of a post that pulls
     is_by_panel: bool = False  # pulls are the means of a bay between two posts
     mid_foot_kN: float = 0.0  # of an anchor in mid-panel
 

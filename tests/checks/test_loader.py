@@ -67,6 +67,7 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "resistance.sliding": 1.1,
         "resistance.mesh": 1.5,
         "resistance.connection": 1.5,
+        "resistance.tension": 1.4,
         "anchor.angle.rope": 30.0,
         "anchor.distance.min": 1.5,
     }

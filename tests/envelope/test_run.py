@@ -24,6 +24,7 @@ MEMBERS = {
     "post",
     "post_base",
     "mesh",
+    "post_foot",
 }
 
 

@@ -9,6 +9,7 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope import rows
+from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
@@ -63,6 +64,8 @@ def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
     for result in grid:
         for member, band in result.member_forces.items():
             assert band.value <= found.extremes[member].widened.high
+            if member in POST_PULLS:
+                continue
             place = found.members.index(member)
             bound = found.maxima.upper_bound[place]
             assert band.value <= bound * (1.0 + 1e-9), (member, result.case)
@@ -72,7 +75,22 @@ def test_the_maximum_is_that_of_its_governing_case_with_all_coincident_forces(fo
     for place, member in enumerate(found.members):
         governing = found.extremes[member].governing
         assert governing.member_forces[member].value == found.maxima.maximum[place]
-        assert set(governing.member_forces) == set(found.members)
+        assert set(governing.member_forces) == {*found.members, POST_PULLS[0]}
+
+
+def test_no_post_pulls_and_it_is_known(found):
+    """The net hangs below its head, between the cases too."""
+    assert not found.lifted
+    foot = found.extremes[POST_PULLS[0]]
+    assert foot.is_bounded
+    assert foot.widened.high == 0.0
+
+
+def test_what_may_lift_a_post_between_the_cases_is_in_the_band(found):
+    lifted = replace(found, lifted={POST_PULLS[0]: 7e3, "uphill_guy": 9e9})
+    assert lifted.extremes[POST_PULLS[0]].widened.high == 7e3
+    assert lifted.extremes["uphill_guy"].upper_bound == pytest.approx(9e9, rel=1e-12)
+    assert lifted.extremes["post"].hidden == found.extremes["post"].hidden
 
 
 def test_the_band_holds_numerical_error_and_what_hides(found):

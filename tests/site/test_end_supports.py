@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 from netdesign.site.reader import read_site
 
 BENDING = (
@@ -32,7 +32,7 @@ def test_named_types_are_those_of_the_end_and_of_blank_ones_nothing_is_known(
 ):
     first, second = read_site(save(with_ends)).rows
     inside, end = values(first.resistances), values(first.resistances_at("edge"))
-    assert tuple(end) == (*MEMBER_MODES, *BENDING, *DEPENDENT_MODES)
+    assert tuple(end) == (*MEMBER_MODES, *BENDING, *DEPENDENT_MODES, LIFTED_MODE)
     assert inside["foot_anchor", "tendon"] == 400e3
     assert end["foot_anchor", "tendon"] == 731e3
     assert end["foot_anchor", "pull_out"] == 617e3

@@ -6,7 +6,7 @@ import pytest
 import xlsxwriter
 
 from netdesign.site import net_rows
-from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import (
     LARGEST_GLIDE_FACTOR,
@@ -177,7 +177,7 @@ def test_there_is_a_resistance_for_every_member_and_mode(sheets, save):
     row = read_site(save(sheets)).rows[0]
     found = {(r.member, r.mode): r for r in row.resistances}
     bending = [(f"{one}_anchor", "bending") for one in ("foot", "uphill", "downhill")]
-    assert tuple(found) == (*MEMBER_MODES, *bending, *DEPENDENT_MODES)
+    assert tuple(found) == (*MEMBER_MODES, *bending, *DEPENDENT_MODES, LIFTED_MODE)
     pull_out = found["foot_anchor", "pull_out"]
     assert (pull_out.value, pull_out.basis) == (300e3, "tested")
     assert (pull_out.type_id, pull_out.source) == ("A1", "Anchors!C2")

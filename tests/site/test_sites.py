@@ -86,7 +86,7 @@ def assert_german(site):
         **dict.fromkeys({member for member, _ in MEMBER_MODES}, "A2"),
         "post_base": "P1",
         **{"foot_anchor": "A1", "uphill_guy": "S1", "downhill_guy": "S1"},
-        **{"post": "P1", "post_base": "P1"},
+        **{"post": "P1", "post_base": "P1", "post_foot": "P1"},
     }
     post = next(one for one in second.resistances if one.member == "post")
     assert post.value == pytest.approx(380e3, rel=1e-15)

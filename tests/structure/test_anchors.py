@@ -1,6 +1,7 @@
 """What one support does to the ground: signs, sums, directions."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -110,6 +111,7 @@ def test_member_forces_are_those_of_the_members():
         "downhill_anchor": 0.0,
         "post": forces.head.post_compression,
         "post_base": -forces.post_base.y,
+        "post_foot": 0.0,
     }
 
 
@@ -124,7 +126,9 @@ def test_anchor_shared_by_net_and_guy_takes_both():
 
 
 def test_failed_head_gives_no_anchor_forces():
-    failed = forces_for((0.0, 10e3))
+    points = some_points()
+    beside = replace(points, downhill_anchor=points.post_base)
+    failed = forces_for((-20e3, -10e3), points=beside)
     assert isinstance(failed, FailedSupport)
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
 

@@ -8,7 +8,6 @@ import pytest
 from netdesign.outcome import ModelError, Outcome
 from netdesign.structure.head import (
     MIN_GUY_ANGLE,
-    FailedSupport,
     HeadForces,
     compute_head_forces,
 )
@@ -112,20 +111,16 @@ def test_pull_along_a_guy_close_to_a_tilted_post_is_told_from_tension():
             assert forces.uphill_guy_tension == pytest.approx(share * KN, rel=1e-11)
 
 
-def test_lifting_pull_has_no_equilibrium_and_no_number():
-    failed = compute_head_forces((0.0, 10 * KN), some_points())
-    assert isinstance(failed, FailedSupport)
-    assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert str(failed.reason) == (
-        "the net pulls along the post, away from its base: the post would be in tension"
-    )
+def test_lifting_pull_is_held_by_the_foot():
+    held = compute_head_forces((0.0, 10 * KN), some_points())
+    assert (held.post_compression, held.post_tension) == (0.0, 10 * KN)
+    assert str(held.reason) == "the net lifts the head: the post pulls on its foot"
 
 
-def test_lifting_pull_aside_names_both_pairs():
-    failed = compute_head_forces((1 * KN, 10 * KN), some_points())
-    assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert "uphill guy the post would be in tension" in str(failed.reason)
-    assert "downhill guy the guy would have to push" in str(failed.reason)
+def test_lifting_pull_aside_is_held_by_foot_and_guy():
+    held = compute_head_forces((1 * KN, 10 * KN), some_points())
+    assert held.post_tension == pytest.approx(10 * KN - 0.8 / 0.6 * KN)
+    assert held.uphill_guy_tension > 0.0 == held.downhill_guy_tension
 
 
 def test_guy_along_the_post_holds_nothing():

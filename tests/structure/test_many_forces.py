@@ -85,7 +85,7 @@ def test_forces_of_many_are_those_of_each(seed):
 
 
 def test_drawn_supports_are_of_all_kinds():
-    """Held by post alone, by either guy, and not at all."""
+    """Held by post alone, by either guy, by the foot, and not at all."""
     found = [one for seed in range(24) for one in solve_each(*draw_supports(seed))]
     kinds = {
         one.reason.key if isinstance(one, FailedSupport) else one.head.reason.key
@@ -96,5 +96,5 @@ def test_drawn_supports_are_of_all_kinds():
         "support.post_and_uphill",
         "support.post_and_downhill",
         "support.no_equilibrium",
-        "support.post_in_tension",
+        "support.post_pulls",
     }

@@ -3,11 +3,16 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
+from netdesign.checks.check import find_action_factor
 from netdesign.outcome import SiteDataError, Verdict
+from netdesign.site.declared_sheet import DECLARABLE
+from netdesign.site.missing import list_missing
 from netdesign.site.reader import read_site
+from netdesign.structure.members import Member
 from netdesign.study.stronger_types import find_type_change
 from tests.checks.given_pulls import POST, judge_row, study_row, write_row
 
@@ -368,3 +373,86 @@ def test_a_type_for_shorter_posts_is_no_remedy(tmp_path):
         stocked = replace(site, catalogue=catalogue)
         change = find_type_change(stocked, row, given, 5.3e3, standard)
         assert (change and change.quantity.arguments["type"]) == found
+
+
+LIFTED = (5.0, 22.0)  # the net pulls the head away from the slope
+HELD = "foot tension resistance [kN]"
+
+
+@pytest.mark.parametrize("head", [(5.0, -22.0), (5.0, 0.0)])
+def test_a_post_that_nothing_lifts_has_no_check_of_its_foot(tmp_path, head):
+    for post in (POST, POST | {HELD: 0}, POST | {HELD: 150}):
+        checks = judge(tmp_path, head=head, post=post)
+        assert not any(name.startswith("post_foot") for name in checks)
+
+
+@pytest.mark.parametrize(
+    ("held", "verdict", "reason"),
+    [
+        (None, Verdict.NOT_PROVEN, "no resistance of the foot to tension is given"),
+        (0, Verdict.FAIL, "The post lifts, and its foot is loose"),
+        (90, Verdict.FAIL, "exceeds"),
+        (170, Verdict.PASS, "stays within"),
+    ],
+)
+def test_a_lifted_post_asks_for_its_foot(tmp_path, held, verdict, reason):
+    """Post and downhill guy by lengths: P = Z (head - base) + Td (head - anchor)."""
+    post = POST if held is None else POST | {HELD: held}
+    checks = judge(tmp_path, head=LIFTED, post=post)
+    found = checks["post_foot.tension"]
+    assert told(found)[0] is verdict
+    assert reason in told(found)[1]
+    lean = 3.0 * math.tan(math.radians(15))
+    ways = np.array([[lean, lean - 3.0], [3.0, 3.0]])
+    post_kn, guy = np.linalg.solve(ways, 3.5 * np.array(LIFTED))
+    assert guy > 0.0
+    assert found.read("E_k") == pytest.approx(post_kn * math.hypot(lean, 3.0), 1e-12)
+    assert found.demand_kN == pytest.approx(1.5 * found.read("E_k"), rel=1e-14)
+    if held:
+        assert found.resistance_kN == pytest.approx(held / 1.4, rel=1e-14)
+    assert found.is_unbounded is (held == 0)
+    assert checks["post_foot.tension.end"].demand_kN < found.demand_kN
+    assert checks["post_base.bearing"].read("E_k") == 0.0
+
+
+def test_guys_of_a_lifted_post_hold_its_head_alone(tmp_path):
+    checks = judge(tmp_path, head=LIFTED)
+    head = 3.0 * math.tan(math.radians(30))
+    base = head - 3.0 * math.tan(math.radians(15))
+    ends = np.array([[-3.0 - head, base + 3.0 - head], [-3.0, -3.0]])
+    lengths = np.hypot(*ends)
+    tensions = np.linalg.solve(-ends / lengths, 3.5 * np.array(LIFTED))
+    for name, tension in zip(("uphill", "downhill"), tensions, strict=True):
+        assert checks[f"{name}_guy.rope"].read("E_s") == pytest.approx(tension, 1e-12)
+
+
+@pytest.mark.parametrize(
+    ("profile", "mode", "source"),
+    [
+        ("eurocode", "tension", "action.uplift"),
+        ("eurocode", "compression", "action.snow"),
+        (SWISS, "tension", "action.snow"),
+    ],
+)
+def test_factor_of_uplift_takes_the_place_of_that_of_snow(profile, mode, source):
+    found = find_action_factor(load_standard(profile), mode)
+    assert (found.source, found.value) == (source, 1.5)
+
+
+def test_profile_without_its_factor_proves_no_foot(tmp_path, folder_without):
+    mine = folder_without("factors.toml", "resistance.tension")
+    checks = judge(tmp_path, mine, head=LIFTED, post=POST | {HELD: 200})
+    verdict, text = told(checks["post_foot.tension"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "resistance.tension" in text
+
+
+def test_a_foot_can_be_declared():
+    assert (Member.POST_FOOT, "tension") in DECLARABLE
+
+
+def test_the_list_of_what_a_row_lacks_does_not_ask_for_its_foot(tmp_path):
+    """Nobody knows before a solve whether a post lifts."""
+    site = read_site(write_row(tmp_path, anchor=BAR))
+    keys = [str(one.key) for one in list_missing(site.rows[0])]
+    assert "column.Posts.foot_tension" not in keys

@@ -135,7 +135,8 @@ def test_random_heads_are_in_equilibrium_with_members_that_bear_their_sign():
             forces.uphill_guy_tension,
             forces.downhill_guy_tension,
         )
-        residual = pull + sizes[0] * post + sizes[1] * uphill + sizes[2] * downhill
+        thrust = forces.post_compression - forces.post_tension
+        residual = pull + thrust * post + sizes[1] * uphill + sizes[2] * downhill
         assert np.linalg.norm(residual) < 1e-12 * math.hypot(*pull)
         assert min(sizes) >= 0.0
         assert min(sizes[1:]) == 0.0
@@ -145,13 +146,14 @@ def test_random_heads_are_in_equilibrium_with_members_that_bear_their_sign():
     assert slack_downhill > 80
 
 
-def test_random_heads_fail_only_where_no_pair_holds():
+def test_random_heads_fail_only_where_no_guy_can_pull():
+    """A post of either sign: what is left has nothing that holds it sideways."""
     failures = 0
     for pull, points in random_supports():
         result = compute_head_forces(pull, points)
         post, uphill, downhill = directions(points)
         gaps = [
-            nnls(np.column_stack([post, guy]), -np.array(pull))[1]
+            nnls(np.column_stack([post, -post, guy]), -np.array(pull))[1]
             for guy in (uphill, downhill)
             if abs(np.linalg.det([post, guy])) >= math.sin(math.radians(1))
         ]
@@ -160,7 +162,7 @@ def test_random_heads_fail_only_where_no_pair_holds():
         if isinstance(result, FailedSupport):
             assert result.outcome is Outcome.NO_EQUILIBRIUM
             failures += 1
-    assert failures > 80
+    assert failures > 8
 
 
 def test_random_supports_pass_all_that_the_net_pulls_to_the_ground():

@@ -25,7 +25,7 @@ _CHAINS = (
     ("foot_anchor",),
     ("uphill_guy", "uphill_anchor"),
     ("downhill_guy", "downhill_anchor"),
-    ("post", "post_base"),
+    ("post", "post_base", "post_foot"),
     ("end_guy", "end_guy_anchor"),
     ("lateral_anchor",),
 )

@@ -19,13 +19,14 @@ from netdesign.report.blocks.table import (
     text_column,
 )
 from netdesign.report.words import Words, show_member
-from netdesign.structure.members import REPORTED_MEMBERS, Member
+from netdesign.structure.members import SOLVED_MEMBERS, Member
 
 _KEYS: Mapping[str, str] = {
     Member.FOOT_ANCHOR: "foot_anchor_kN",
     Member.UPHILL_GUY: "uphill_guy_kN",
     Member.DOWNHILL_GUY: "downhill_guy_kN",
     Member.POST: "post_kN",
+    Member.POST_FOOT: "post_foot_kN",
 }
 _PARTS: Mapping[str, str] = {
     "x": "support_view.x",
@@ -67,9 +68,16 @@ def view_support(support: Mapping[str, Any], words: Words) -> SupportView:
     )
 
 
+def list_shown(support: Mapping[str, Any]) -> list[str]:
+    """Members whose forces are shown: a post's foot only where the post pulls."""
+    sets = (support["plain"], support["panel"])
+    is_lifted = any(find_force(one, Member.POST_FOOT) for one in sets)
+    return [one for one in SOLVED_MEMBERS if is_lifted or one != Member.POST_FOOT]
+
+
 def find_force(forces: Mapping[str, Any] | None, member: str) -> float | None:
     """Force of a member within one of the two sets [kN]; None without it."""
-    value: float | None = forces[_KEYS[member]] if forces else None
+    value: float | None = forces.get(_KEYS[member]) if forces else None
     return value
 
 
@@ -86,7 +94,7 @@ def _build_forces(support: Mapping[str, Any], words: Words) -> Table:
             number_column("max_kN", words("support_view.error")),
             number_column("", words("panel_view.ratio")),
         ),
-        rows=tuple(_list_forces(sets, one, words) for one in REPORTED_MEMBERS),
+        rows=tuple(_list_forces(sets, one, words) for one in list_shown(support)),
         empty=words("show.none"),
     )
 

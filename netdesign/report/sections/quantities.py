@@ -38,7 +38,7 @@ _KINDS: Mapping[str, str] = {
             *(Member.UPHILL_GUY, Member.DOWNHILL_GUY, EndMember.END_GUY),
             *("ridge_rope", "lower_rope"),
         ),
-        "post": (Member.POST, Member.POST_BASE),
+        "post": (Member.POST, Member.POST_BASE, Member.POST_FOOT),
         "net": ("net",),
     }.items()
     for part in parts

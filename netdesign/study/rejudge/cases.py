@@ -251,14 +251,8 @@ def _rejudge_force(
     extremes: Mapping[str, ExtremeRecord],
 ) -> Iterator[Message]:
     """One of them: a bound of a search exactly, of a grid with what may hide."""
-    if force.quantity == Member.POST_BASE:  # part of the post's, whose largest is told
-        if force.value_kN > extremes[Member.POST].max_kN * (1.0 + SAME):
-            yield say("audit.more_on_base", place=place)
-        return
-    if force.quantity == NetPart.MESH:
-        least = _find_largest_pull(row)
-        if force.value_kN < least * (1.0 - SAME):
-            yield say("audit.less_than_pull", place=place, least=least)
+    if force.quantity in (Member.POST_BASE, Member.POST_FOOT, NetPart.MESH):
+        yield from _rejudge_alone(place, force, row, extremes[Member.POST].max_kN)
         return
     largest = extremes[_find_bringing(force.quantity, row)]
     pairs = [
@@ -273,6 +267,27 @@ def _rejudge_force(
     yield from report_unequal(place, pairs)
     if not same_point(force.case, largest.case):
         yield say("audit.other_case", place=place)
+
+
+def _rejudge_alone(
+    place: Message, force: ForceRecord, row: RowStudy, post: float
+) -> Iterator[Message]:
+    """A force that no case tells beside its others; ``post`` is the post's [kN]."""
+    if not _are_ordered((0.0, force.low_kN, force.value_kN, force.high_kN)):
+        yield say("audit.outside_band", place=place)
+    if force.quantity == Member.POST_BASE:  # part of the post's, whose largest is told
+        if force.value_kN > post * (1.0 + SAME):
+            yield say("audit.more_on_base", place=place)
+    elif force.quantity == NetPart.MESH:
+        least = _find_largest_pull(row)
+        if force.value_kN < least * (1.0 - SAME):
+            yield say("audit.less_than_pull", place=place, least=least)
+    else:
+        pulls = [one.post_foot_kN for one in row.statics if one.load is None]
+        least = max(pulls, default=0.0)
+        if least > force.high_kN * (1.0 + SAME):
+            high = show_value(force.high_kN)
+            yield say("audit.too_low_end", place=place, high=high, least=least)
 
 
 def _find_largest_pull(row: RowStudy) -> float:

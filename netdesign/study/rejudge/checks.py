@@ -18,11 +18,11 @@ from netdesign.checks.forces import (
     rate,
 )
 from netdesign.checks.schema import (
-    ACTION_FACTOR,
     LATERAL_SHARE,
     MODES_WITHOUT_FORCE,
     ROPE_ANGLE,
     TEST_SCATTER,
+    list_action_factors,
 )
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.fractile import (
@@ -34,6 +34,7 @@ from netdesign.site.model import (
     CONNECTED,
     DEPENDENT_MODES,
     END_MODES,
+    LIFTED_MODE,
     MEMBER_MODES,
     NET_MODES,
 )
@@ -45,7 +46,8 @@ from netdesign.structure.members import (
     RopeForce,
     name_in_panel,
 )
-from netdesign.study.member_force import PARTS, PUSHED, leave_out_governing
+from netdesign.study.check_to_record import UNBOUNDED
+from netdesign.study.member_force import PARTS, PUSHED, leave_out_governing, lifts
 from netdesign.study.records import (
     CheckRecord,
     ProfileRecord,
@@ -70,13 +72,11 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
 _NEVER_MET = ("profile.named", "inputs.plausible")  # there while something is open
-# A post of which the snow's moment leaves nothing for the force along it.
-_UNBOUNDED = "post_bending.too_much"
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
     Verdict.FAIL: (
         *("check.fails", "check.fails_besides", "check.fails_though_declared"),
-        _UNBOUNDED,
+        *UNBOUNDED,
     ),
     Verdict.NOT_PROVEN: ("check.not_proven",),
     Verdict.DECLARED: ("check.declared",),
@@ -125,6 +125,8 @@ def _look_for_all(
         yield say("audit.check_twice", place=place, check=twice)
     inside = _add_connections((*MEMBER_MODES, *DEPENDENT_MODES), profile)
     wanted = [f"{member}.{mode}" for member, mode in inside]
+    if lifts(row.forces, row.floor.forces if row.floor else ()):
+        wanted.append(".".join(LIFTED_MODE))
     if _has_end(row, profile):
         wanted += [f"{one}.end" for one in wanted]
     if _has_ropes(row) and not _goes_on(row):
@@ -200,13 +202,13 @@ def _rejudge_itself(place: Message, check: CheckRecord) -> Iterator[Message]:
 
 
 def _is_used_up(check: CheckRecord) -> bool:
-    """A moment leaves nothing of the post for the force along it, by its reason."""
+    """Nothing is left of a post or its foot for the force along it, by its reason."""
     has_numbers = check.utilisation is not None or check.resistance_kN is not None
     reason = leave_out_governing(check.reason)
     alone = reason.arguments.get("reason")
     if reason.key == "check.fails_though_declared" and isinstance(alone, Message):
         reason = alone
-    return reason.key == _UNBOUNDED and not has_numbers
+    return reason.key in UNBOUNDED and not has_numbers
 
 
 def _rejudge_factors(
@@ -218,10 +220,12 @@ def _rejudge_factors(
     general = f"resistance.{check.mode}"
     named = f"{general}.{check.resistance_basis}"
     key = next((one for one in (named, general) if one in values), "")
+    on_action = list_action_factors(check.mode)
+    factor = next((values[one] for one in on_action if one in values), None)
     yield from report_unequal(
         place,
         [
-            ("γ_E", check.read("γ_E"), values.get(ACTION_FACTOR)),
+            ("γ_E", check.read("γ_E"), factor),
             ("γ_R", check.read("γ_R"), values.get(key)),
         ],
     )
@@ -391,7 +395,8 @@ def _name_sources(
 
 def _name_sideways(member: str, held: HeldSidewaysRecord | None) -> dict[str, str]:
     """Solved quantities by which the load along the row adds to a member's force."""
-    if held is None or member in (Member.FOOT_ANCHOR, NetPart.MESH):
+    stiff = (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH)
+    if held is None or member in stiff:
         return {}
     if member in PARTS:
         return {"c": PARTS[member], "P": "head_pull"}

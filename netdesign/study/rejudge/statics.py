@@ -132,8 +132,8 @@ def _rejudge_sizes(
     place: Message, anchors: list[AnchorRecord], drawing: Drawing, drawn: CaseRecord
 ) -> Iterator[Message]:
     """Forces on the ground against those of the case; one anchor may carry two."""
-    if len(anchors) != len(BROUGHT_BY):
-        return
+    if len(anchors) != len(BROUGHT_BY) or anchors[-1].force_y_kN > 0.0:
+        return  # a post that pulls: its guys count as if its foot gave way
     foot, uphill, downhill, post = (one.size_kN for one in anchors)
     is_shared = drawing.uphill_anchor_m == (0.0, 0.0)
     sizes = (foot + uphill if is_shared else foot, uphill, downhill, post)
@@ -165,7 +165,7 @@ def _rejudge_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[M
         return
     _, uphill, downhill, base = row.anchors
     sizes = (
-        (Member.POST, base, held.post_compression),
+        (Member.POST, base, held.post_compression + held.post_tension),
         (Member.UPHILL_GUY, uphill, held.uphill_guy_tension),
         (Member.DOWNHILL_GUY, downhill, held.downhill_guy_tension),
     )
@@ -301,10 +301,11 @@ def _follow(state: StaticsRecord, spacing: float) -> list[Pair]:
     head = found.head
     return [
         ("foot_anchor_kN", state.foot_anchor_kN, found.foot_anchor.size),
-        ("uphill_guy_kN", state.uphill_guy_kN, head.uphill_guy_tension),
-        ("downhill_guy_kN", state.downhill_guy_kN, head.downhill_guy_tension),
+        ("uphill_guy_kN", state.uphill_guy_kN, head.guy_demands[0]),
+        ("downhill_guy_kN", state.downhill_guy_kN, head.guy_demands[1]),
         ("post_kN", state.post_kN, head.post_compression),
         ("post_base_kN", state.post_base_kN, max(-found.post_base.y, 0.0)),
+        ("post_foot_kN", state.post_foot_kN, head.post_tension),
     ]
 
 
@@ -336,6 +337,7 @@ def read_state(state: StaticsRecord, member: str) -> float:
             math.hypot(state.foot_x_kN_per_m, state.foot_y_kN_per_m),
             math.hypot(state.head_x_kN_per_m, state.head_y_kN_per_m),
         ),
+        Member.POST_FOOT: state.post_foot_kN,
     }
     return forces[member]
 

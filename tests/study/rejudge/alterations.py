@@ -437,6 +437,17 @@ def the_high_end_of_a_band_lowered(study):
 
 
 @alteration
+def a_lifted_post_without_a_check_of_its_foot(study):
+    force = next(f for f in study["rows"][0]["forces"] if f["quantity"] == "post_foot")
+    force["high_kN"] = 5.0
+
+
+@alteration
+def a_pull_of_a_post_left_out(study):
+    study["rows"][0]["statics"][0]["post_foot_kN"] = 5.0
+
+
+@alteration
 def a_largest_force_at_another_case(study):
     row = study["rows"][0]
     row["extremes"][0]["case"] = dict(row["cases"][1]["case"])
