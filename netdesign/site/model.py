@@ -79,9 +79,12 @@ END_MODES: tuple[tuple[EndMember, str], ...] = (
 CONNECTED: Mapping[str, Member | None] = {
     Member.FOOT_ANCHOR: Member.FOOT_ANCHOR,
     Member.UPHILL_GUY: Member.UPHILL_ANCHOR,
+    Member.UPHILL_ANCHOR: Member.UPHILL_ANCHOR,
     Member.DOWNHILL_GUY: Member.DOWNHILL_ANCHOR,
+    Member.DOWNHILL_ANCHOR: Member.DOWNHILL_ANCHOR,
     EndMember.LATERAL_ANCHOR: None,
     EndMember.END_GUY: None,
+    EndMember.END_GUY_ANCHOR: None,
     NetPart.RIDGE_ROPE: None,
     NetPart.LOWER_ROPE: None,
 }

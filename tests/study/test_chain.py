@@ -181,6 +181,16 @@ def test_a_chain_of_which_no_link_is_given_is_not_proven(solved):
     assert "no link of type G24 is given on sheet Links" in str(check.reason)
 
 
+def test_links_of_the_anchors_of_guys_count_too(solved):
+    links = dict(solved[0].links)
+    (eye,) = links["A32-tested"]
+    weak = {"A32-tested": (replace(eye, breaking=25e3),)}
+    _, checks = judge(solved, links=links | weak)
+    for name in ("uphill_anchor.connection", "uphill_anchor.connection.end"):
+        assert checks[name].verdict is Verdict.FAIL
+    assert checks["uphill_guy.connection"].verdict is Verdict.PASS
+
+
 def test_a_shackle_is_turned_by_the_angle_of_its_anchor(solved):
     study, checks = judge(solved)
     (pull,) = (one for one in study.rows[0].pulls if one.anchor == "uphill_anchor")

@@ -329,7 +329,7 @@ def _complete_chain(draw, lines):
             one.setdefault("ground", ground)
         one["drilled_length"] = _round(draw.uniform(6.0, 9.0))
         one["least_cover"] = _round(draw.uniform(0.6, 1.6))
-        one["least_edge"] = _round(draw.uniform(0.8, 4.0))
+        one["least_edge"] = _round(draw.uniform(1.7, 4.0))
         if one["kind"] == "rope anchor" or draw.random() < 0.4:
             one["protection"] = draw.choice(("cover", "sheath", "galvanised"))
             one["protected_years"] = draw.choice((40, 100, 100, 120))
