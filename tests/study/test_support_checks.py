@@ -454,5 +454,5 @@ def test_a_foot_can_be_declared():
 def test_the_list_of_what_a_row_lacks_does_not_ask_for_its_foot(tmp_path):
     """Nobody knows before a solve whether a post lifts."""
     site = read_site(write_row(tmp_path, anchor=BAR))
-    keys = [str(one.key) for one in list_missing(site.rows[0])]
+    keys = [str(one.key) for one in list_missing(site.rows[0], site.links)]
     assert "column.Posts.foot_tension" not in keys

@@ -139,8 +139,8 @@ def move_down(inputs):
 @pytest.mark.parametrize(
     ("detail", "language", "most"),
     [
-        ("full", "en", 40),
-        pytest.param("full", "fr", 40, marks=pytest.mark.long),
+        ("full", "en", 48),
+        pytest.param("full", "fr", 49, marks=pytest.mark.long),
         ("summary", "en", 3),
         pytest.param("summary", "de", 3, marks=pytest.mark.long),
     ],
