@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-REQUIRED = "NETDESIGN_TESTS_NEED_PROGRAMS"  # set by .ci/run where apt can bring them
+REQUIRED = "NETDESIGN_SUITE_NEED_PROGRAMS"  # set by .ci/run where apt can bring them
 
 
 def require_program(*names: str) -> str:

@@ -17,9 +17,9 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
     from pydantic_core import SchemaValidator
 
 # A study of as many net rows and cases as a site may have (``site/cells/limits.py``,
-# ``envelope/ranges.py``), with some room: a row has up to 400 kB, 15,200 values and
-# 2,600 objects, a case 520 bytes, 13 values and 2 objects.
-MAX_JSON_BYTES = 512 * 2**20
+# ``envelope/ranges.py``), with some room: a row has up to 450 kB, 17,000 values and
+# 2,900 objects, a case 520 bytes, 13 values and 2 objects.
+MAX_JSON_BYTES = 640 * 2**20
 MAX_VALUES = 24_000_000
 MAX_OBJECTS = 3_600_000
 _SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs

@@ -135,7 +135,7 @@ def test_a_variable_that_names_no_command_is_told(call, monkeypatch, language, t
 
 def test_variables_that_are_read_are_not_told(call, monkeypatch):
     monkeypatch.setenv("NETDESIGN_WINTER_JOBS", "2")
-    monkeypatch.setenv("NETDESIGN_TESTS_NEED_PROGRAMS", "1")
+    monkeypatch.setenv("NETDESIGN_SUITE_NEED_PROGRAMS", "1")
     monkeypatch.setenv("NETDESIGN_LANGUAGE", "en")
     assert "no effect" not in call("check", "--example", "--dry-run").err
     monkeypatch.setenv("NETDESIGN_HOME", "2")
