@@ -1,0 +1,48 @@
+"""A topic more never makes a verdict better: drawn sites with all of it, and less."""
+
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.checks.schema import ScopeTable
+from netdesign.outcome import Verdict
+from netdesign.site.reader import read_site
+from netdesign.solving.runner import Runner
+from netdesign.study.cases import solve_site
+from netdesign.study.judge import judge_site
+from netdesign.study.rejudge import rejudge
+from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines, write_lines
+from tests.study.knowing_less.test_knowing_less import RUN
+
+TOPICS = tuple(ScopeTable.model_fields)
+ORDER = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+SITES_IN_SUITE, SITES = 6, 200
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [
+        pytest.param(seed, marks=() if seed < SITES_IN_SUITE else pytest.mark.slow)
+        for seed in range(SITES)
+    ],
+)
+def test_a_topic_more_never_makes_anything_better(tmp_path, seed):
+    write_lines(tmp_path / "site.xlsx", draw_lines(4000 + seed, is_placed=True))
+    site = read_site(tmp_path / "site.xlsx")
+    solved = solve_site(site, RUN, Runner())
+    standard = load_standard(site.project.standard or DEFAULT)
+    draw = random.Random(f"topics {seed}")
+    everything = judge_site(site, solved, standard, RUN)
+    for count in (1, 2, len(TOPICS)):
+        left_out = tuple(draw.sample(TOPICS, count))
+        less = replace(standard, not_checked=left_out)
+        study = judge_site(site, solved, less, RUN)
+        assert rejudge(study) == []
+        for all_of_it, some in zip(everything.rows, study.rows, strict=True):
+            assert ORDER.index(all_of_it.verdict) <= ORDER.index(some.verdict)
+            checks = {one.id: one for one in all_of_it.checks}
+            for check in some.checks:
+                verdict = checks[check.id].verdict
+                assert ORDER.index(verdict) <= ORDER.index(check.verdict), check.id
