@@ -184,10 +184,11 @@ def pull_at_end(rope: Quantity, support: Support) -> Quantity:
 def pull_border_rope(tension: Quantity, support: Support) -> Quantity:
     """Tension of a border rope, at the row's end under the end effect, at most."""
     factor, length, spacing = support.end_factor, support.end_length, support.spacing
-    if factor is None or length is None or spacing is None:
+    if factor is None:
         return tension.named("E_k", "kN", "(P9)")
-    is_short = _is_short(length, spacing)
-    grown = 1 + factor * (2 * length / spacing if is_short else 1.0)
+    grown = 1 + factor  # beyond half a bay it counts as if it were all over the bay
+    if length is not None and spacing is not None and _is_short(length, spacing):
+        grown = 1 + factor * (2 * length / spacing)
     return (tension * grown).named("E_k", "kN", "(P9)")
 
 

@@ -93,6 +93,7 @@ def test_pull_along_the_guy_leaves_the_post_at_zero_not_below():
         assert 0.0 <= forces.post_compression <= 1e-12 * KN
         expected = KN * math.hypot(run, 4.0)
         assert forces.uphill_guy_tension == pytest.approx(expected, rel=1e-12)
+        assert forces.post_tension == forces.loose_uphill == 0.0
 
 
 def test_pull_along_a_guy_close_to_a_tilted_post_is_told_from_tension():
@@ -109,6 +110,7 @@ def test_pull_along_a_guy_close_to_a_tilted_post_is_told_from_tension():
             forces = compute_head_forces(pull, points)
             assert 0.0 <= forces.post_compression <= 1e-11 * KN
             assert forces.uphill_guy_tension == pytest.approx(share * KN, rel=1e-11)
+            assert forces.post_tension == 0.0
 
 
 def test_lifting_pull_is_held_by_the_foot():
@@ -123,11 +125,61 @@ def test_lifting_pull_aside_is_held_by_foot_and_guy():
     assert held.uphill_guy_tension > 0.0 == held.downhill_guy_tension
 
 
+@pytest.mark.parametrize("size", [0.3, 300 * KN])
+def test_what_presses_the_post_loosens_nothing_however_small(size):
+    held = compute_head_forces((1.2 * size, 0.6 * size), some_points())
+    assert held.post_compression == pytest.approx(size)
+    assert held.post_tension == held.loose_uphill == held.loose_downhill == 0.0
+    lifted = compute_head_forces((0.0, size), some_points())
+    assert str(lifted.reason).startswith("the net lifts the head")
+
+
+# Both guys on one side: a flat one at 3 : 4 : 5, and a steep one. Beside the flat one
+# the post has 4/3 f_x - f_y of compression, beside the steep one 4 f_x - f_y.
+FLAT, STEEP = (-3.0, 0.0), (-1.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("uphill", "downhill", "lift", "works", "compression"),
+    [
+        (STEEP, FLAT, 2.0, "uphill", 2.0),  # the uphill one first, where it presses
+        (FLAT, STEEP, 2.0, "downhill", 2.0),
+        (FLAT, STEEP, 5.0, "uphill", 4.0 / 3.0 - 5.0),  # the larger tension of two
+        (STEEP, FLAT, 5.0, "downhill", 4.0 / 3.0 - 5.0),
+    ],
+)
+def test_of_two_guys_on_one_side_one_works(uphill, downhill, lift, works, compression):
+    points = some_points(uphill_anchor=uphill, downhill_anchor=downhill)
+    held = compute_head_forces((KN, lift * KN), points)
+    guys = {
+        "uphill": held.uphill_guy_tension,
+        "downhill": held.downhill_guy_tension,
+    }
+    assert [name for name, tension in guys.items() if tension] == [works]
+    in_post = held.post_compression - held.post_tension
+    assert in_post == pytest.approx(compression * KN)
+
+
+def test_guys_on_one_side_of_a_loose_foot_have_what_each_has_with_the_post():
+    """The two alone cannot hold it: the flat one would have to push."""
+    points = some_points(uphill_anchor=FLAT, downhill_anchor=STEEP)
+    held = compute_head_forces((KN, 5 * KN), points)
+    assert held.loose_uphill == pytest.approx(KN / 0.6)
+    assert held.loose_downhill == pytest.approx(KN * math.sqrt(17.0))
+
+
+def test_guys_along_one_line_may_have_all_of_it_each():
+    points = some_points(uphill_anchor=FLAT, downhill_anchor=FLAT)
+    held = compute_head_forces((KN, 5 * KN), points)
+    assert held.loose_uphill == held.loose_downhill == pytest.approx(KN * 26**0.5)
+
+
 def test_guy_along_the_post_holds_nothing():
     points = some_points(downhill_anchor=(0.0, 0.0))
     failed = compute_head_forces((-1 * KN, -10 * KN), points)
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
     assert "downhill guy nothing holds sideways" in str(failed.reason)
+    assert str(failed.reason).count("nothing holds sideways") == 1
 
 
 def test_guy_along_the_post_does_not_disturb_the_other():
@@ -178,7 +230,8 @@ def test_what_is_no_number_gives_no_forces(bad):
 
 @pytest.mark.parametrize("bad", [-5e-324, math.nan, math.inf])
 @pytest.mark.parametrize(
-    "member", ["post_compression", "uphill_guy_tension", "downhill_guy_tension"]
+    "member",
+    ["post_compression", "post_tension", "uphill_guy_tension", "downhill_guy_tension"],
 )
 def test_forces_with_a_wrong_sign_cannot_be_built(member, bad):
     with pytest.raises(ModelError, match="^" + member.replace("_", " ")):
