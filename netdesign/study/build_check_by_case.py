@@ -130,9 +130,12 @@ def _find_end_factor(task: RowToCheck, ranges: Ranges) -> float:
 def _follows_cases(one: MemberCheck) -> bool:
     """The check follows from the member's force by numbers that stay as they are.
 
-    A resistance that follows the snow does not, nor what is added to no force at all.
+    A resistance that follows the snow does not, nor what is added to no force at all,
+    nor an anchor of two guys: what these add may grow while its own force falls.
     """
     force = one.force
+    if force is not None and force.on.load.across is not None:
+        return False
     if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
         return False
     return force.largest.high_kN > 0.0 or force.added_high == 0.0

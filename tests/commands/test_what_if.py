@@ -2,10 +2,8 @@
 
 import json
 
-import openpyxl
 import pytest
 
-from netdesign.words.catalogue import LANGUAGES
 from tests.short_example import write_short_example
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet")
@@ -50,27 +48,6 @@ def test_sizing_writes_a_study_that_its_own_command_makes_again(site, call):
     again = call("report", "a/what-if-study.json", *options)
     assert again.code == 4, again.err
     assert [path.name for path in (site / "c").glob("[!.]*")] == ["what-if-report.html"]
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_sizing_with_a_ground_that_nobody_gives_asks_and_writes_no_study(
-    site, call, language
-):
-    book = openpyxl.load_workbook(site / "site.xlsx")
-    headings = {cell.value: cell.column for cell in book["Anchors"][1]}
-    for line in range(2, book["Anchors"].max_row + 1):
-        book["Anchors"].cell(line, headings["ground"]).value = None
-    book.save(site / "site.xlsx")
-    options = ("--size", "--explain", "--out", "a", "--language", language, *BARE)
-    ended = call("check", "site.xlsx", *QUICK, *options)
-    assert ended.code == 4, ended.err
-    offers = [line for line in ended.out.splitlines() if "A28-computed" in line]
-    assert len(offers) >= 2  # of --explain and of --size
-    assert all("?" in line for line in offers)
-    none = {"en": "it is not known", "fr": "rien ne dit", "de": "Für diese Typen"}
-    assert none[language] in ended.out
-    assert [path.name for path in (site / "a").glob("[!.]*")] == ["study.json"]
 
 
 def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
