@@ -21,6 +21,7 @@ OBJECTS = (
     "load",
     "held_sideways",
     "panel",
+    "tests",
 )
 WORDS = ([*Verdict], [*Outcome], [*Kind])
 
@@ -53,7 +54,7 @@ def _alter(value, key, draw):
     if isinstance(value, bool):
         return not value
     if value is None:
-        if key.endswith("count"):
+        if key.endswith(("count", "years")):
             return draw.randint(1, 9)
         return "x" if key.endswith(("reason", "text")) else draw.uniform(0.1, 9.0)
     if isinstance(value, int):

@@ -453,6 +453,7 @@ def _keep_rest(study: Study) -> object:
     return {
         "profile": {
             "title": study.profile.title,
+            "choice_text": study.profile.choice_text,
             "sha256": study.profile.sha256,
             "is_floor_overruled": study.profile.is_floor_overruled,
             "values": [replace(one, value=0.0) for one in study.profile.values],
