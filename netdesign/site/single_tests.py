@@ -43,10 +43,13 @@ def count_in_tests(
         found += _count(line, by_place, findings)
     for (name, _), left in by_place.items():
         if name in places:
-            has_ground = left[0]["ground"].cell is not None
-            named = left[0]["ground" if has_ground else "type"]
-            rule = say("tests.no_line", type=name)
-            refuse(named, rule, say("tests.line_wanted"), findings)
+            ground = left[0]["ground"]
+            if ground.word:
+                rule = say("tests.no_line", type=name)
+                refuse(ground, rule, say("tests.line_wanted"), findings)
+            else:
+                wanted = say("tests.ground_wanted")
+                refuse(left[0]["type"], say("tests.no_ground"), wanted, findings)
     return found
 
 

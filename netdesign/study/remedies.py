@@ -58,14 +58,11 @@ def list_remedies(
     changes = _list_resistance_remedies(task, one)
     used = one.result.find("μ")
     if used is None or used.high is None:
-        return changes
+        return _complete(task, one, changes, None)
     if task.basis.row.panel is None:  # its forces are in no proportion to the spacing
         spacing = task.basis.row.layout.post_spacing
         changes.append(find_spacing_remedy(spacing, one.width, used.high))
-    if one.gap or one.doubt:
-        key = "change.as_far_as_solved" if one.gap else "change.if_law_accepted"
-        return [replace(change, note=say(key)) for change in changes]
-    return changes + (_list_solved_remedies(task, check) if check else [])
+    return _complete(task, one, changes, check)
 
 
 def list_end_remedies(
@@ -74,8 +71,28 @@ def list_end_remedies(
     """Changes that flip a failing, unproven or close check of such a member."""
     if not _is_worth_telling(task, one):
         return []
-    changes = _list_resistance_remedies(task, one)
+    return _complete(task, one, _list_resistance_remedies(task, one), check)
+
+
+def _complete(
+    task: RowToCheck,
+    one: MemberCheck,
+    changes: list[ChangeRecord],
+    check: CheckByCase | None,
+) -> list[ChangeRecord]:
+    """Changes with those found by solves; with a note where they alone do not do."""
+    if key := _find_condition(one):
+        return [replace(change, note=say(key)) for change in changes]
     return changes + (_list_solved_remedies(task, check) if check else [])
+
+
+def _find_condition(one: MemberCheck) -> str:
+    """Key of what has to be settled, too, before a check can pass; "" for nothing."""
+    if one.gap:
+        return "change.as_far_as_solved"
+    if one.doubt:
+        return "change.if_law_accepted"
+    return "change.if_rest_proven" if one.unsure else ""
 
 
 def _is_worth_telling(task: RowToCheck, one: MemberCheck) -> bool:

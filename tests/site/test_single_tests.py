@@ -144,3 +144,14 @@ def test_a_type_may_be_named_with_its_ground(site, save):
         line[column] = f"{kind} (scree)"
     with pytest.raises(SiteDataError, match="in another ground"):
         read_site(save(site))
+
+
+@pytest.mark.parametrize("force", [37.2, 100 / 3])
+def test_a_test_without_the_ground_that_its_type_has_is_refused(site, save, force):
+    site["Anchors"][0].append("ground")
+    for line in site["Anchors"][1:]:
+        line.append("till")
+    kind = site["Anchors"][1][0]
+    site["Tests"] = [TITLES["en"][1], [kind, None, force]]
+    with pytest.raises(SiteDataError, match="this test names none"):
+        read_site(save(site))

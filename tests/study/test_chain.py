@@ -104,6 +104,18 @@ def test_a_stronger_or_weaker_mesh_turns_its_check_alone(solved):
     assert weak["mesh.mesh.end"].verdict is Verdict.FAIL
 
 
+@pytest.mark.parametrize("life", [None, 137])
+def test_no_change_of_steel_alone_is_said_to_pass_where_its_life_is_not_known(
+    solved, life
+):
+    study, checks = judge(solved, design_life=life)
+    changes = [one for check in study.rows[0].checks if check.mode == "tendon"
+               for one in check.changes]  # fmt: skip
+    assert checks["foot_anchor.tendon"].verdict is Verdict.NOT_PROVEN
+    assert changes or life
+    assert {one.note.key for one in changes} <= {"change.if_rest_proven"}
+
+
 @pytest.mark.parametrize("years", [17, 50, 80, 100])
 def test_bar_loses_the_share_that_its_ground_takes_over_the_years(solved, years):
     _, checks = judge(solved, design_life=years)
