@@ -72,6 +72,7 @@ THIRD_PARTY = {
             "planview.*",
             "envelope.*",
             "guideline.*",
+            "resistance.wedge",
             "search.*",
             "snowpack.*",
             "winter.*",

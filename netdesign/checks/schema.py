@@ -40,13 +40,15 @@ GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
 ANCHOR_DISTANCE = "anchor.distance.min"
 POST_EFFICIENCY = "post.efficiency"
+# On the strength of the ground that an anchor may pull out with itself.
+SOIL_COHESION, SOIL_FRICTION = "soil.cohesion", "soil.friction"
 TEST_SCATTER = "tests.scatter"  # coefficient of variation, where it is known
 TEST_COUNT = "tests.count"  # of each anchor type in each ground
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
     *("bending", "compression_bending", "sliding", "tension"),
-    *("mesh", "connection"),
+    *("mesh", "connection", "wedge"),
 )
 # Checks of a member that compare no force with a resistance.
 MODES_WITHOUT_FORCE = ("direction", "lateral")
@@ -82,6 +84,7 @@ FACTOR_IDS = (
     ACTION_FACTOR,
     UPLIFT_FACTOR,
     ACCEPTANCE_TEST,
+    *(SOIL_COHESION, SOIL_FRICTION),
     *(f"resistance.{mode}" for mode in MODES),
     *(f"resistance.{mode}.{basis}" for mode in MODES for basis in BASES),
 )

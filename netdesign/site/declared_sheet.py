@@ -51,7 +51,11 @@ _OF_GEOMETRY = (
 _OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"))  # of no support
 _ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 _OF_DIRECTIONS = (
-    *((anchor, mode) for anchor in _ANCHORS for mode in ("bending", "direction")),
+    *(
+        (anchor, mode)
+        for anchor in _ANCHORS
+        for mode in ("bending", "wedge", "direction")
+    ),
     (Member.POST, "lateral"),
 )
 DECLARABLE: tuple[tuple[str, str], ...] = (

@@ -18,6 +18,7 @@ from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.resistance.steel import RoundSection
+from netdesign.resistance.wedge import Soil
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import (
@@ -112,6 +113,8 @@ class AnchorType:
         Lengths from the ground's surface, and of the bond at its end [m].
     least_cover, least_edge : float or None
         As the geotechnical engineer asks of the ground around the bond [m].
+    soil : Soil or None
+        Strength of that ground, which is given instead of a cover.
     """
 
     kind: str
@@ -121,6 +124,7 @@ class AnchorType:
     bond: float | None = None
     least_cover: float | None = None
     least_edge: float | None = None
+    soil: Soil | None = None
 
     def find_cover(self, axis: float) -> float:
         """Depth of the bond's middle, normal to the slope [m]; (S22).
@@ -134,6 +138,24 @@ class AnchorType:
         """
         drilled, bond = self.drilled or self.bond, self.bond or self.drilled
         return ((drilled or 0.0) - 0.5 * (bond or 0.0)) * math.sin(axis)
+
+    def list_depths(self, axis: float) -> tuple[float, ...]:
+        """Least and largest depth that the bond's middle may have [m].
+
+        One where its length is given; none without a drilled length.
+        """
+        if self.drilled is None:
+            return ()
+        least = self.find_cover(axis)
+        return (least,) if self.bond else (least, self.drilled * math.sin(axis))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GroundAround:
+    """Ground around the bond of an anchor type, which it may pull out with itself."""
+
+    soil: Soil
+    anchor: AnchorType
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -159,7 +181,9 @@ class Resistance:
     type_id: str = ""  # id of the anchor, rope or post type; "" where none is named
     derivation: Message | None = None  # how it follows from dimensions
     tests: PullOutTests | None = None  # instead of a value
-    dimensions: AnchorType | PostSection | BaseFriction | Link | None = None
+    dimensions: AnchorType | GroundAround | PostSection | BaseFriction | Link | None = (
+        None
+    )
     lack: Message | None = None  # why there is no value, where that needs more words
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
@@ -314,7 +338,7 @@ class NetRow:
         if kind is not None:
             said |= {
                 "Anchors.drilled_length": kind.drilled or kind.bond,
-                "Anchors.least_cover": kind.least_cover,
+                "Anchors.least_cover": 1.0 if kind.soil else kind.least_cover,
                 "Anchors.least_edge": kind.least_edge,
             }
         return tuple(say(f"column.{key}") for key, value in said.items() if not value)

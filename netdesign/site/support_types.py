@@ -15,6 +15,7 @@ from netdesign.outcome import ModelError
 from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import RoundSection
+from netdesign.resistance.wedge import Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import (
     END_MODES,
@@ -24,12 +25,14 @@ from netdesign.site.model import (
     NET_MODES,
     AnchorType,
     BaseFriction,
+    GroundAround,
     Resistance,
     RowEnd,
 )
 from netdesign.site.readings import Reading, Row
 from netdesign.site.type_resistances import (
     SECTION,
+    SOIL_COLUMNS,
     compute_buckling,
     find_tests,
     lacks_ground,
@@ -94,7 +97,16 @@ def _read_anchor(line: Row) -> AnchorType:
         bond=line["bond_length"].given_si,
         least_cover=line["least_cover"].given_si,
         least_edge=line["least_edge"].given_si,
+        soil=_read_soil(line),
     )
+
+
+def _read_soil(line: Row) -> Soil | None:
+    """Strength of the ground around an anchor; None unless all of it is given."""
+    cohesion, friction, weight = (line[key].given_si for key in SOIL_COLUMNS)
+    if cohesion is None or friction is None or weight is None:
+        return None
+    return Soil(cohesion=cohesion, friction=friction, weight=weight)
 
 
 def _build_section(line: Row) -> RoundSection | None:
@@ -128,6 +140,11 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
             for member, mode in MEMBER_MODES
         ),
         *(one for one in bent if one is not None),
+        *(
+            _hold_by_ground(row[one], one, kind)
+            for one, kind in anchors.items()
+            if kind.soil
+        ),
         _bend_post(post, line),
         _slide(post, line),
         _hold_foot(post, line),
@@ -292,11 +309,17 @@ def _bend_anchor(
     return replace(_open(named, member, "bending", anchor), wear=wear)
 
 
+def _hold_by_ground(named: Reading, member: Member, anchor: AnchorType) -> Resistance:
+    """Resistance of the ground that an anchor may pull out with itself."""
+    around = GroundAround(soil=anchor.soil, anchor=anchor) if anchor.soil else None
+    return _open(named, member, "wedge", around)
+
+
 def _open(
     named: Reading,
     member: Member,
     mode: str,
-    dimensions: AnchorType | PostSection | BaseFriction | None = None,
+    dimensions: AnchorType | GroundAround | PostSection | BaseFriction | None = None,
     lack: Message | None = None,
     source: str = "",
 ) -> Resistance:

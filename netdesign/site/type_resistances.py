@@ -39,6 +39,7 @@ _BENT, _SOLID = ("bar", "micropile"), "bar"
 SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
 _OF_GROUND = ("pull_out", "bearing")  # worked out from tables that are a floor
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
+SOIL_COLUMNS = ("soil_cohesion", "soil_friction", "soil_weight")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -466,9 +467,21 @@ def _check_lever(row: Row, findings: list[Finding]) -> None:
     refuse(lever, rule, say("accepted.words", words=bent), findings)
 
 
+def _check_soil(row: Row, findings: list[Finding]) -> None:
+    """Refuse a part of the ground's strength, and a cover beside it."""
+    if "soil_cohesion" not in row or not _is_ready(row, SOIL_COLUMNS, findings):
+        return
+    cover = row["least_cover"]
+    if cover.state == "given":
+        soil = row["soil_cohesion"]
+        rule = say("type.beside", name=soil.field.name, place=soil.place)
+        refuse(cover, rule, say("accepted.one_of_two"), findings)
+
+
 def check_support_types(row: Row, findings: list[Finding]) -> None:
     """Refuse what is given twice, the inside of no tube, the lever of what turns."""
     _check_lever(row, findings)
+    _check_soil(row, findings)
     if "base_friction" in row and row["base_friction"].state == "given":
         beside = row["sliding"]
         if beside.state == "given":

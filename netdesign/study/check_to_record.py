@@ -38,8 +38,9 @@ from netdesign.words.message import Message, say
 
 INCLINATION = "column.quantities.inclination"  # name of the net's inclination
 FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
-# A post of which the snow's moment leaves nothing for its force; a foot without hold.
-UNBOUNDED = ("post_bending.too_much", LOOSE_LIFTS.key)
+# A post of which the snow's moment leaves nothing for its force; ground that slides
+# without any; a foot without hold.
+UNBOUNDED = ("post_bending.too_much", "wedge.slides", LOOSE_LIFTS.key)
 
 
 def list_checked(

@@ -1,6 +1,6 @@
-"""Resistances that follow the demand: bent anchors, posts under snow, sliding bases.
+"""Resistances that follow the demand: of anchors, their ground, posts and their bases.
 
-Theory: resistance/THEORY.md, (R7) to (R12).
+Theory: resistance/THEORY.md, (R7) to (R12), (R21) and (R22).
 """
 
 from __future__ import annotations
@@ -17,7 +17,12 @@ from netdesign.checks.check import (
     lack_factor,
 )
 from netdesign.checks.forces import resist_by_friction
-from netdesign.checks.schema import ACTION_FACTOR, POST_EFFICIENCY
+from netdesign.checks.schema import (
+    ACTION_FACTOR,
+    POST_EFFICIENCY,
+    SOIL_COHESION,
+    SOIL_FRICTION,
+)
 from netdesign.envelope.ranges import Ranges
 from netdesign.guideline.load_model import (
     LoadModel,
@@ -37,8 +42,16 @@ from netdesign.resistance.steel import (
     RoundSection,
     compute_bent_bar_resistance,
 )
-from netdesign.site.model import AnchorType, BaseFriction, NetRow, Resistance
+from netdesign.resistance.wedge import compute_wedge_resistance
+from netdesign.site.model import (
+    AnchorType,
+    BaseFriction,
+    GroundAround,
+    NetRow,
+    Resistance,
+)
 from netdesign.structure.layout import place_support
+from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
 from netdesign.study.member_force import MemberForce
 from netdesign.study.pulls import AnchorPull
@@ -73,6 +86,8 @@ def find_resistance_for_force(given: Resistance, known: Circumstances) -> Resist
     match given.dimensions:
         case AnchorType():
             return _find_bent_resistance(given, given.dimensions, known.pull)
+        case GroundAround():
+            return _find_ground_resistance(given, given.dimensions, known)
         case PostSection():
             return _find_post_resistance(given, given.dimensions, known)
         case _:
@@ -147,6 +162,61 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
         moment=kilonewton_from_newton(section.moment_resistance),
         shear=kilonewton_from_newton(section.shear_resistance),
     )
+
+
+def _find_ground_resistance(
+    given: Resistance, around: GroundAround, known: Circumstances
+) -> Resistance:
+    """Resistance of the weakest wedge of ground in front of an anchor's bond."""
+    factors = [known.standard.find(key) for key in (SOIL_COHESION, SOIL_FRICTION)]
+    for key, factor in zip((SOIL_COHESION, SOIL_FRICTION), factors, strict=True):
+        if factor is None:
+            return replace(given, lack=lack_factor(key))
+    on_cohesion, on_friction = (one.value for one in factors if one)
+    pull, row = known.pull, known.row
+    if pull is None:
+        return given
+    if not pull.is_axis_known:
+        return replace(given, lack=say("bending.no_axis"))
+    depths, width = around.anchor.list_depths(pull.axis), _find_ground_width(row, pull)
+    if not depths or not min(depths) > 0.0:
+        return replace(given, lack=say("wedge.no_depth"))
+    is_pulled_up = pull.anchor == Member.DOWNHILL_ANCHOR
+    found = {
+        depth: compute_wedge_resistance(
+            around.soil.reduce(on_cohesion, on_friction),
+            depth=depth,
+            width=width,
+            slope=-row.slope_angle if is_pulled_up else row.slope_angle,
+            least_pull=pull.pulls.least,
+            largest_pull=pull.pulls.largest,
+        )
+        for depth in depths
+    }
+    depth = min(found, key=lambda one: found[one].value)
+    told = {
+        "depth": depth,
+        "width": width,
+        "plane": degree_from_radian(found[depth].plane),
+        "cohesion": around.soil.cohesion / 1e3,
+        "friction": degree_from_radian(around.soil.friction),
+        "weight": around.soil.weight / 1e3,
+        "on_cohesion": on_cohesion,
+        "on_friction": on_friction,
+    }
+    value = found[depth].value
+    if not value > 0.0:
+        return replace(given, lack=say("wedge.slides", **told))
+    return replace(given, value=value, derivation=say("wedge.lifts", **told))
+
+
+def _find_ground_width(row: NetRow, pull: AnchorPull) -> float:
+    """Width of ground that one anchor has along the row [m]."""
+    if pull.anchor == Member.FOOT_ANCHOR:
+        is_doubled = any(one.has_mid_anchors for one in row.panels)
+    else:
+        is_doubled = row.guys.count > 1 and not row.guys.are_shared
+    return row.layout.post_spacing / (2.0 if is_doubled else 1.0)
 
 
 def _find_post_resistance(

@@ -58,6 +58,7 @@ from netdesign.study.records import (
 from netdesign.study.row_checks import check_row, distrust
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.solved_forces import know_row
+from netdesign.study.support_records import PanelRecord
 from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message
 
@@ -161,6 +162,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     head = record_head(row, governing)
     independent = record_independent(governing, head)
     effects, held = known.forces.effects, known.held
+    panel = record_panel(row, solved.results, extremes, governing)
     return RowStudy(
         id=row.id,
         verdict=merge_verdicts(list_verdicts(checks, independent)),
@@ -183,8 +185,8 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         floor=record_floor(floor, row),
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
         model_form=model_form,
-        panel=record_panel(row, solved.results, extremes, governing),
-        notes=_list_notes(task, known, checks, cases),
+        panel=panel,
+        notes=_list_notes(task, known, checks, cases, panel),
         statics=record_statics(row, solved.results, extremes, floor),
         end_effects=record_end_effects(row, site.ranges, run.creep_law, standard),
         held_sideways=None if isinstance(held, Message) else held,
@@ -214,6 +216,7 @@ def _list_notes(
     known: Known,
     checks: Sequence[CheckRecord],
     cases: Sequence[CaseRecord],
+    panel: PanelRecord | None,
 ) -> list[Message]:
     basis = task.basis
     return [
@@ -223,6 +226,7 @@ def _list_notes(
             pulls=known.pulls,
             checks=checks,
             cases=cases,
+            panel=panel,
         ),
         *list_history_notes(task.solved.extremes),
     ]

@@ -150,13 +150,10 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     at_end, not_checked = effects.find_support("edge"), basis.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
     parts = () if "mesh" in not_checked else row.net_parts
-    is_lifted = lifts(
-        known.forces.largest.values(), (known.forces.floor or {}).values()
-    )
     checked = [
         (width, given)
         for width, given in list_checked(row, effects)
-        if is_lifted or given.member != Member.POST_FOOT
+        if _concerns(basis, known, given)
     ]
     checked += [(at_end, given) for given in (*parts, *held)]
     judged = []
@@ -167,6 +164,14 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
             chain = _find_chain(basis, known, given, width)
             judged.append(_judge(basis, known, chain, width))
     return judged
+
+
+def _concerns(basis: Basis, known: Known, given: Resistance) -> bool:
+    """The check is one of this row and profile: some case lifts a foot that is held."""
+    if given.member == Member.POST_FOOT:
+        floor = known.forces.floor or {}
+        return lifts(known.forces.largest.values(), floor.values())
+    return given.mode != "wedge" or "anchor_ground" not in basis.standard.not_checked
 
 
 def _judge(

@@ -17,8 +17,10 @@ from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
+from netdesign.study.net_in_snow import list_guy_notes, list_sag_notes
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CheckRecord, IndependentRecord
+from netdesign.study.support_records import PanelRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.winter.model_code import find_model_code_density
 from netdesign.words.catalogue import load_texts
@@ -121,6 +123,7 @@ def list_judged_notes(
     pulls: Sequence[AnchorPull],
     checks: Sequence[CheckRecord],
     cases: Sequence[CaseRecord],
+    panel: PanelRecord | None,
 ) -> list[Message]:
     """Notes of a row that follow from its inputs, its checks and its cases."""
     return [
@@ -129,6 +132,8 @@ def list_judged_notes(
         describe_model_code(row, site.ranges["density"]),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
+        *list_guy_notes(row, site.ranges, checks, standard),
+        *list_sag_notes(row, panel),
         *list_case_notes(cases),
     ]
 

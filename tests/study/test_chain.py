@@ -10,9 +10,11 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.resistance.corrosion import find_loss, leave_area
-from netdesign.site.model import AnchorType
+from netdesign.resistance.wedge import Soil, compute_wedge_resistance
+from netdesign.site.model import AnchorType, GroundAround, Resistance
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
+from netdesign.structure.members import Member
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
@@ -251,6 +253,67 @@ def test_a_bond_too_near_to_the_surface_or_an_edge_fails(solved):
     assert open_.verdict is Verdict.NOT_PROVEN
 
 
+def stand_in(solved, cohesion):
+    """Study of the row in ground of that cohesion [Pa] instead of under a cover."""
+    row = solved[0].rows[0]
+    soil = Soil(cohesion=cohesion, friction=math.radians(34.3), weight=19.7e3)
+    anchors = tuple(
+        (member, replace(kind, soil=soil, least_cover=None))
+        for member, kind in row.anchors
+    )
+    held = tuple(
+        Resistance(
+            member=member,
+            mode="wedge",
+            source="Anchors!V5",
+            basis="computed",
+            type_id="A",
+            dimensions=GroundAround(soil=soil, anchor=kind),
+        )
+        for member, kind in anchors
+    )
+    resistances = (*row.resistances, *held)
+    study, checks = judge(solved, anchors=anchors, resistances=resistances)
+    return study, checks, soil
+
+
+def test_ground_with_a_strength_is_checked_by_a_wedge_instead_of_a_cover(solved):
+    study, checks, soil = stand_in(solved, 43e3)
+    assert list(rejudge(study)) == []
+    assert checks["geometry.cover"].verdict is Verdict.PASS
+    row = solved[0].rows[0]
+    pulls = {one.anchor: one for one in study.rows[0].pulls}
+    for anchor in (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR):
+        pull = pulls[anchor]
+        wedge = compute_wedge_resistance(
+            soil.reduce(1.25, 1.25),
+            depth=dict(row.anchors)[anchor].find_cover(math.radians(pull.axis_deg)),
+            width=row.layout.post_spacing,
+            slope=row.slope_angle * (-1 if "downhill" in anchor else 1),
+            least_pull=math.radians(pull.least_deg),
+            largest_pull=math.radians(pull.largest_deg),
+        )
+        check = checks[f"{anchor}.wedge"]
+        assert check.verdict is Verdict.PASS
+        assert check.resistance_kN == pytest.approx(wedge.value / 1e3, rel=1e-9)
+
+
+def test_ground_that_slides_by_itself_fails(solved):
+    study, checks, _ = stand_in(solved, 1e3)
+    check = checks["uphill_anchor.wedge"]
+    assert check.verdict is Verdict.FAIL
+    assert "slides down the slope without any pull" in str(check.reason)
+    assert list(rejudge(study)) == []
+
+
+def test_ground_that_others_check_has_no_wedge(solved):
+    row = solved[0].rows[0]
+    less = replace(NF, not_checked=("anchor_ground",))
+    assert "uphill_anchor.wedge" in stand_in(solved, 43e3)[1]
+    checks = judge(solved, less, resistances=row.resistances)[1]
+    assert not [name for name in checks if "wedge" in name or "cover" in name]
+
+
 def test_anchors_that_cross_in_the_ground_are_not_proven(solved):
     row = solved[0].rows[0]
     crossing = replace(row.guys, are_shared=False)
@@ -290,3 +353,21 @@ def test_a_topic_more_never_makes_a_verdict_better(solved, seed):
 def test_depth_of_a_bond_is_that_of_its_middle(drilled, bond, depth):
     kind = AnchorType(kind="bar", section=None, lever=None, drilled=drilled, bond=bond)
     assert kind.find_cover(math.radians(35.0)) == pytest.approx(depth, abs=1e-4)
+
+
+def test_notes_say_what_snow_the_guys_bear_and_how_high_the_loaded_net_is(solved):
+    study, checks = judge(solved)
+    (row,) = study.rows
+    told = [str(note) for note in row.notes]
+    guys = [one for one in told if "bears snow up to" in one]
+    (net,) = (one for one in told if "the loaded net of the drawn case" in one)
+    working = [
+        name for name in ("uphill", "downhill") if checks[f"{name}_guy.rope"].demand_kN
+    ]
+    assert [one.split()[0] for one in guys] == working
+    height = row.panel.drawing.mid_net_m[-1][1]
+    assert 0.5 < height / solved[0].rows[0].net_height < 1.0
+    assert f"{height:.2f} m high" in net
+    no_reserve = change(*(solved[0].rows[0].resistances, "uphill_guy"), value=1e3)
+    weak = judge(solved, resistances=no_reserve)[0].rows[0].notes
+    assert not [one for one in map(str, weak) if "uphill guy: beside its" in one]

@@ -70,8 +70,12 @@ def _complete_chain(lines, vary):
     for kind in lines["Anchors"]:
         kind.setdefault("ground", "sandstone")
         kind["drilled_length"] = vary(7.3)
-        kind["least_cover"] = vary(0.9)
         kind["least_edge"] = vary(2.7)
+        if kind["kind"] == "bar":
+            kind |= {"soil_cohesion": vary(23.0), "soil_friction": vary(34.0)}
+            kind["soil_weight"] = vary(20.7)
+        else:
+            kind["least_cover"] = vary(0.9)
         if kind["kind"] == "rope anchor":
             kind |= {"protection": "sheath", "protected_years": 83}
         else:

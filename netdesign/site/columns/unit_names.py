@@ -74,6 +74,7 @@ _SPELLINGS = {
     "stunde": "h",
     "stunden": "h",
     "kgm-3": "kg/m3",
+    "kn/m3": "kN/m3",
     "°c": "degC",
     "c": "degC",
     "degc": "degC",
@@ -120,6 +121,7 @@ _TO_SI = {
     "deg": radian_from_degree,
     "kN": newton_from_kilonewton,
     "kN/m": newton_from_kilonewton,
+    "kN/m3": newton_from_kilonewton,
     "degC": kelvin_from_celsius,
 }
 

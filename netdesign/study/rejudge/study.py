@@ -207,6 +207,7 @@ def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Mess
         pulls=known.pulls,
         checks=row.checks,
         cases=row.cases,
+        panel=row.panel,
     )
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]

@@ -90,6 +90,7 @@ def list_groups(lines):
         ("guy_anchors",),
         ("design_life", "protection", "protected_years", "soil"),
         ("edge_distance", "least_cover", "least_edge", "drilled_length"),
+        ("soil_cohesion", "soil_friction", "soil_weight"),
         ("mesh_strength", "angle", "count"),
         ("ground",),
         ("post_tilt", "post_base_distance"),
@@ -339,6 +340,16 @@ def _complete_chain(draw, lines):
     for one in lines["Ropes"]:
         one["protected_years"] = draw.choice((60, 100, 100))
     lines["Links"] = list(_draw_links(draw, lines))
+
+
+def give_strength(draw, lines):
+    """Let some anchor types say the strength of their ground, instead of a cover."""
+    for one in lines["Anchors"]:
+        if "least_cover" in one and draw.random() < 0.5:
+            del one["least_cover"]
+            one["soil_cohesion"] = _round(draw.uniform(8.0, 60.0))
+            one["soil_friction"] = _round(draw.uniform(25.0, 40.0))
+            one["soil_weight"] = _round(draw.uniform(17.0, 23.0))
 
 
 def _draw_links(draw, lines):

@@ -13,7 +13,12 @@ from netdesign.solving.runner import Runner
 from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
-from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines, write_lines
+from tests.study.knowing_less.drawn_site import (
+    DEFAULT,
+    draw_lines,
+    give_strength,
+    write_lines,
+)
 from tests.study.knowing_less.test_knowing_less import RUN
 
 TOPICS = tuple(ScopeTable.model_fields)
@@ -29,7 +34,9 @@ SITES_IN_SUITE, SITES = 6, 200
     ],
 )
 def test_a_topic_more_never_makes_anything_better(tmp_path, seed):
-    write_lines(tmp_path / "site.xlsx", draw_lines(4000 + seed, is_placed=True))
+    lines = draw_lines(4000 + seed, is_placed=True)
+    give_strength(random.Random(f"ground {seed}"), lines)
+    write_lines(tmp_path / "site.xlsx", lines)
     site = read_site(tmp_path / "site.xlsx")
     solved = solve_site(site, RUN, Runner())
     standard = load_standard(site.project.standard or DEFAULT)

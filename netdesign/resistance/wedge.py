@@ -1,0 +1,144 @@
+"""Ground that an anchor may pull out with itself: a wedge between two planes.
+
+Theory: resistance/THEORY.md, (R21) and (R22).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import require_positive, require_within
+
+_LEAST = math.radians(0.5)  # between a plane and the slope
+_PLANES = 400  # tried at once
+_NARROWINGS = 3  # each to two steps of the one before
+MOST_COHESION = 500e3  # [Pa]
+LEAST_FRICTION, MOST_FRICTION = math.radians(1.0), math.radians(50.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Soil:
+    """Strength of the ground at an anchor, and its weight.
+
+    Attributes
+    ----------
+    cohesion : float
+        c' [Pa].
+    friction : float
+        phi' [rad].
+    weight : float
+        Unit weight [N/m3].
+    """
+
+    cohesion: float
+    friction: float
+    weight: float
+
+    def __post_init__(self) -> None:
+        """Refuse what no ground has."""
+        require_within("cohesion", self.cohesion, 0.0, MOST_COHESION, "Pa")
+        require_within(
+            "friction angle of the ground",
+            self.friction,
+            LEAST_FRICTION,
+            MOST_FRICTION,
+            "rad",
+        )
+        require_positive("unit weight", self.weight, "N/m3")
+
+    def reduce(self, on_cohesion: float, on_friction: float) -> Soil:
+        """Design strength.
+
+        Parameters
+        ----------
+        on_cohesion, on_friction : float
+            Factors on c' and on tan phi' [-].
+        """
+        return Soil(
+            cohesion=self.cohesion / on_cohesion,
+            friction=math.atan(math.tan(self.friction) / on_friction),
+            weight=self.weight,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WedgeResistance:
+    """Pull that lifts the weakest wedge.
+
+    Attributes
+    ----------
+    value : float
+        [N]; 0 where a wedge slides down the slope by itself.
+    plane : float
+        Between the slope's surface and the plane that the wedge slides on [rad].
+    """
+
+    value: float
+    plane: float
+
+
+def compute_wedge_resistance(
+    soil: Soil,
+    *,
+    depth: float,
+    width: float,
+    slope: float,
+    least_pull: float,
+    largest_pull: float,
+) -> WedgeResistance:
+    """Least pull that lifts a wedge of the ground in front of a bond's middle.
+
+    The wedge has no side faces: it is as wide as the ground that one anchor has.
+
+    Parameters
+    ----------
+    soil : Soil
+        With its design strength.
+    depth : float
+        Of the bond's middle, normal to the slope [m].
+    width : float
+        Along the row, of one anchor [m].
+    slope : float
+        Of the surface, downwards in the direction of the pull; negative where the
+        anchor is pulled up the slope [rad].
+    least_pull, largest_pull : float
+        Directions of the pull against the surface [rad].
+
+    Raises
+    ------
+    ModelError
+        If a length is not above 0.
+
+    Verified by
+    -----------
+    tests/verification/test_wedge.py
+    """
+    require_positive("depth of the bond", depth, "m")
+    require_positive("width of the ground", width, "m")
+    low, high = _LEAST, math.pi - 2.0 * soil.friction - _LEAST
+    for _ in range(_NARROWINGS):
+        planes = np.linspace(low, high, _PLANES)
+        held = width * _hold(soil, depth, slope, planes)
+        motion = planes + soil.friction
+        aside = np.maximum(0.0, np.maximum(least_pull - motion, motion - largest_pull))
+        working = np.cos(np.minimum(aside, 0.5 * math.pi))
+        pulls = np.full(_PLANES, math.inf)
+        np.divide(held, working, out=pulls, where=working > 1e-9)
+        pulls[held <= 0.0] = 0.0
+        weakest = int(np.argmin(pulls))
+        low = planes[max(weakest - 1, 0)]
+        high = planes[min(weakest + 1, _PLANES - 1)]
+    return WedgeResistance(value=float(pulls[weakest]), plane=float(planes[weakest]))
+
+
+def _hold(soil: Soil, depth: float, slope: float, planes: Floats) -> Floats:
+    """Work of cohesion and weight for each length of the wedge's motion [N/m]."""
+    behind = planes + 2.0 * soil.friction
+    lengths = depth / np.sin(planes) + depth / np.sin(behind)
+    area = 0.5 * depth**2 * (1.0 / np.tan(planes) - 1.0 / np.tan(behind))
+    cohesion = soil.cohesion * math.cos(soil.friction) * lengths
+    return cohesion + soil.weight * area * np.sin(planes + soil.friction - slope)

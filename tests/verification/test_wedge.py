@@ -1,0 +1,151 @@
+"""Ground that an anchor pulls out, against closed forms and drawn wedges."""
+
+import math
+import random
+
+import pytest
+
+from netdesign.outcome import ModelError
+from netdesign.resistance.wedge import Soil, compute_wedge_resistance
+
+STRAIGHT_OUT = math.pi / 2
+
+
+def draw_soil(draw, **special):
+    given = {
+        "cohesion": 1e3 * draw.uniform(3.0, 30.0),
+        "friction": math.radians(draw.uniform(18.0, 41.0)),
+        "weight": 1e3 * draw.uniform(16.3, 22.7),
+    }
+    return Soil(**given | special)
+
+
+def lift(soil, least, largest=None, **special):
+    given = {"depth": 1.7, "width": 3.3, "slope": 0.0}
+    return compute_wedge_resistance(
+        soil,
+        least_pull=least,
+        largest_pull=least if largest is None else largest,
+        **given | special,
+    )
+
+
+def test_weight_alone_of_level_ground_is_that_between_planes_at_the_friction_angle():
+    """R = gamma b h^2 tan(phi), of a straight pull."""
+    draw = random.Random(3)
+    for _ in range(20):
+        soil = draw_soil(draw, cohesion=0.0)
+        depth, width = draw.uniform(0.4, 4.0), draw.uniform(1.5, 4.5)
+        found = lift(soil, STRAIGHT_OUT, depth=depth, width=width)
+        weight = soil.weight * width * depth**2 * math.tan(soil.friction)
+        assert found.value == pytest.approx(weight, rel=1e-6)
+        assert found.plane == pytest.approx(STRAIGHT_OUT - soil.friction, abs=1e-3)
+
+
+def test_cohesion_alone_of_any_slope_is_that_of_two_planes():
+    """R = 4 c b h / (1 + sin(alpha)) as phi goes to zero, of any pull."""
+    draw = random.Random(4)
+    for _ in range(20):
+        angle = draw.uniform(0.2, 1.5)
+        soil = draw_soil(draw, friction=math.radians(1.0), weight=1e-6)
+        bound = 4.0 * soil.cohesion * 3.3 * 1.7 / (1.0 + math.sin(angle))
+        assert lift(soil, angle).value == pytest.approx(bound, rel=0.06)
+        assert lift(soil, angle).value > bound  # a little friction holds a little
+
+
+def test_the_weakest_of_drawn_wedges_is_no_weaker():
+    """Forces on a wedge by hand: those of both planes, and its weight."""
+    draw = random.Random(5)
+    for _ in range(30):
+        soil = draw_soil(draw, cohesion=1e3 * draw.uniform(15.0, 30.0))
+        slope = math.radians(draw.uniform(-50.0, 50.0))
+        angle = math.radians(draw.uniform(8.0, 80.0))
+        found = lift(soil, angle, slope=slope)
+        pulls = []
+        for _ in range(200):
+            plane = draw.uniform(0.02, math.pi - 2.0 * soil.friction - 0.02)
+            pulls.append(pull_by_forces(soil, plane, angle, slope))
+        known = [one for one in pulls if one is not None]
+        assert found.value <= min(known) * (1.0 + 1e-9)
+        nearest = pull_by_forces(soil, found.plane, angle, slope)
+        assert found.value == pytest.approx(nearest, rel=1e-6)
+
+
+def pull_by_forces(soil, plane, angle, slope, depth=1.7, width=3.3):
+    """Pull on one wedge [N], from the equilibrium of its forces; None if it locks.
+
+    Each plane bears its cohesion along itself and a force at phi to its normal, which
+    does no work on a motion at phi to the plane.
+    """
+    phi = soil.friction
+    behind = plane + 2.0 * phi
+    front, rear = depth / math.sin(plane), depth / math.sin(behind)
+    area = 0.5 * depth * (front * math.cos(plane) - rear * math.cos(behind))
+    weight = soil.weight * area * width
+    along = plane + phi
+    motion = (math.cos(along), math.sin(along))
+    on_front = (math.cos(plane), math.sin(plane))
+    on_rear = (math.cos(behind), math.sin(behind))
+    down = (math.sin(slope), -math.cos(slope))
+    against = sum(
+        soil.cohesion * width * length * _dot(motion, way)
+        for length, way in ((front, on_front), (rear, on_rear))
+    )
+    against -= weight * _dot(motion, down)
+    working = _dot(motion, (math.cos(angle), math.sin(angle)))
+    return against / working if working > 1e-6 else None
+
+
+def _dot(one, other):
+    return one[0] * other[0] + one[1] * other[1]
+
+
+def test_more_strength_never_holds_less_nor_more_directions_more():
+    draw = random.Random(6)
+    for _ in range(60):
+        soil, slope = draw_soil(draw), math.radians(draw.uniform(-50.0, 50.0))
+        angle = math.radians(draw.uniform(5.0, 85.0))
+        least = lift(soil, angle, slope=slope).value
+        stronger = {
+            "cohesion": soil.cohesion * draw.uniform(1.0, 2.0),
+            "friction": soil.friction * draw.uniform(1.0, 1.2),
+            "weight": soil.weight,
+        }
+        assert lift(Soil(**stronger), angle, slope=slope).value >= least * (1 - 1e-6)
+        wider = lift(soil, angle - 0.2, angle + 0.1, slope=slope).value
+        assert wider <= least * (1 + 1e-6)
+        factored = lift(soil.reduce(1.25, 1.25), angle, slope=slope).value
+        assert factored <= least
+
+
+def test_ground_pulled_up_the_slope_holds_more_and_steep_loose_ground_nothing():
+    soil = Soil(cohesion=4.1e3, friction=math.radians(33.0), weight=19.3e3)
+    slope = math.radians(37.0)
+    down, up = lift(soil, 0.5, slope=slope), lift(soil, 0.5, slope=-slope)
+    assert 0.0 < down.value < up.value
+    loose = Soil(cohesion=0.0, friction=math.radians(33.0), weight=19.3e3)
+    assert lift(loose, 0.5, slope=slope).value == 0.0
+    assert lift(loose, 0.5, slope=math.radians(31.0)).value > 0.0
+
+
+def test_force_grows_with_the_width_and_is_continuous_in_the_depth():
+    soil = draw_soil(random.Random(7))
+    one = lift(soil, 0.6, slope=0.5, width=1.3).value
+    assert lift(soil, 0.6, slope=0.5, width=2.6).value == pytest.approx(2.0 * one)
+    near = lift(soil, 0.6, slope=0.5, width=1.3, depth=1.7 + 1e-7).value
+    assert near == pytest.approx(one, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"cohesion": -1.0}, {"friction": 0.0}, {"friction": 1.2}, {"weight": math.nan}],
+)
+def test_ground_that_none_is_refused(wrong):
+    with pytest.raises(ModelError):
+        Soil(**{"cohesion": 4e3, "friction": 0.5, "weight": 19e3} | wrong)
+
+
+@pytest.mark.parametrize("wrong", [{"depth": 0.0}, {"width": -1.0}])
+def test_wedge_without_size_is_refused(wrong):
+    with pytest.raises(ModelError):
+        lift(draw_soil(random.Random(8)), 0.5, **wrong)
