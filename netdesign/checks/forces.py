@@ -111,6 +111,19 @@ def load_shared_anchor(
     return MemberLoad(across=(guys * of_one).named("B", "kN", "(S20)"))
 
 
+def load_shared_anchor_in_line(
+    guys: Quantity, part: Quantity, share: Quantity, pull: Quantity, splay: Quantity
+) -> MemberLoad:
+    """The same, the pulls of both guys added as numbers, as if they were in line."""
+    of_one = load_guy(part, share, pull, splay)
+    if of_one.share is None or of_one.added is None:
+        raise ValueError("a guy holds no load along the row")
+    return MemberLoad(
+        share=(guys * of_one.share).named("g_2", "-", "(S20a)"),
+        added=(guys * of_one.added).named("B", "kN", "(S20a)"),
+    )
+
+
 def load_post(
     part: Quantity,
     share: Quantity,
@@ -269,6 +282,9 @@ class SupportForce:
     tilt: Quantity | None = None
 
 
+# Symbols of the number of guys on one anchor, by how their pulls are added.
+GUYS_ON_ANCHOR = {"vector": "n_g", "scalar": "n_h"}
+_SHARED = {"n_g": load_shared_anchor, "n_h": load_shared_anchor_in_line}
 Leaves = Mapping[str, Quantity]  # given and solved quantities of a check by symbol
 
 
@@ -334,14 +350,17 @@ def _find_support(leaves: Leaves) -> Support:
     if "Δl" not in leaves:  # of a rope whose pull grows by f_R alone
         return Support(position="edge", end_factor=leaves["f_R"])
     return place_end_support(
-        leaves["b"], leaves["f_R"], leaves["Δl"], is_shared="n_g" in leaves
+        leaves["b"],
+        leaves["f_R"],
+        leaves["Δl"],
+        is_shared=any(one in leaves for one in _SHARED),
     )
 
 
 def _find_load(leaves: Leaves) -> MemberLoad:
-    if "n_g" in leaves:
-        shared = ("n_g", "c", "k", "P", "β")
-        return load_shared_anchor(*(leaves[one] for one in shared))
+    for guys, load in _SHARED.items():
+        if guys in leaves:
+            return load(*(leaves[one] for one in (guys, "c", "k", "P", "β")))
     if "c" in leaves:
         return load_guy(*(leaves[one] for one in ("c", "k", "P", "β")))
     if "w" in leaves:

@@ -22,6 +22,7 @@ from netdesign.checks.schema import (
     LimitsFile,
     ModelFile,
     Route,
+    SharedSum,
     TableEntry,
     TablesFile,
     check_table,
@@ -143,6 +144,7 @@ class Standard:
     ``floor`` is what no demand lies below: the guideline's load, unless the profile
     says "none"; ``is_floor_overruled`` tells that somebody chose the other one,
     ``route`` which way from tests to a characteristic resistance counts,
+    ``shared_sum`` how the pulls of two guys on one anchor are added,
     ``is_default`` that nobody named the profile; ``not_checked`` names the topics that
     others must check.
     """
@@ -160,6 +162,7 @@ class Standard:
     choice_text: str = ""
     floor: Floor = "guideline"
     route: Route = "correlation"
+    shared_sum: SharedSum = "vector"
     is_floor_overruled: bool = False
     is_default: bool = False
     not_checked: tuple[str, ...] = ()
@@ -261,10 +264,11 @@ def _load_folder(folder: Path) -> Standard:
     if choice is not None:
         tables = _take_from_choice(tables, choice.table)
     return Standard(
-        **document.model_dump(exclude={"load", "scope", "tests"}),
+        **document.model_dump(exclude={"load", "scope", "tests", "anchors"}),
         choice_text=choice.text if choice else "",
         floor=document.load.floor,
         route=document.tests.route,
+        shared_sum=document.anchors.sum,
         not_checked=tuple(
             topic
             for topic, said in document.scope.model_dump().items()

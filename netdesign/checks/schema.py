@@ -57,6 +57,8 @@ BASES = ("tested", "computed", "declared")
 Floor = Literal["guideline", "none"]
 # Way from tests to a characteristic resistance.
 Route = Literal["correlation", "scatter_known", "scatter_unknown"]
+# How the pulls of two guys on one anchor are added.
+SharedSum = Literal["vector", "scalar"]
 
 # Accepted values of each file, with the unit in which they stand there.
 LIMIT_UNITS = {
@@ -186,6 +188,12 @@ class RouteTable(_Table):
     route: Route = "correlation"
 
 
+class AnchorsTable(_Table):
+    """``anchors``: how the pulls of two guys on one anchor are added."""
+
+    sum: SharedSum = "vector"
+
+
 class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
@@ -202,6 +210,7 @@ class DocumentFile(_Table):
     load: LoadTable = LoadTable()
     scope: ScopeTable = ScopeTable()
     tests: RouteTable = RouteTable()
+    anchors: AnchorsTable = AnchorsTable()
 
 
 class Entry(_Table):
@@ -417,6 +426,7 @@ _INNER: Mapping[str | int, type[_Table]] = {
     "load": LoadTable,
     "scope": ScopeTable,
     "tests": RouteTable,
+    "anchors": AnchorsTable,
 }
 
 FileT = TypeVar(

@@ -65,6 +65,8 @@ def show_profile(name: str, *, language: Language) -> None:
     tell(say(floor), language)
     route = render(name_of("route", profile.route), language)
     tell(say("standard.route", route=route), language)
+    added = render(name_of("shared_sum", profile.shared_sum), language)
+    tell(say("standard.shared_sum", sum=added), language)
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:

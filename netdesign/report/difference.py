@@ -428,6 +428,7 @@ def _list_profile(study: Study) -> Named:
         say("diff.choice"): profile.choice,
         say("diff.floor"): profile.floor,
         say("diff.route"): profile.route,
+        say("diff.shared_sum"): profile.shared_sum,
         **values,
     }
 

@@ -98,8 +98,8 @@ def _list_of_end(row: NetRow) -> Iterator[Message]:
     at_end = (*(row.end_resistances or ()), *_list_along(row))
     if any(one.source == ENDS.name for one in at_end):
         yield say("check.unsaid_ends")
-    elif row.row_end is not None and row.row_end.guy_angle is None:
-        yield _name(ENDS, "end_guy_angle")
+    elif row.row_end is not None:
+        yield from row.row_end.list_unsaid_places()
 
 
 def _list_along(row: NetRow) -> tuple[Resistance, ...]:

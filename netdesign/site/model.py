@@ -215,12 +215,27 @@ class RowEnd:
     ----------
     guy_angle : float or None
         Between the end guy and the row [rad]; None where none is given.
+    lateral_distance, lateral_axis : float or None
+        Of the lateral anchor from the foot anchor [m], and its inclination against the
+        slope [rad]; None where none is given.
     resistances : tuple of Resistance
         Of all ``END_MODES``, given or not.
     """
 
     guy_angle: float | None
+    lateral_distance: float | None = None
+    lateral_axis: float | None = None
     resistances: tuple[Resistance, ...]
+
+    def list_unsaid_places(self) -> tuple[Message, ...]:
+        """Names of what is not given of the places of its anchors."""
+        said = {
+            "lateral_distance": self.lateral_distance,
+            "lateral_axis": self.lateral_axis,
+            "end_guy_angle": self.guy_angle,
+        }
+        lacking = (key for key, value in said.items() if value is None)
+        return tuple(say(f"column.Ends.{key}") for key in lacking)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -118,7 +118,14 @@ def _check_panel(row: Row, end: Row | None, findings: list[Finding]) -> None:
     """Refuse what is said of ropes, or holds their pull, where there are no ropes."""
     system = row["panel_system"]
     told = [row[key] for key in _OF_PANEL]
-    told += [end[key] for key in (*EndMember, "end_guy_angle")] if end else []
+    told += (
+        [
+            end[key]
+            for key in (*EndMember, "end_guy_angle", "lateral_distance", "lateral_axis")
+        ]
+        if end
+        else []
+    )
     for reading in told if system.word == "none" else ():
         if reading.state == "given":
             rule = say("panel.beside_none", place=system.place)

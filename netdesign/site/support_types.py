@@ -165,6 +165,8 @@ def build_row_end(end: Row | None, types: Types) -> RowEnd:
     lack = say("row_end.no_members")
     return RowEnd(
         guy_angle=end["end_guy_angle"].given_si if end else None,
+        lateral_distance=end["lateral_distance"].given_si if end else None,
+        lateral_axis=end["lateral_axis"].given_si if end else None,
         resistances=tuple(
             _find_resistance(end[member], mode, member, types)
             if end

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import combinations
+from dataclasses import dataclass, replace
+from itertools import combinations, product
 
 Place = tuple[float, float, float]
 
@@ -42,6 +42,41 @@ def find_least_distance(bores: Sequence[Bore]) -> float:
     """
     pairs = combinations(bores, 2)
     return min((measure_distance(one, other) for one, other in pairs), default=math.inf)
+
+
+def find_distance_to_row_above(bores: Sequence[Bore], upslope: float) -> float:
+    """Least distance to the anchors of a row above that is built alike [m].
+
+    Nobody knows how the two rows stand along each other: seen along the row, where
+    distances are least. Theory: structure/THEORY.md, eq. (S21).
+
+    Parameters
+    ----------
+    bores : sequence of Bore
+        Anchors of the row.
+    upslope : float
+        Distance of the row above, along the slope [m].
+
+    Verified by
+    -----------
+    tests/verification/test_anchor_distance.py
+    """
+    flat = {_flatten(one) for one in bores}
+    above = [
+        replace(one, start=(one.start[0] - upslope, *one.start[1:])) for one in flat
+    ]
+    return min(
+        (measure_distance(*pair) for pair in product(flat, above)), default=math.inf
+    )
+
+
+def _flatten(bore: Bore) -> Bore:
+    """Anchor as it is seen along the row."""
+    (x, y, _), (along, out, _) = bore.start, bore.direction
+    seen = math.hypot(along, out)
+    direction = (along / seen, out / seen, 0.0) if seen else (0.0, -1.0, 0.0)
+    length = None if bore.length is None else bore.length * seen
+    return Bore(start=(x, y, 0.0), direction=direction, length=length)
 
 
 def measure_distance(one: Bore, other: Bore) -> float:

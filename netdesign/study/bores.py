@@ -12,14 +12,19 @@ from netdesign.checks.schema import ANCHOR_DISTANCE
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
-from netdesign.structure.anchor_distance import Bore, find_least_distance
+from netdesign.structure.anchor_distance import (
+    Bore,
+    find_distance_to_row_above,
+    find_least_distance,
+)
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.study.pulls import ANCHORS, AnchorPull, find_pull
 from netdesign.study.sideways import place_row
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
+_FLATTEST = 1e-3  # of an end guy along the row; it ends far from the others [rad]
 _POSTS = 3  # beside each other: whatever comes near does so among them
 
 
@@ -43,10 +48,8 @@ def check_anchor_distance(
         return _result("anchors", Verdict.NOT_PROVEN, not_proven(lack))
     gap = gap or _find_lack(row, pulls)
     ends = ranges["inclination"]
-    least = min(
-        find_least_distance(list(list_bores(row, place_row(row, one), pulls)))
-        for one in (ends.low, ends.high)
-    )
+    places = [place_row(row, one) for one in (ends.low, ends.high)]
+    least = min(_measure_least(row, ranges, one, pulls) for one in places)
     told = {"least": least, "limit": limit.value}
     reason = say("bores.apart", **told)
     if gap is not None or not least >= limit.value:
@@ -54,6 +57,37 @@ def check_anchor_distance(
     verdict = Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN
     found = _result("anchors", verdict, reason)
     return replace(found, clause=limit.clause, assumed=list_assumed(limit))
+
+
+def _measure_least(
+    row: NetRow, ranges: Ranges, points: SupportPoints, pulls: Sequence[AnchorPull]
+) -> float:
+    """Least distance of anchors of the row, and to those of a row above alike [m]."""
+    bores = list(list_bores(row, points, pulls))
+    of_end = _list_of_end(row, points)
+    upslope = row.upslope_length
+    if "upslope_length" in ranges.further:
+        upslope = ranges["upslope_length"].low
+    return min(
+        find_least_distance([*bores, *of_end]),
+        find_distance_to_row_above(bores, upslope),
+    )
+
+
+def _list_of_end(row: NetRow, points: SupportPoints) -> Iterator[Bore]:
+    """Lateral anchor beside the first post's foot, and anchor of its end guy."""
+    end = row.row_end
+    if end is None or end.lateral_distance is None or end.lateral_axis is None:
+        return
+    drilled = {one.member: one.drilled_length for one in end.resistances}
+    guy = max(end.guy_angle or 0.0, _FLATTEST)
+    reach = points.head[1] / math.tan(guy)
+    for member, start, axis in (
+        (EndMember.LATERAL_ANCHOR, (0.0, 0.0, -end.lateral_distance), end.lateral_axis),
+        (EndMember.END_GUY_ANCHOR, (points.head[0], 0.0, -reach), guy),
+    ):
+        direction = (0.0, -math.sin(axis), -math.cos(axis))
+        yield Bore(start=start, direction=direction, length=drilled.get(member))
 
 
 def _result(mode: str, verdict: Verdict, reason: Message) -> CheckResult:
@@ -113,7 +147,8 @@ def _find_lack(row: NetRow, pulls: Sequence[AnchorPull]) -> Message | None:
         return say("bending.no_axis")
     if row.guys.count > 1 and row.guys.are_shared is None:
         return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
-    return None
+    names = row.row_end.list_unsaid_places() if row.row_end else ()
+    return say("check.unsaid", names=names) if names else None
 
 
 def list_bores(
@@ -122,11 +157,12 @@ def list_bores(
     """Anchors of some posts beside each other, and of the panels between them."""
     spacing = row.layout.post_spacing
     anchors = [one for one in ANCHORS if not _is_same_as_foot(row, one)]
-    lengths = {one.member: one.drilled_length for one in row.resistances}
     for anchor in anchors:
         pull = find_pull(pulls, anchor, "intermediate")
         if pull is None:
             continue
+        kind = row.find_anchor_type(anchor)
+        length = kind.drilled if kind else None
         for aside, turned in _spread(row, points, anchor):
             start = (_find_place(points, anchor), 0.0)
             heading = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
@@ -140,7 +176,7 @@ def list_bores(
                 yield Bore(
                     start=(*start, post * spacing + aside),
                     direction=direction,
-                    length=lengths.get(anchor),
+                    length=length,
                 )
 
 

@@ -14,7 +14,13 @@ from typing import Literal
 from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.checks import Standard
 from netdesign.checks.check import find_profile_value
-from netdesign.checks.forces import SupportForce, calculate_force, load_guy, load_post
+from netdesign.checks.forces import (
+    GUYS_ON_ANCHOR,
+    SupportForce,
+    calculate_force,
+    load_guy,
+    load_post,
+)
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.lift import POST_PULLS
 from netdesign.site.model import NetRow, Resistance
@@ -279,7 +285,8 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
         if not is_shared(forces.row, member):
             return leaves, rise
         cell = find_cell(forces.row, "guy_anchors")
-        return [given("n_g", 2.0, "-", cell), *leaves], 2.0 * rise
+        symbol = GUYS_ON_ANCHOR[forces.standard.shared_sum]
+        return [given(symbol, 2.0, "-", cell), *leaves], 2.0 * rise
     weight = _solved("w", held.post_part, "-", "post_part")
     nothing, least = (
         _solved("T_min", force, "kN", "least_tension")

@@ -130,6 +130,7 @@ def list_judged_notes(
         *list_row_notes(row, effects, pulls),
         *list_end_notes(row, site.ranges, law, effects),
         describe_model_code(row, site.ranges["density"]),
+        *_list_sharing_notes(row, standard),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
         *list_guy_notes(row, site.ranges, checks, standard),
@@ -173,6 +174,13 @@ def _list_pull_notes(pulls: Sequence[AnchorPull]) -> list[Message]:
         and not one.is_axis_given
         and one.position == "intermediate"
     ]
+
+
+def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:
+    """How the pulls of two guys on one anchor are added, where some are."""
+    is_shared = row.guys.count > 1 and row.guys.are_shared is not False
+    told = say("row.shared_sum", sum=name("shared_sum", standard.shared_sum))
+    return [told] if is_shared else []
 
 
 def describe_model_code(row: NetRow, density: Interval) -> Message:

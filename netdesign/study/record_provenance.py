@@ -36,6 +36,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
         choice_text=standard.choice_text,
         floor=standard.floor,
         route=standard.route,
+        shared_sum=standard.shared_sum,
         is_floor_overruled=standard.is_floor_overruled,
         not_checked=list(standard.not_checked),
         is_default=standard.is_default,

@@ -398,6 +398,7 @@ class ProfileRecord:
     choice_text: str = ""  # what that set is
     floor: str = "guideline"  # what no demand lies below: or "none"
     route: str = "correlation"  # way from tests to a resistance that counts
+    shared_sum: str = "vector"  # of the pulls of two guys on one anchor
     is_floor_overruled: bool = False  # the profile itself takes the other one
     is_default: bool = False  # nobody named it
     not_checked: list[str] = field(default_factory=list)  # topics that others check

@@ -319,7 +319,42 @@ def test_anchors_that_cross_in_the_ground_are_not_proven(solved):
     crossing = replace(row.guys, are_shared=False)
     check = judge(solved, guys=crossing)[1]["geometry.anchors"]
     assert check.verdict is Verdict.NOT_PROVEN
-    assert "two anchors come as near as" in str(check.reason)
+    assert "come as near as 0 m" in str(check.reason)
+
+
+def test_a_row_above_too_near_leaves_the_anchors_not_proven(solved):
+    near = judge(solved, upslope_length=9.7)[1]["geometry.anchors"]
+    assert near.verdict is Verdict.NOT_PROVEN
+    assert "a row above built alike" in str(near.reason)
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ({"lateral_distance": 1.3}, "as near as 1.3 m"),
+        ({"lateral_distance": None}, "distance of the lateral anchor"),
+        ({"lateral_axis": None}, "axis of the lateral anchor"),
+    ],
+)
+def test_anchors_of_the_end_are_compared_with_the_others(solved, place, said):
+    end = replace(solved[0].rows[0].row_end, **place)
+    check = judge(solved, row_end=end)[1]["geometry.anchors"]
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert said in str(check.reason)
+
+
+def test_pulls_added_as_numbers_are_said_and_never_less(solved):
+    scalar = replace(NF, shared_sum="scalar")
+    vector, checks = judge(solved)
+    study, added = judge(solved, scalar)
+    for name in ("uphill_anchor.tendon", "uphill_anchor.pull_out.end"):
+        assert added[name].demand_kN > checks[name].demand_kN
+    assert added["uphill_guy.rope"].demand_kN == checks["uphill_guy.rope"].demand_kN
+    assert list(rejudge(study)) == []
+    for one, told in ((vector, "as vectors"), (study, "as numbers")):
+        assert [note for note in one.rows[0].notes if told in str(note)]
+    as_vectors = replace(study, profile=replace(study.profile, shared_sum="vector"))
+    assert list(rejudge(as_vectors)) != []
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -364,7 +399,7 @@ def test_notes_say_what_snow_the_guys_bear_and_how_high_the_loaded_net_is(solved
     working = [
         name for name in ("uphill", "downhill") if checks[f"{name}_guy.rope"].demand_kN
     ]
-    assert [one.split()[0] for one in guys] == working
+    assert [one.split()[0].lower() for one in guys] == working
     height = row.panel.drawing.mid_net_m[-1][1]
     assert 0.5 < height / solved[0].rows[0].net_height < 1.0
     assert f"{height:.2f} m high" in net

@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 
 from netdesign.structure.anchor_distance import (
     Bore,
+    find_distance_to_row_above,
     find_least_distance,
     measure_distance,
 )
@@ -66,3 +67,31 @@ def test_drawn_anchors_are_as_far_as_a_minimiser_finds(seed):
 
 def test_one_anchor_is_far_from_every_other():
     assert find_least_distance([a_bore((0, 0, 0), (1, 0, 0))]) == math.inf
+
+
+def test_anchors_of_a_row_above_come_towards_those_of_the_row():
+    """At 45 degrees: 17.3 m less both places, and twice 5 cos 45 between their ends."""
+    uphill = a_bore((-3.7, 0.0, 1.1), (-1.0, -1.0, 0.0))
+    downhill = a_bore((4.9, 0.0, 1.1), (1.0, -1.0, 0.0))
+    apart = 17.3 - 3.7 - 4.9 - 2.0 * 5.0 / math.sqrt(2.0)
+    found = find_distance_to_row_above([uphill, downhill], 17.3)
+    assert found == pytest.approx(apart)
+    # 10 m apart they cross, wherever they stand along the row
+    beside = a_bore((-3.7, 0.0, 9.2), (-1.0, -1.0, 0.0))
+    assert find_distance_to_row_above([beside, downhill], 10.0) == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_seen_along_the_row_no_drawn_anchors_are_nearer(seed):
+    draw = np.random.default_rng(seed)
+    bores = [
+        a_bore(tuple(draw.uniform(-5, 5, 3)), tuple(draw.normal(size=3)))
+        for _ in range(4)
+    ]
+    least = find_distance_to_row_above(bores, 9.0)
+    for one in bores:
+        for other in bores:
+            x, y, z = other.start
+            moved = (x - 9.0, y, z + float(draw.uniform(-4, 4)))
+            above = Bore(start=moved, direction=other.direction, length=other.length)
+            assert measure_distance(one, above) >= least - 1e-9

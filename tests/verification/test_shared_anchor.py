@@ -1,6 +1,7 @@
 """Anchor that holds a guy of each of two posts: (S20) against both guys in space."""
 
 import math
+import random
 
 import numpy as np
 import pytest
@@ -89,3 +90,27 @@ def test_at_the_end_an_anchor_has_a_guy_of_the_next_post(length, width):
     inside = calculate_force(leaves_of(**INSIDE)).action.value
     found = calculate_force(leaves_of(**at_end)).action.value
     assert found == pytest.approx(inside * width / 3.5)
+
+
+def test_pulls_that_are_added_as_numbers_are_those_of_both_guys():
+    of_one = {one: INSIDE[one] for one in ("E_s", "c", "k", "P", "β")}
+    guy = calculate_force(leaves_of(**of_one)).action.value
+    both = {**of_one, "n_h": 2.0}
+    assert calculate_force(leaves_of(**both)).action.value == pytest.approx(2.0 * guy)
+
+
+def test_pulls_added_as_numbers_are_never_less_than_as_vectors():
+    draw = random.Random(29)
+    for _ in range(200):
+        drawn = {
+            "E_s": draw.uniform(0.0, 300.0),
+            "c": draw.uniform(0.5, 1.0),
+            "k": draw.uniform(0.0, 0.3),
+            "P": draw.uniform(1.0, 300.0),
+            "β": draw.uniform(5.0, 60.0),
+        }
+        vector, scalar = (
+            calculate_force(leaves_of(**drawn, **{guys: 2.0})).action.value
+            for guys in ("n_g", "n_h")
+        )
+        assert scalar >= vector - 1e-9

@@ -25,7 +25,7 @@ FAMILIES: tuple[str, ...] = (
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
     *("product_source.", "plausible.source_", "opinion.", "schedule."),
     *("scope.", "todo.", "quantities.", "loads.", "why_more.", "diff_part."),
-    *("floor.profile_", "route.", "tested."),
+    *("floor.profile_", "route.", "shared_sum.", "tested."),
     *("reference.", "case_kind.", "piece.", "verify_table."),
     *("against_figure.", "against_clock.", "against_table."),
     *("bench_word.", "bench_plot.", "bench_value."),

@@ -13,6 +13,7 @@ from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate, list_steps
 from netdesign.checks.check import judge
 from netdesign.checks.forces import (
+    GUYS_ON_ANCHOR,
     calculate_force,
     calculate_resistance,
     rate,
@@ -111,6 +112,7 @@ def rejudge_checks(
             yield from guard(where, steps)
             if check.is_of_force:
                 yield from _rejudge_sources(where, check, row, known, values)
+                yield from _rejudge_sharing(where, check, profile.shared_sum)
             yield from _rejudge_force(where, check, row, profile.not_checked)
             if not accepts_law:
                 yield from _rejudge_snow(where, check, row)
@@ -287,6 +289,15 @@ def _calculate(found: Mapping[str, Quantity]) -> Quantity:
     resistance = calculate_resistance(leaves, force)
     action = force.action if force else leaves["E_k"]
     return rate(action, leaves["γ_E"], resistance, leaves["γ_R"])
+
+
+def _rejudge_sharing(
+    place: Message, check: CheckRecord, shared_sum: str
+) -> Iterator[Message]:
+    """Pulls of two guys on one anchor, added as the profile says."""
+    for added, symbol in GUYS_ON_ANCHOR.items():
+        if symbol in check.known and added != shared_sum:
+            yield report_value(place, "shared_sum", added, shared_sum)
 
 
 def _rejudge_tests(

@@ -406,7 +406,7 @@ def _rejudge_profile(study: Study, standard: Standard | None) -> Iterator[Messag
         if stored.get(name) != listed.get(name):
             yield say("audit.other_profile", name=name)
     keys = ("id", "title", "edition", "version", "choice", "choice_text", "floor")
-    for key in (*keys, "route"):
+    for key in (*keys, "route", "shared_sum"):
         if getattr(study.profile, key) != getattr(again, key):
             yield say("audit.other_profile", name=key)
 

@@ -436,6 +436,9 @@ def _draw_ends(draw, net):
         "end_guy_anchor": draw.choice(ANCHORS),
         "end_guy_angle": _round(draw.uniform(10.0, 50.0)),
     }
+    own = random.Random(f"lateral anchor {line['end_guy_angle']}")
+    line["lateral_distance"] = _round(own.uniform(1.4, 3.0))
+    line["lateral_axis"] = _round(own.uniform(15.0, 60.0))
     if net.get("panel_system") == "none":
         line = {"row": "R1"}
     if draw.random() < 0.6:
