@@ -103,12 +103,16 @@ def _write_plan(
 ) -> None:
     from netdesign.commands.stored_study import read_own_site
     from netdesign.edge.output import require_free, write_files
+    from netdesign.outcome import StudyError
     from netdesign.site.template.form import build_form
     from netdesign.study.document import load_study
     from netdesign.study.planned_tests import STEPS, plan_tests
     from netdesign.study.record_provenance import load_own_profile
 
     require_free([form], overwrite=force)
+    if not study_file.exists():
+        told = {"study": str(study_file), "site": str(site_file)}
+        raise StudyError(say("plan.no_study", **told))
     study = load_study(study_file)
     require_sound(study, study_file, site_file, named, language)
     site = read_own_site(study, study_file, site_file)

@@ -132,7 +132,7 @@ def _read_line(
     line: Row, places: Mapping[str, str], findings: list[Finding]
 ) -> Declaration | None:
     check, day, count = line["check"], line["date"], len(findings)
-    subject = _list_names().get(normalise(check.word))
+    subject = list_check_names().get(normalise(check.word))
     if check.word and subject is None:
         shown = tuple(name_check(*one) for one in DECLARABLE)
         end = say("check.of_end", check="...")
@@ -169,7 +169,7 @@ def _is_date(text: str) -> bool:
 
 
 @lru_cache(maxsize=1)
-def _list_names() -> Mapping[str, _Subject]:
+def list_check_names() -> Mapping[str, _Subject]:
     """Checks by their names in every language, as reports have them, and by id."""
     names: dict[str, _Subject] = {}
     at_ends = (("edge", ".end"), ("", ""))

@@ -117,3 +117,10 @@ def test_a_plan_wants_the_study_of_its_site(tmp_path, call, planned):
     assert not (tmp_path / "anchor-tests.xlsx").exists()
     ended = call("tests", "site.xlsx", "--out", "form.xlsx")
     assert ended.code == 2
+
+
+def test_a_plan_without_a_study_says_how_to_get_one(tmp_path, call, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    ended = call("tests", "site.xlsx", "--plan")
+    assert ended.code == 3
+    assert "run 'netdesign check site.xlsx' first" in ended.err

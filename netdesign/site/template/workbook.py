@@ -25,8 +25,10 @@ from netdesign.site.columns.all_tables import (
     USUAL_QUANTITIES,
     load_text,
 )
-from netdesign.site.columns.fields import Field, SheetPlan
+from netdesign.site.columns.fields import Field, SheetPlan, normalise
+from netdesign.site.declared_sheet import list_check_names
 from netdesign.words.catalogue import Language, render
+from netdesign.words.names import name_check
 from netdesign.words.numerals import set_marks
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
@@ -242,9 +244,11 @@ def _write_line(
 
 
 def _translate(field: Field, value: str, language: Language) -> str:
-    """Word, project item or quantity in a language; ids and names stay."""
+    """Word, project item, quantity or check in a language; ids and names stay."""
     if value in field.words:
         return render(field.name_word(value), language)
+    if (field.table, field.key) == ("Declared", "check"):
+        return render(name_check(*list_check_names()[normalise(value)]), language)
     for known in {"item": PROJECT_ITEMS, "quantity": RANGE_QUANTITIES}.get(
         field.key, ()
     ):
