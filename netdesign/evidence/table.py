@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from netdesign.report.words import MISSING, Words, show_own
-from netdesign.words.catalogue import load_texts, render
+from netdesign.words.catalogue import load_texts
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -45,16 +45,6 @@ def print_document(
         if rows and _is_named(area, key):
             print_lines([words(f"{area}.{key}")], console)
             print_rows(rows, console, words, area)
-
-
-def print_figure(figure: Row, console: Console, words: Words) -> None:
-    """Print what was measured, whether it is what was asked for, and every value."""
-    good, bad = _JUDGED["reached"]
-    state = words(good if figure["reached"] else bad)
-    reach = render(figure["reach"], words.language)
-    what = render(figure["what"], words.language)
-    print_lines([what, words("bench.reach", reach=reach, state=state)], console)
-    print_document(figure, console, words)
 
 
 def print_rows(

@@ -43,7 +43,7 @@ def test_what_has_no_name_is_not_shown(language, mark):
         "schema": "netdesign.stress/1",
         "median_s": 0.123456,
         "pass": False,
-        "jumps": [{"place": 7, "tables": {"slope": {}}}],
+        "slowest": [{"scene": 7, "tables": {"slope": {}}}],
         "failures": [],
     }
     lines = shown(print_document, document, language=language)
