@@ -21,7 +21,8 @@ def a_case(got):
     return VerificationCase(
         id="slab-shear",
         kind="closed form",
-        reference="[a] source",
+        reference="mirror",
+        mark="here",
         expected=309.674,
         got=got,
         tolerance=1e-3,
@@ -31,7 +32,8 @@ def a_case(got):
 def test_cases_with_five_digits_and_their_verdict():
     lines = shown(print_cases, [a_case(309.681), a_case(320.0)])
     assert lines[1] == (
-        "slab-shear closed form [a] source 309.67 309.68 2.3e-05 - pass"
+        "slab-shear closed form nodal forces mirror with the mesh "
+        "309.67 309.68 2.3e-05 - pass"
     )
     assert lines[2].endswith("0.033 - FAIL")
     assert lines[3] == "closed form: 1 of 2 pass"

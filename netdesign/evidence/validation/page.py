@@ -27,7 +27,7 @@ from netdesign.evidence.validation.pictures import (
     name_validated,
 )
 from netdesign.evidence.validation.structure import Measurement, Span, Structure
-from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.case import MARKS, VerificationCase
 from netdesign.evidence.verification.compaction import (
     MODELS,
     PLACE,
@@ -60,21 +60,6 @@ from netdesign.words.message import say
 PAGE_FILE, DOCUMENT_FILE = "validation.html", "validation.json"
 _GROUNDS = {"no-slip": "validation.no_slip", "free": "validation.free"}
 _LAYERS = {"first": 0.8, "second": 1.0, "third": 1.2}  # of the layered scene [m]
-# What an expected value is: computed here, by a code of others, or from a publication.
-_HERE, _RECALLED, _READ = "here", "recalled", "read"
-_MARKS = {
-    "closed form": _HERE,
-    "manufactured": _HERE,
-    "invariant": _HERE,
-    "limit": _HERE,
-    "cross model": "code",
-}
-_RECALLED_CASES = ("guideline-",)  # of kind "published", but nobody had the page
-# Of kind "cross model", but both models are solved here.
-_OWN_CASES = (
-    *("paper-increments", "two-elements", "history-", "staggered-"),
-    *("panel-in-space", "plan-in-space"),
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,13 +70,6 @@ class Evidence:
     places: Sequence[Place]
     contrasts: Sequence[Contrast]
     validations: Sequence[Validation]
-
-
-def mark_expected(case: VerificationCase) -> str:
-    """Origin of a case's expected value: a text ``validation_mark`` of this key."""
-    if case.kind == "published":
-        return _RECALLED if case.id.startswith(_RECALLED_CASES) else _READ
-    return _HERE if case.id.startswith(_OWN_CASES) else _MARKS[case.kind]
 
 
 def render_validation(
@@ -156,7 +134,7 @@ def _plate(name: str, svg: str, words: Words) -> Figure:
 
 def _list_marks(words: Words) -> Part:
     """Meaning of each mark of an expected value."""
-    meant = [(_mark(one, words), one) for one in (_HERE, "code", _READ, _RECALLED)]
+    meant = [(_mark(one, words), one) for one in MARKS]
     unknown = f"{_mark('assumed', words)}, {_mark('unknown', words)}"
     items = tuple(
         words("show.label", label=label, text=words(f"validation.{one}_means"))
@@ -231,11 +209,11 @@ def _tabulate_cases(cases: Sequence[VerificationCase], words: Words) -> Table:
     columns = {
         "verify_table.id": (TEXTS, lambda one: one.id),
         "verify_table.kind": (TEXTS, lambda one: name_kind(one.kind, words)),
-        "verify_table.reference": (TEXTS, lambda one: show_own(words, one.reference)),
-        "validation.reference_is": (
+        "verify_table.reference": (
             TEXTS,
-            lambda one: _mark(mark_expected(one), words),
+            lambda one: words(f"reference.{one.reference}"),
         ),
+        "validation.reference_is": (TEXTS, lambda one: _mark(one.mark, words)),
         "verify_table.expected": (numbers(".5g"), lambda one: one.expected),
         "validation.computed": (numbers(".5g"), lambda one: one.got),
         "verify_table.error": (numbers(".1e"), lambda one: one.error),

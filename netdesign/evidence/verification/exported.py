@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib.resources import files
 
@@ -19,7 +19,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.evidence.scene import build_scene, solve
-from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.case import Found, VerificationCase, judge
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.creep_law import (
     ICE_DENSITY,
@@ -354,19 +354,19 @@ def list_another_code() -> list[VerificationCase]:
 
 def _compare(scene: ExportedScene, other: OtherResult) -> list[VerificationCase]:
     x, y = scene.resultant
-    pairs = (
-        ("force-x", other.force_x, x, other.uncertainty_force, other.force),
-        ("force-y", other.force_y, y, other.uncertainty_force, other.force),
-        ("moment", other.moment, scene.moment, other.uncertainty_moment, other.moment),
-    )
+    of_force = other.uncertainty_force + _WITHIN * other.force
+    of_moment = other.uncertainty_moment + _WITHIN * other.moment
+    rows = {
+        "force-x": (x, other.force_x, of_force),
+        "force-y": (y, other.force_y, of_force),
+        "moment": (scene.moment, other.moment, of_moment),
+    }
+    name = f"another-code-{scene.name}"
+    found = {
+        f"{name}-{part}": Found(got / 1e3, expected)
+        for part, (got, expected, _) in rows.items()
+    }
     return [
-        VerificationCase(
-            id=f"another-code-{scene.name}-{name}",
-            kind="cross model",
-            reference=f"{other.code}; within 0.1 % of the whole and its uncertainty",
-            expected=expected,
-            got=got / 1e3,
-            tolerance=(uncertainty + _WITHIN * whole) / abs(expected),
-        )
-        for name, expected, got, uncertainty, whole in pairs
+        replace(case, tolerance=allowed / abs(case.expected))
+        for case, (*_, allowed) in zip(judge(found), rows.values(), strict=True)
     ]

@@ -30,6 +30,7 @@ from netdesign.evidence.verification.plan_view import list_plan_view
 from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
 from netdesign.evidence.verification.winters import list_snow_heights, list_winters
 from netdesign.report.words import Words
+from netdesign.words.catalogue import load_texts
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -73,13 +74,14 @@ def run_pack(
 
 def write_pack(cases: Sequence[VerificationCase]) -> dict[str, Any]:
     """Plain values in the form ``netdesign.verification/1``."""
+    texts = load_texts("en")
     return {
         "schema": "netdesign.verification/1",
         "cases": [
             {
                 "id": case.id,
                 "kind": case.kind,
-                "reference": case.reference,
+                "reference": texts[f"reference.{case.reference}"],
                 "expected": case.expected,
                 "got": case.got,
                 "error": case.error,
@@ -98,8 +100,12 @@ def print_cases(
 ) -> None:
     """Print one line per case, then how many of each kind pass."""
     rows = [
-        row | {"kind": name_kind(row["kind"], words)}
-        for row in write_pack(cases)["cases"]
+        row
+        | {
+            "kind": name_kind(case.kind, words),
+            "reference": words(f"reference.{case.reference}"),
+        }
+        for case, row in zip(cases, write_pack(cases)["cases"], strict=True)
     ]
     print_rows(rows, console, words, "verify_table")
     for kind in dict.fromkeys(case.kind for case in cases):
