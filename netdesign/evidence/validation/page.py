@@ -13,10 +13,7 @@ from netdesign.evidence.page_table import (
     PAIRS,
     RANGES,
     TEXTS,
-    Field,
-    Kind,
     numbers,
-    tabulate,
     tabulate_items,
 )
 from netdesign.evidence.validation.band import MemberBand, Validation
@@ -49,11 +46,11 @@ from netdesign.report.blocks.block import (
     masthead,
     section,
 )
-from netdesign.report.blocks.table import Cell, Table
+from netdesign.report.blocks.table import Table
 from netdesign.report.blocks.text import CODE, Piece
 from netdesign.report.page.render import render_page
 from netdesign.report.words import Words, show_own
-from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, ZWINGER_2007
+from netdesign.snow.creep_law import BOUTILLIER_2004, ZWINGER_2007
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
@@ -165,7 +162,6 @@ def _show_settling(evidence: Evidence, words: Words) -> Part:
         words("validation.settling"),
         _text(words, "settling_text", f" {_list_models(words)}."),
         _plate("compaction", draw_compaction(evidence.places, words), words),
-        _tabulate_softness(_pick(evidence.places), words).shown("study"),
         _text(words, "quoted", **_quote(words)),
         Heading(text=words("validation.meaning"), level=3),
         _text(words, "meaning_text", layers=layers, **growth),
@@ -226,40 +222,6 @@ def _tabulate_cases(cases: Sequence[VerificationCase], words: Words) -> Table:
 
 def _mark(mark: str, words: Words) -> str:
     return words(f"validation_mark.{mark}")
-
-
-def _pick(places: Sequence[Place]) -> list[Place]:
-    return [place for place in places if place.density % 100.0 == 50.0]
-
-
-def _tabulate_softness(places: Sequence[Place], words: Words) -> Table:
-    """Viscosity by each law, and over the middle of the models how soft that is."""
-    ratio = Kind(show=_show_ratio)
-    fields = [
-        Field("density", "validation.density", numbers("g")),
-        Field("stress", "validation.stress", numbers("g")),
-        Field("middle", "validation.models_middle", numbers(".2g")),
-    ]
-    for law in CREEP_LAWS:
-        fields.append(Field(law, law, numbers(".2g")))
-        fields.append(Field(f"{law}_softer", "validation.softer", ratio))
-    rows = [
-        (
-            *(place.density, place.stress / 1e3, find_middle(place.density)),
-            *(
-                value
-                for law in CREEP_LAWS
-                for value in (place.laws[law], place.softness[law])
-            ),
-        )
-        for place in places
-    ]
-    return tabulate(words("validation.softness_caption"), fields, rows, words)
-
-
-def _show_ratio(words: Words, value: float) -> Cell:
-    text = f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
-    return Cell(text=words.write(text), number=value)
 
 
 def _list_models(words: Words) -> str:

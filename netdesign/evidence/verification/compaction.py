@@ -123,12 +123,6 @@ class Place:
     laws: dict[str, float]
     models: dict[str, tuple[float, float]]  # at freezing, and `_COLD` below
 
-    @property
-    def softness(self) -> dict[str, float]:
-        """Middle of the models over each law's: above 1 the law is too soft [-]."""
-        middle = find_middle(self.density)
-        return {name: middle / value for name, value in self.laws.items()}
-
 
 def list_places() -> list[Place]:
     """Every density at every stress."""
