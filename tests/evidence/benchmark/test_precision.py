@@ -134,5 +134,5 @@ def test_named_scenes_span_the_ranges():
 
 
 def test_unknown_scenes_are_named():
-    with pytest.raises(ModelError, match=r"no-such.*accepted are paper-0"):
+    with pytest.raises(ModelError, match=r"no-such.*accepted are dense-firn"):
         load_scenes(("paper-0", "no-such"))
