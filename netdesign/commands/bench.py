@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from netdesign.commands.options import (
     language_option,
     refuse_without,
 )
+from netdesign.commands.running import print_document
 from netdesign.commands.usage import UsageRefusal
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
@@ -46,7 +46,7 @@ class _Output:
     def write(self, document: dict[str, Any], show: Show | None = None) -> None:
         """Print a document; on a terminal, by a function of its own if one is given."""
         if self.as_json:
-            click.echo(json.dumps(document, indent=1, allow_nan=False))
+            print_document(document)
         else:
             self.show(document, show)
 
@@ -54,10 +54,10 @@ class _Output:
         """Print a document for a reader."""
         from rich.console import Console
 
-        from netdesign.evidence.table import print_document
+        from netdesign.evidence.table import show_document
         from netdesign.report.words import Words
 
-        (show or print_document)(document, Console(), Words(self.language))
+        (show or show_document)(document, Console(), Words(self.language))
 
 
 @click.command()

@@ -4,7 +4,7 @@ import pytest
 from rich.console import Console
 
 from netdesign.evidence.page_table import FORCES, TEXTS, Field, numbers, tabulate
-from netdesign.evidence.table import print_document
+from netdesign.evidence.table import show_document
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.pack import print_cases
 from netdesign.report.words import Words
@@ -48,7 +48,7 @@ def test_what_has_no_name_is_not_shown(language, mark):
         "slowest": [{"scene": 7, "tables": {"slope": {}}}],
         "failures": [],
     }
-    lines = shown(print_document, document, language=language)
+    lines = shown(show_document, document, language=language)
     assert len(lines) == 5  # two numbers, a table of one row under its name
     assert lines[0].endswith(f"0{mark}1235")
     assert lines[-1] == "7"

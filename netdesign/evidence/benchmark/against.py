@@ -33,7 +33,7 @@ from netdesign.evidence.runner import (
     describe_times,
     run_in_turns,
 )
-from netdesign.evidence.table import print_lines, print_rows
+from netdesign.evidence.table import show_lines, show_rows
 from netdesign.outcome import ModelError
 from netdesign.report.words import Words
 from netdesign.words.message import say
@@ -382,11 +382,11 @@ def _sum_up(runs: list[list[Time]] | str, place: int) -> dict[str, Any]:
 
 def print_versions(document: Mapping[str, Any], console: Console, words: Words) -> None:
     """Print each figure by each clock, with the compiled core and without."""
-    print_lines([words("against.head", **document["provenance"])], console)
+    show_lines([words("against.head", **document["provenance"])], console)
     rows = [
         _describe(row, clock, words) for row in document["rows"] for clock in _CLOCKS
     ]
-    print_rows(rows, console, words, "against_table")
+    show_rows(rows, console, words, "against_table")
 
 
 def _describe(row: Mapping[str, Any], clock: str, words: Words) -> dict[str, Any]:

@@ -35,7 +35,7 @@ from netdesign.evidence.benchmark.truth import (
     state_error,
 )
 from netdesign.evidence.runner import fit_order, measure, run_in_turns
-from netdesign.evidence.table import print_document, print_rows
+from netdesign.evidence.table import show_document, show_rows
 from netdesign.outcome import SolveError
 from netdesign.report.drawing.style import (
     ACCENT,
@@ -176,8 +176,8 @@ def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
 
 def print_bench(document: dict[str, Any], console: Console, words: Words) -> None:
     """Print a line for each row, then what they say together."""
-    print_rows(document["rows"], console, words)
-    print_document(document["summary"], console, words)
+    show_rows(document["rows"], console, words)
+    show_document(document["summary"], console, words)
 
 
 Path = Literal["fast", "reference"]

@@ -83,13 +83,10 @@ def render_validation(
     """
     return {
         PAGE_FILE: _render_page(evidence, Words(language)).encode(),
-        DOCUMENT_FILE: write_validation(evidence).encode(),
+        DOCUMENT_FILE: json.dumps(
+            write_evidence(evidence), indent=1, allow_nan=False
+        ).encode(),
     }
-
-
-def write_validation(evidence: Evidence) -> str:
-    """Document ``netdesign.validation/1`` as JSON."""
-    return json.dumps(write_evidence(evidence), indent=1, allow_nan=False)
 
 
 def _render_page(evidence: Evidence, words: Words) -> str:

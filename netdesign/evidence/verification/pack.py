@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from netdesign.evidence.table import print_lines, print_rows
+from netdesign.evidence.table import show_lines, show_rows
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.closed_forms import (
     list_cable,
@@ -107,7 +107,7 @@ def print_cases(
         }
         for case, row in zip(cases, write_pack(cases)["cases"], strict=True)
     ]
-    print_rows(rows, console, words, "verify_table")
+    show_rows(rows, console, words, "verify_table")
     for kind in dict.fromkeys(case.kind for case in cases):
         passes = [case.passes for case in cases if case.kind == kind]
         line = words(
@@ -116,7 +116,7 @@ def print_cases(
             passed=sum(passes),
             count=len(passes),
         )
-        print_lines([line], console)
+        show_lines([line], console)
 
 
 def name_kind(kind: str, words: Words) -> str:

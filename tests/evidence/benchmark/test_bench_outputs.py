@@ -13,7 +13,7 @@ from netdesign.evidence.benchmark.precision import (
     print_bench,
     write_bench,
 )
-from netdesign.evidence.table import print_document
+from netdesign.evidence.table import show_document
 from netdesign.report.words import Words
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import say
@@ -71,7 +71,7 @@ def test_a_stress_test_on_a_terminal():
         Attempt(number=1, kind="failed", reason="[diverged] wholly"),
         Attempt(number=2, kind="refused before", reason="too low"),
     ]
-    lines = printed(print_document, write_stress(attempts, 4))
+    lines = printed(show_document, write_stress(attempts, 4))
     for line in (
         ["scenes", "3"],
         ["seed", "4"],
@@ -90,7 +90,7 @@ def test_honesty_on_a_terminal():
         compared(1, true_error=0.02, stated_error=0.01),
         compared(2, reason="finer mesh: diverged"),
     ]
-    lines = printed(print_document, write_errors(attempts, 1, 0.005))
+    lines = printed(show_document, write_errors(attempts, 1, 0.005))
     assert ["compared with a finer mesh", "2"] in lines
     assert ["share inside the stated error [-]", "0.3333"] in lines
     assert ["share below the accuracy [-]", "0.3333"] in lines
@@ -156,8 +156,8 @@ def test_every_table_in_a_language(language):
     """No word of English, and no decimal point, besides names and what others said."""
     documents = (
         (print_bench, write_bench(ROWS)),
-        (print_document, write_stress(ATTEMPTS, 4, 0.005, language)),
-        (print_document, write_errors(FINDINGS, 1, 0.005, language)),
+        (show_document, write_stress(ATTEMPTS, 4, 0.005, language)),
+        (show_document, write_errors(FINDINGS, 1, 0.005, language)),
     )
     told = [
         "\n".join(map(" ".join, printed(show, one, language)))
