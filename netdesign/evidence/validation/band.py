@@ -48,7 +48,7 @@ class MemberBand:
         Between which four of five cases lie.
     share_below : float
         Part of the cases below the measured value [-].
-    errors : float
+    numerical_error : float
         Largest numerical error of a case, over its largest force [-].
     """
 
@@ -57,7 +57,7 @@ class MemberBand:
     high: float
     middle: tuple[float, float]
     share_below: float
-    errors: float
+    numerical_error: float
 
     def place(self, measured: Measurement) -> Place:
         """Place of the measured value, with its own uncertainty."""
@@ -255,5 +255,5 @@ def _find_band(
         high=float(values.max()),
         middle=(float(low), float(high)),
         share_below=float((values < measured.value).mean()),
-        errors=max(one.error for one in forces),
+        numerical_error=max(one.error for one in forces),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from netdesign import __version__
@@ -296,7 +296,10 @@ def _tabulate_measured(one: Validation, words: Words) -> Table:
         "validation.member": (TEXTS, lambda at: name_validated(at[1].member, words)),
         computed: (RANGES, lambda at: (at[1].low, at[1].high)),
         "validation.middle": (RANGES, lambda at: at[1].middle),
-        "validation.numerical": (numbers(".1f"), lambda at: 100 * at[1].errors),
+        "validation.numerical": (
+            numbers(".1f"),
+            lambda at: 100 * at[1].numerical_error,
+        ),
         "validation.value": (TEXTS, lambda at: _judge_band(at[0], at[1], one, words)),
     }
     bands = [(pair.measured, band) for pair in one.comparisons for band in pair.bands]
@@ -377,37 +380,17 @@ def write_evidence(evidence: Evidence) -> dict[str, Any]:
 
 def _write_structure(one: Validation) -> dict[str, Any]:
     return {
-        "id": one.structure.id,
-        "kind": one.structure.kind,
-        "source": one.structure.source,
+        **asdict(one.structure),
         "is_known": one.structure.is_known,
         "solved": one.solved,
         "failed": one.failed,
         "reasons": list(one.reasons),
-        "open": list(one.structure.open),
-        "inputs": {
-            name: {"low": span.low, "high": span.high, "mark": span.mark}
-            for name, span in one.structure.inputs.items()
-        },
         "measured": [
             {
-                "name": comparison.measured.name,
-                "value": comparison.measured.value,
-                "uncertainty": comparison.measured.uncertainty,
-                "mark": comparison.measured.mark,
+                **asdict(comparison.measured),
                 "is_inside": comparison.is_inside,
                 "is_in_the_middle": comparison.is_in_the_middle,
-                "bands": [
-                    {
-                        "member": band.member,
-                        "low": band.low,
-                        "high": band.high,
-                        "middle": list(band.middle),
-                        "share_below": band.share_below,
-                        "numerical_error": band.errors,
-                    }
-                    for band in comparison.bands
-                ],
+                "bands": [asdict(band) for band in comparison.bands],
             }
             for comparison in one.comparisons
         ],
