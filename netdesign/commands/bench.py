@@ -47,11 +47,7 @@ class _Output:
         """Print a document; on a terminal, by a function of its own if one is given."""
         if self.as_json:
             print_document(document)
-        else:
-            self.show(document, show)
-
-    def show(self, document: dict[str, Any], show: Show | None = None) -> None:
-        """Print a document for a reader."""
+            return
         from rich.console import Console
 
         from netdesign.evidence.table import show_document
