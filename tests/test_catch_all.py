@@ -12,7 +12,7 @@ CATCH_ALL = {
     # stops its processes, and raises again
     "evidence/runner.py": "_work_through",
     # counts bugs: that is what it is for
-    "evidence/benchmark/stress.py": "attempt_scene",
+    "evidence/benchmark/attempts.py": "attempt_scene",
     "commands/doctor.py": "_try",  # so is this
 }
 

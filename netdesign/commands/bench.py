@@ -1,13 +1,12 @@
-"""``netdesign bench``: run time against error, stability, honesty, envelopes."""
+"""``netdesign bench``: run time against error, stability, honesty of errors."""
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,6 +17,7 @@ from netdesign.commands.options import (
     language_option,
     refuse_without,
 )
+from netdesign.commands.running import print_document
 from netdesign.commands.usage import UsageRefusal
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
@@ -31,10 +31,9 @@ if TYPE_CHECKING:
     from netdesign.report.words import Words
 
 Show = Callable[[dict[str, Any], "Console", "Words"], None]
-Kind = Literal["stress", "errors", "lines"]
 
 _EXIT_FAIL = 1
-_RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
+_RANDOM = ("--stress", "--errors")  # over random scenes
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,18 +46,14 @@ class _Output:
     def write(self, document: dict[str, Any], show: Show | None = None) -> None:
         """Print a document; on a terminal, by a function of its own if one is given."""
         if self.as_json:
-            click.echo(json.dumps(document, indent=1, allow_nan=False))
-        else:
-            self.show(document, show)
-
-    def show(self, document: dict[str, Any], show: Show | None = None) -> None:
-        """Print a document for a reader."""
+            print_document(document)
+            return
         from rich.console import Console
 
-        from netdesign.evidence.table import print_document
+        from netdesign.evidence.table import show_document
         from netdesign.report.words import Words
 
-        (show or print_document)(document, Console(), Words(self.language))
+        (show or show_document)(document, Console(), Words(self.language))
 
 
 @click.command()
@@ -75,29 +70,10 @@ class _Output:
     help="Compare N random scenes with finer meshes instead: are errors honest?",
 )
 @click.option(
-    "--lines",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Follow N lines of 200 scenes instead: does a force jump beyond its error?",
-)
-@click.option(
-    "--envelope",
-    is_flag=True,
-    help="Measure envelopes instead: cases, time, misses, store, workers.",
-)
-@click.option(
     "--against",
     type=click.Path(path_type=Path),
     metavar="WHEEL_OR_VENV",
     help="Time this version beside another one instead: both in turns, in one run.",
-)
-@click.option(
-    "--missed",
-    type=click.IntRange(1),
-    default=5,
-    show_default=True,
-    metavar="N",
-    help="Random scenes of --envelope that are held against grids.",
 )
 @click.option(
     "--seed", type=click.IntRange(0), default=1, show_default=True, help="Of --stress."
@@ -122,10 +98,7 @@ def bench(
     *,
     stress: int | None,
     errors: int | None,
-    lines: int | None,
-    envelope: bool,
     against: Path | None,
-    missed: int,
     seed: int,
     accuracy: float,
     jobs: int,
@@ -142,28 +115,18 @@ def bench(
     netdesign bench --plot bench.svg
     netdesign bench --stress 2000 --seed 1 --jobs 2
     netdesign bench --errors 200 --seed 1 --jobs 2
-    netdesign bench --lines 60 --jobs 2
-    netdesign bench --envelope --json
-    netdesign bench --envelope --missed 200
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
-    wanted = {
-        "--stress": stress,
-        "--errors": errors,
-        "--lines": lines,
-        "--envelope": envelope or None,
-        "--against": against,
-    }
+    wanted = {"--stress": stress, "--errors": errors, "--against": against}
     given = [name for name, value in wanted.items() if value is not None]
     _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
-    _refuse_idle(given, language)
+    if not set(given) & set(_RANDOM):
+        refuse_without(("seed", "accuracy", "jobs"), _RANDOM, language)
     output = _Output(language, as_json)
-    kinds: dict[Kind, int | None] = {"stress": stress, "errors": errors, "lines": lines}
-    for kind, count in kinds.items():
-        if count is not None:
-            sys.exit(_run_random(kind, count, seed, accuracy, jobs, output))
-    if envelope:
-        sys.exit(_run_envelope(missed, output, quick=quick))
+    count = stress if errors is None else errors
+    if count is not None:
+        asked = {"accuracy": accuracy, "jobs": jobs}
+        sys.exit(_run_random(count, seed, output, asked, is_compared=bool(errors)))
     if against is not None:
         sys.exit(_run_against(against, output, quick=quick))
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
@@ -180,58 +143,26 @@ def _refuse_mixtures(given: Sequence[str], *, quick: bool, named: bool) -> None:
         raise UsageRefusal(say("bench.not_quick"))
 
 
-def _refuse_idle(given: Sequence[str], language: Language) -> None:
-    """Refuse options of a measurement that is not asked for."""
-    if not set(given) & set(_RANDOM):
-        of_random = ("seed", "accuracy", "jobs")
-        refuse_without(of_random, _RANDOM, language)
-    if "--envelope" not in given:
-        refuse_without(["missed"], ("--envelope",), language)
-
-
 def _run_random(
-    kind: Kind, count: int, seed: int, accuracy: float, jobs: int, output: _Output
+    count: int, seed: int, output: _Output, asked: dict[str, Any], *, is_compared: bool
 ) -> int:
     """Exit code of a run over random scenes."""
     from netdesign.edge.progress import show_progress
-    from netdesign.evidence.benchmark.honesty import study_errors, write_errors
-    from netdesign.evidence.benchmark.lines import study_lines, write_lines
-    from netdesign.evidence.benchmark.stress import run_stress, write_stress
+    from netdesign.evidence.benchmark.attempts import (
+        run_stress,
+        study_errors,
+        write_errors,
+        write_stress,
+    )
 
-    known: dict[Kind, tuple[Any, Any]] = {
-        "stress": (run_stress, write_stress),
-        "errors": (study_errors, write_errors),
-        "lines": (study_lines, write_lines),
-    }
-    study, write = known[kind]
-    what = "lines" if kind == "lines" else "scenes"
+    study = study_errors if is_compared else run_stress
+    write = write_errors if is_compared else write_stress
     shown = output.language
-    with show_progress(count, what, quiet=False, language=shown) as on_done:
-        found = study(count, seed, accuracy=accuracy, jobs=jobs, on_done=on_done)
-    language: Language = "en" if output.as_json else shown
-    document = write(found, seed, accuracy, language)
+    with show_progress(count, "scenes", quiet=False, language=shown) as on_done:
+        found = study(count, seed, **asked, on_done=on_done)
+    document = write(found, seed, asked["accuracy"], "en" if output.as_json else shown)
     output.write(document)
     return 0 if document["pass"] else _EXIT_FAIL
-
-
-def _run_envelope(missed: int, output: _Output, *, quick: bool) -> int:
-    """Exit code: a quick look reaches nothing and so fails at nothing."""
-    from netdesign.evidence.benchmark.envelope import (
-        QUICK,
-        BenchSize,
-        run_envelope_bench,
-    )
-    from netdesign.evidence.table import print_figure
-
-    def show(row: dict[str, Any]) -> None:
-        if not output.as_json:
-            output.show(row, print_figure)
-
-    size = QUICK if quick else BenchSize(missed_scenes=missed)
-    document = run_envelope_bench(size, show)
-    if output.as_json:
-        output.write(document)
-    return 0 if quick or document["pass"] else _EXIT_FAIL
 
 
 def _run_against(path: Path, output: _Output, *, quick: bool) -> int:

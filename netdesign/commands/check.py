@@ -22,8 +22,6 @@ from netdesign.commands.options import (
     json_option,
     out_option,
     quiet_option,
-    refuse_delimiter,
-    refuse_jobs,
     report_options,
     site_options,
     solving_options,
@@ -32,10 +30,9 @@ from netdesign.commands.options import (
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.running import format_time, own_command
 from netdesign.commands.site_input import (
-    READING,
-    open_site,
-    require_effect,
-    temporary_example,
+    choose_rows,
+    read_asked_site,
+    require_source,
 )
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.outcome import StandardError
@@ -108,7 +105,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     """
     folder = asked["out"] or (None if asked["as_json"] else Path(DEFAULT_FOLDER))
     _refuse_contradictions(site_file, folder, asked)
-    site = _read_site(site_file, asked)
+    site = choose_rows(read_asked_site(site_file, asked), asked["rows"])
 
     # behind the reading: a faulty workbook is refused without a solver
     from netdesign.commands.check_run import Check, carry_out, plan_outputs
@@ -150,43 +147,20 @@ def _refuse_contradictions(
     UsageRefusal
         Of ``--size``, beside cells that are given, or where no study can be written.
     """
-    if asked["example"] == (site_file is not None):
-        raise UsageRefusal(say("usage.site_or_example"))
-    refuse_delimiter(site_file, language=asked["language"])
-    refuse_jobs(asked["executor"], asked["language"])
+    require_source(site_file, asked)
     if asked["size"] and asked["instead"]:
         raise UsageRefusal(say("what_if.size_or_what_if"))
     if asked["size"] and (asked["dry_run"] or folder is None):
         raise UsageRefusal(say("what_if.size_needs_files"))
 
 
-def _read_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
-    """Site from a file; the example goes through a real workbook too."""
-    if site_file is None:
-        with temporary_example() as path:
-            return _read_site(path, asked)
-    reading = {one: asked[one] for one in READING} | {"overwrite": asked["force"]}
-    instead = asked["instead"]
-    site = open_site(site_file, instead=instead, **reading)
-    bare = reading | {"annotate": None}
-    require_effect(instead, lambda cells: open_site(site_file, instead=cells, **bare))
-    return _take_rows(site, asked["rows"])
-
-
-def _take_rows(site: Site, ids: Sequence[str]) -> Site:
-    """Site with the net rows that are asked for; all of them where none is named."""
-    given = tuple(row.id for row in site.rows)
-    strange = tuple(one for one in ids if one not in given)
-    if strange:
-        raise UsageRefusal(say("usage.no_row", rows=strange, given=given))
-    return site.take_rows(ids) if ids else site
-
-
 def _read_replaced(
     site_file: Path | None, asked: Mapping[str, Any], instead: Mapping[str, str]
 ) -> Site:
     """Site with other texts in some cells."""
-    return _read_site(site_file, {**asked, "instead": instead})
+    return choose_rows(
+        read_asked_site(site_file, {**asked, "instead": instead}), asked["rows"]
+    )
 
 
 def _choose_profiles(

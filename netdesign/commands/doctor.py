@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import platform
 import sys
@@ -15,6 +14,7 @@ import click
 
 from netdesign import __version__
 from netdesign.commands.options import json_option, language_option
+from netdesign.commands.running import print_document
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -52,7 +52,7 @@ def doctor(*, as_json: bool, language: Language) -> None:
             "sound": all(probe.is_sound for probe in probes),
             "probes": [_dump(probe, language) for probe in probes],
         }
-        click.echo(json.dumps(document, indent=1))
+        print_document(document)
     else:
         for probe in probes:
             mark = render(
@@ -176,31 +176,13 @@ def _round_trip_example() -> Message:
 def _solve_small_scene() -> Message:
     """Uniform snow on freely gliding ground: the net carries its whole weight."""
     import time
-    from math import radians
 
-    from netdesign.cable.net import Net
-    from netdesign.coupling.scene import Scene, SolverSettings
-    from netdesign.coupling.solution import FailedSolution
-    from netdesign.coupling.steady.solve import solve_steady
-    from netdesign.outcome import SolveError
-    from netdesign.snow.ground import GroundLaw
-    from netdesign.snow.snowpack import Snowpack
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.evidence.scene import build_scene, solve
 
-    snowpack = Snowpack(
-        slope_angle=radians(38), thickness=2.5, upslope_length=6.0, density=300.0
-    )
-    net = Net(
-        height_normal=2.5,
-        inclination=radians(30),
-        stiffness_per_m=8e6,
-        slack=0.05,
-        friction_angle=radians(30),
-    )
-    scene = Scene(snowpack=snowpack, ground=GroundLaw(kind="free"), net=net)
+    scene = build_scene((2.5, 300.0), slope=38.0, length=6.0, stiffness=8e6, slack=0.05)
     start = time.perf_counter()
-    solution = solve_steady(scene, SolverSettings(accuracy=0.1))
+    solution = solve(scene, SolverSettings(accuracy=0.1))
     elapsed = time.perf_counter() - start
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
     residual = solution.balance.relative_residual
     return say("doctor.solved", residual=residual, seconds=elapsed)

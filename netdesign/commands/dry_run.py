@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import time
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import click
-
-from netdesign.commands.running import print_faults
+from netdesign.commands.running import print_document, print_faults
 from netdesign.commands.usage import tell
 from netdesign.site.missing import list_missing
 from netdesign.words.catalogue import Language, render
@@ -63,7 +60,7 @@ def announce(
             "notes": [render(one, language) for one in site.notes],
             "questions": [render(one, language) for one in site.questions],
         }
-        click.echo(json.dumps(plan, indent=1))
+        print_document(plan)
     else:
         _show(site, run, phases, seconds, language)
     return print_faults(runner.faults, language)

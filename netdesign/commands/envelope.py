@@ -25,7 +25,13 @@ from netdesign.commands.options import (
     refuse_jobs,
     solving_options,
 )
-from netdesign.commands.running import open_phases, print_faults
+from netdesign.commands.running import (
+    open_phases,
+    place_outputs,
+    print_document,
+    print_faults,
+    write_outputs,
+)
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -86,7 +92,6 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     netdesign envelope scene.toml --inclination 25:35 --json
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
-    from netdesign.edge.output import require_free
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene_file
 
@@ -97,8 +102,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     read = read_scene_file(scene_file, "steady")
     spans = _build_ranges(given)
     require_valid(read.scene, spans)
-    paths = [out / name for name in (DOCUMENT, *FIGURES)] if out else []
-    require_free(paths, overwrite=asked["force"])
+    place_outputs(out, (DOCUMENT, *FIGURES), overwrite=asked["force"])
     if read.support is not None and not asked["quiet"]:
         tell(say("envelope.no_support"), language, err=True)
     start = time.perf_counter()
@@ -113,9 +117,11 @@ def envelope(scene_file: Path, **asked: Any) -> None:
             document, record = _search(task, runner, progress, start, language)
         progress.enter("outputs")
     failed = print_faults(runner.faults, language)
-    text = _write(document, record, paths, overwrite=asked["force"], language=language)
+    if out:
+        files = _render(document, record, language)
+        write_outputs(out, files, overwrite=asked["force"])
     if asked["as_json"]:
-        click.echo(text)
+        print_document(document)
     else:
         _show(document, language)
     sys.exit(failed or (_NOT_PROVEN if document["outcome"] == "not_proven" else 0))
@@ -246,27 +252,9 @@ def _search(
     return write_envelope_document(found, runner.counts, elapsed, language)
 
 
-def _write(
-    document: dict[str, Any],
-    record: EnvelopeRecord | None,
-    paths: list[Path],
-    *,
-    overwrite: bool,
-    language: Language,
-) -> str:
-    """Text of the document; it and the drawings are files where these have places."""
-    from netdesign.edge.output import write_files
-
-    text = json.dumps(document, indent=1, allow_nan=False)
-    if paths:
-        files = dict(zip(paths, _render(record, text, language), strict=True))
-        write_files(files, overwrite=overwrite)
-    return text
-
-
 def _render(
-    record: EnvelopeRecord | None, text: str, language: Language
-) -> list[bytes]:
+    document: dict[str, Any], record: EnvelopeRecord | None, language: Language
+) -> dict[str, bytes]:
     """Contents of the outputs; a grid has no model to draw."""
     from netdesign.report.drawing.envelope_maps import (
         draw_drivers,
@@ -277,7 +265,9 @@ def _render(
 
     draws, words = (draw_maps, draw_lines, draw_drivers), Words(language)
     pictures = [draw(record, words) if record else "" for draw in draws]
-    return [part.encode() for part in (f"{text}\n", *pictures)]
+    texts = [f"{json.dumps(document, indent=1, allow_nan=False)}\n", *pictures]
+    names = (DOCUMENT, *FIGURES)
+    return {name: one.encode() for name, one in zip(names, texts, strict=True)}
 
 
 def _show(document: dict[str, Any], language: Language) -> None:

@@ -14,6 +14,7 @@ from netdesign.commands.options import (
     out_option,
     quiet_option,
 )
+from netdesign.commands.running import place_outputs, write_outputs
 from netdesign.commands.usage import tell
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
@@ -37,22 +38,19 @@ def paper(
     """
     import sys
 
-    from netdesign.edge.output import require_free, write_files
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.paper.cases import PaperSettings, list_cases
     from netdesign.evidence.paper.page import PAGE_FILE, render_paper
     from netdesign.evidence.paper.runs import run_study
 
     settings = PaperSettings()
-    require_free([out / PAGE_FILE], overwrite=force)
+    (page,) = place_outputs(out, [PAGE_FILE], overwrite=force)
     count = len(list_cases(settings))
     with show_progress(count, "runs", quiet=quiet, language=language) as on_done:
         study = run_study(settings, jobs=jobs or os.cpu_count() or 1, on_done=on_done)
-    rendered = render_paper(study, language)
-    files = {out / name: content for name, content in rendered.items()}
-    write_files(files, overwrite=force)
+    files = write_outputs(out, render_paper(study, language), overwrite=force)
     if not quiet:
-        told = say("paper.wrote", path=str(out / PAGE_FILE), count=len(files) - 1)
+        told = say("paper.wrote", path=str(page), count=len(files) - 1)
         tell(told, language, err=True)
     if any(run.failure for run in study.runs.values()):
         sys.exit(_NOT_PROVEN)

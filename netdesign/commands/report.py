@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -18,7 +17,7 @@ from netdesign.commands.options import (
     out_option,
     report_options,
 )
-from netdesign.commands.running import find_exit_code, report_places
+from netdesign.commands.running import find_exit_code, print_document, report_places
 from netdesign.commands.stored_study import require_sound
 from netdesign.commands.usage import tell
 from netdesign.edge.output import PART_MARK, WHAT_IF_MARK
@@ -154,9 +153,7 @@ def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
         require_sound(study, path, None, None, language)
     changes = compare_studies(before, after)
     if as_json:
-        click.echo(
-            json.dumps(write_difference(changes, language), indent=1, allow_nan=False)
-        )
+        print_document(write_difference(changes, language))
     else:
         _show(changes, language)
     sys.exit(_TURNED if any(change.is_turned for change in changes) else 0)

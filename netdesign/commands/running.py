@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shlex
 import sys
-from collections.abc import Collection, Iterator, Mapping, Sequence, Set
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ import click
 
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.given_files import make_printable
+from netdesign.edge.streams import print_json
 from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -62,6 +64,45 @@ def format_time() -> str:
     except (ValueError, OverflowError, OSError):
         raise UsageRefusal(say("usage.epoch", epoch=epoch or "")) from None
     return time.isoformat(timespec="seconds")
+
+
+def print_document(document: Mapping[str, Any]) -> None:
+    """Print a document as JSON."""
+    print_json(json.dumps(document, indent=1, allow_nan=False))
+
+
+def place_outputs(
+    folder: Path | None, names: Iterable[str], *, overwrite: bool
+) -> list[Path]:
+    """Places of outputs in a folder, of none without a folder.
+
+    Raises
+    ------
+    OutputError
+        Where something is there.
+    """
+    from netdesign.edge.output import require_free
+
+    paths = [folder / name for name in names] if folder else []
+    require_free(paths, overwrite=overwrite)
+    return paths
+
+
+def write_outputs(
+    folder: Path, contents: Mapping[str, bytes], *, overwrite: bool
+) -> list[Path]:
+    """Write files into a folder, by their names; their paths.
+
+    Raises
+    ------
+    OutputError
+        Where something is there, or cannot be written.
+    """
+    from netdesign.edge.output import write_files
+
+    files = {folder / name: content for name, content in contents.items()}
+    write_files(files, overwrite=overwrite)
+    return list(files)
 
 
 def report_places(names: list[list[Path]], language: Language, *, quiet: bool) -> None:

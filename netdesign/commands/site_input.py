@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -17,6 +17,7 @@ from netdesign.commands.options import (
     language_option,
     read_instead,
     refuse_delimiter,
+    refuse_jobs,
     text_options,
 )
 from netdesign.commands.usage import UsageRefusal, tell
@@ -79,6 +80,50 @@ def open_site(
         raise
     write(site)
     return site
+
+
+def require_source(
+    site_file: Path | None, asked: Mapping[str, Any], *others: Path
+) -> None:
+    """Refuse a command without one source, and what has no effect on how it is read.
+
+    Raises
+    ------
+    UsageRefusal
+        Of a site and the example, or of options that change nothing.
+    """
+    if asked["example"] == (site_file is not None):
+        raise UsageRefusal(say("usage.site_or_example"))
+    refuse_delimiter(*others, site_file, language=asked["language"])
+    refuse_jobs(asked["executor"], asked["language"])
+
+
+def read_asked_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
+    """Site by the options of a command; the example goes through a real workbook too.
+
+    Raises
+    ------
+    UsageRefusal
+        Of a cell that is replaced, and that nothing reads.
+    """
+    if site_file is None:
+        with temporary_example() as path:
+            return read_asked_site(path, asked)
+    reading = {one: asked[one] for one in READING} | {"overwrite": asked["force"]}
+    instead = asked.get("instead") or {}
+    site = open_site(site_file, instead=instead, **reading)
+    bare = reading | {"annotate": None}
+    require_effect(instead, lambda cells: open_site(site_file, instead=cells, **bare))
+    return site
+
+
+def choose_rows(site: Site, ids: Sequence[str]) -> Site:
+    """Site with the net rows that are asked for; all of them where none is named."""
+    given = tuple(row.id for row in site.rows)
+    strange = tuple(one for one in ids if one not in given)
+    if strange:
+        raise UsageRefusal(say("usage.no_row", rows=strange, given=given))
+    return site.take_rows(ids) if ids else site
 
 
 def build_text_format(

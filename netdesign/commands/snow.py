@@ -17,9 +17,9 @@ from netdesign.commands.options import (
     refuse_without,
     text_options,
 )
+from netdesign.commands.running import print_document
 from netdesign.commands.site_input import build_text_format
 from netdesign.commands.usage import tell
-from netdesign.edge.streams import print_json
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
@@ -56,8 +56,6 @@ def snowpack(
 
     The file has the columns of sheet Winter: date, snow height with its unit.
     """
-    import json
-
     from netdesign.site.winter_sheet import read_height_file
     from netdesign.snowpack.follow import MODELS as KNOWN
     from netdesign.snowpack.follow import follow_heights
@@ -77,8 +75,7 @@ def snowpack(
         for day, pack in zip(series.days, packs, strict=True)
     ]
     if as_json:
-        document = {"schema": SCHEMA, "model": model, "days": days}
-        print_json(json.dumps(document, indent=1, allow_nan=False))
+        print_document({"schema": SCHEMA, "model": model, "days": days})
         return
     for one in days:
         tell(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,7 +14,14 @@ from netdesign.commands.options import (
     language_option,
     out_option,
 )
-from netdesign.commands.running import EXIT_CODES, print_faults, report_places
+from netdesign.commands.running import (
+    EXIT_CODES,
+    place_outputs,
+    print_document,
+    print_faults,
+    report_places,
+    write_outputs,
+)
 from netdesign.commands.usage import tell
 from netdesign.outcome import SENTENCE, Fault, Outcome, Verdict, catch_fault
 from netdesign.words.catalogue import render
@@ -69,7 +75,7 @@ def solve(
     given = read_scene_file(scene_file, method)
     scene, settings = given.scene, given.settings
     if out is not None:  # the page takes as long to import as all else
-        require_free_folder(out, given, overwrite=force)
+        place_outputs(out, _list_names(given), overwrite=force)
     start = time.perf_counter()
     solution, failed = _solve(scene, settings, language)
     elapsed = time.perf_counter() - start
@@ -79,18 +85,11 @@ def solve(
         solution, settings, elapsed, bound, language, support
     )
     if out is not None:
-        written = write_solution_folder(
-            out,
-            solution,
-            document,
-            scene_file.name,
-            support,
-            overwrite=force,
-            language=language,
-        )
+        files = _render(solution, document, scene_file.name, support, language)
+        written = write_outputs(out, files, overwrite=force)
         report_places([written], language, quiet=as_json)
     if as_json:
-        click.echo(json.dumps(document, indent=1, allow_nan=False))
+        print_document(document)
     else:
         _show(solution, document, language)
     proven = document["outcome"] == "converged"
@@ -252,44 +251,29 @@ def _describe_plateau(document: dict[str, Any]) -> Message:
     )
 
 
-def require_free_folder(folder: Path, given: GivenScene, *, overwrite: bool) -> None:
-    """Refuse before solving if any of the outputs exists.
-
-    Raises
-    ------
-    OutputError
-        Naming every path that is in the way.
-    """
-    from netdesign.edge.output import require_free
+def _list_names(given: GivenScene) -> list[str]:
+    """Names of the outputs of a scene."""
     from netdesign.report.page.solution_page import list_solution_files
     from netdesign.snow.wall import Wall
     from netdesign.solving.solve import method_of
 
-    names = list_solution_files(
+    return list_solution_files(
         method_of(given.settings),
         is_wall=isinstance(given.scene.net, Wall),
         has_panel=given.support is not None and given.support.panel is not None,
     )
-    require_free([folder / name for name in names], overwrite=overwrite)
 
 
-def write_solution_folder(
-    folder: Path,
+def _render(
     solution: Solved,
     document: dict[str, Any],
     scene_file: str,
-    support: SolvedSupport | None = None,
-    *,
-    overwrite: bool,
-    language: Language = "en",
-) -> list[Path]:
-    """Write page, drawings, tables and document; their paths."""
-    from netdesign.edge.output import write_files
+    support: SolvedSupport | None,
+    language: Language,
+) -> dict[str, bytes]:
+    """Page, drawings, tables and document."""
     from netdesign.report.page.solution_page import render_solution
     from netdesign.study.record_support import record_solved_panel
 
     panel = None if support is None else record_solved_panel(support.result)
-    contents = render_solution(solution, document, scene_file, language, panel)
-    files = {folder / name: content for name, content in contents.items()}
-    write_files(files, overwrite=overwrite)
-    return list(files)
+    return render_solution(solution, document, scene_file, language, panel)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Mapping, MutableMapping
+from collections import UserDict
+from collections.abc import Iterable
 from importlib import import_module
 from typing import Any
 
@@ -67,42 +68,16 @@ def print_help(command: click.Command) -> None:
         print_help(one)
 
 
-class CommandTable(MutableMapping[str, click.Command]):
+class CommandTable(UserDict[str, Any]):
     """Commands of the program; their names are known before they are imported."""
-
-    def __init__(self, places: Mapping[str, str]) -> None:
-        """Keep the names, and of each its module and the function in it."""
-        self._places = dict(places)
-        self._commands: dict[str, click.Command] = {}
 
     def __getitem__(self, name: str) -> click.Command:
         """Return a command, its options as variables, its help in every language."""
-        if name not in self._commands:
-            module, function = self._places[name].split(".")
+        if isinstance(self.data[name], str):  # the place of the command
+            module, function = self.data[name].split(".")
             found = getattr(import_module(f"netdesign.commands.{module}"), function)
             accept_variables(name, found)
             print_help(found)
-            self._commands[name] = found
-        return self._commands[name]
-
-    def __setitem__(self, name: str, command: click.Command) -> None:
-        """Add a command."""
-        self._places.setdefault(name, "")
-        self._commands[name] = command
-
-    def __delitem__(self, name: str) -> None:
-        """Take a command away."""
-        del self._places[name]
-        self._commands.pop(name, None)
-
-    def __contains__(self, name: object) -> bool:
-        """Tell whether there is such a command, without its import."""
-        return name in self._places
-
-    def __iter__(self) -> Iterator[str]:
-        """Go through the names."""
-        return iter(self._places)
-
-    def __len__(self) -> int:
-        """Count the commands."""
-        return len(self._places)
+            self.data[name] = found
+        command: click.Command = self.data[name]
+        return command

@@ -13,6 +13,11 @@ from netdesign.commands.options import (
     out_option,
     quiet_option,
 )
+from netdesign.commands.running import (
+    place_outputs,
+    print_document,
+    write_outputs,
+)
 from netdesign.commands.usage import tell
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
@@ -52,28 +57,26 @@ def validate(
     """
     import sys
 
-    from netdesign.edge.output import require_free
     from netdesign.edge.progress import show_progress
-    from netdesign.edge.streams import print_json
     from netdesign.evidence.validation.gather import (
         count_parts,
         gather,
         list_pages,
         read_all,
-        write_page,
+        render_pages,
     )
-    from netdesign.evidence.validation.page import write_validation
+    from netdesign.evidence.validation.page import write_evidence
 
-    require_free(list_pages(out), overwrite=force)
+    places = place_outputs(out, list_pages(), overwrite=force)
     known = read_all(structures)
     parts = count_parts(known)
     with show_progress(parts, "parts", quiet=quiet, language=language) as advance:
         evidence = gather(known, advance)
-    write_page(evidence, out, force=force, language=language)
+    write_outputs(out, render_pages(evidence, language), overwrite=force)
     if as_json:
-        print_json(write_validation(evidence))
+        print_document(write_evidence(evidence))
     if not quiet:
-        tell(say("cli.wrote", path=str(list_pages(out)[0])), language, err=True)
+        tell(say("cli.wrote", path=str(places[0])), language, err=True)
     if not all(case.passes for case in evidence.cases):
         sys.exit(_FAIL)
     bands = [one for one in evidence.validations if not one.structure.is_known]

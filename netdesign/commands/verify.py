@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
@@ -21,7 +20,13 @@ from netdesign.commands.options import (
     origin_options,
     refuse_without,
 )
-from netdesign.commands.running import open_run, print_faults
+from netdesign.commands.running import (
+    open_run,
+    place_outputs,
+    print_document,
+    print_faults,
+    write_outputs,
+)
 from netdesign.commands.stored_study import (
     NO_COMMAND,
     contradict_command,
@@ -96,19 +101,17 @@ def verify(
 def _run_pack(
     *, as_json: bool, out: Path | None, force: bool, language: Language
 ) -> int:
-    from netdesign.edge.output import require_free
     from netdesign.edge.progress import show_progress
-    from netdesign.evidence.validation.gather import gather, list_pages, write_page
+    from netdesign.evidence.validation.gather import gather, list_pages, render_pages
     from netdesign.evidence.verification.pack import GROUPS, run_pack, write_pack
 
-    if out is not None:
-        require_free(list_pages(out), overwrite=force)
+    place_outputs(out, list_pages(), overwrite=force)
     with show_progress(
         len(GROUPS), "groups", quiet=False, language=language
     ) as advance:
         cases = run_pack(advance)
     if as_json:
-        click.echo(json.dumps(write_pack(cases), indent=1, allow_nan=False))
+        print_document(write_pack(cases))
     else:
         from rich.console import Console
 
@@ -117,7 +120,8 @@ def _run_pack(
 
         print_cases(cases, Console(), Words(language))
     if out is not None:
-        write_page(gather((), cases=cases), out, force=force, language=language)
+        pages = render_pages(gather((), cases=cases), language)
+        write_outputs(out, pages, overwrite=force)
     return 0 if all(case.passes for case in cases) else _FAIL
 
 

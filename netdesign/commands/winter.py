@@ -24,8 +24,6 @@ from netdesign.commands.options import (
     model_option,
     out_option,
     quiet_option,
-    refuse_delimiter,
-    refuse_jobs,
     refuse_without,
     site_options,
     solving_options,
@@ -33,22 +31,24 @@ from netdesign.commands.options import (
 from netdesign.commands.running import (
     EXIT_CODES,
     open_phases,
+    place_outputs,
+    print_document,
     print_faults,
     report_places,
+    write_outputs,
 )
 from netdesign.commands.site_input import (
-    READING,
     build_text_format,
-    open_site,
-    temporary_example,
+    choose_rows,
+    read_asked_site,
+    require_source,
 )
-from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.edge.streams import print_json
+from netdesign.commands.usage import tell
 from netdesign.outcome import ModelError, Verdict
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping
 
     from netdesign.files.winter import WinterRun
     from netdesign.site.model import Site, StationWinter
@@ -72,7 +72,7 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
     help="Snow heights of a station, instead of sheet Winter.",
 )
 @model_option("Settling model of the curves; the others give their annual maxima.")
-@click.option("--row", "row_ids", multiple=True, metavar="ID", help="Rows [all].")
+@click.option("--row", "rows", multiple=True, metavar="ID", help="Rows [all].")
 @click.option(
     "--every",
     type=click.IntRange(1, 60),
@@ -106,14 +106,19 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     design for. Exit code 4 if a winter has no proven maximum, or a fit is refused.
     """
     from netdesign.files.winter import write_winter_document
+    from netdesign.report.page.winter_page import (
+        DOCUMENT_FILE,
+        PAGE_FILE,
+        render_winter,
+    )
 
     language: Language = asked["language"]
     _refuse_idle(site_file, asked)
     folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
-    names = _list_places(folder, overwrite=asked["force"])
-    site = _read_site(site_file, asked)
+    names = place_outputs(folder, (DOCUMENT_FILE, PAGE_FILE), overwrite=asked["force"])
+    site = read_asked_site(site_file, asked)
     station = _find_heights(site, asked)
-    chosen = _choose_rows(site, asked["row_ids"])
+    chosen = choose_rows(site, asked["rows"])
     if asked["fit"]:
         require_measured_forces(chosen)
     phases = _list_phases(chosen, is_fitted=asked["fit"])
@@ -123,7 +128,8 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     failed = print_faults(runner.faults, language)
     document = write_winter_document(run, language)
     if folder:
-        _write(folder, document, language, overwrite=asked["force"])
+        pages = render_winter(document, language)
+        write_outputs(folder, pages, overwrite=asked["force"])
     _show(document, language, as_json=asked["as_json"])
     report_places([names], language, quiet=asked["quiet"] or asked["as_json"])
     sys.exit(failed or (0 if _is_proven(document) else EXIT_CODES[Verdict.NOT_PROVEN]))
@@ -131,35 +137,10 @@ def winter(site_file: Path | None, **asked: Any) -> None:
 
 def _refuse_idle(site_file: Path | None, asked: Mapping[str, Any]) -> None:
     """Refuse options that contradict each other, or have no effect."""
-    language, heights = asked["language"], asked["heights"]
-    if asked["example"] == (site_file is not None):
-        raise UsageRefusal(say("usage.site_or_example"))
-    given = [] if heights is None else [heights]
-    refuse_delimiter(*given, site_file, language=language)
-    refuse_jobs(asked["executor"], language)
+    given = [] if asked["heights"] is None else [asked["heights"]]
+    require_source(site_file, asked, *given)
     if not asked["fit"]:
-        refuse_without(FIT_NAMES, ("--fit",), language)
-
-
-def _list_places(folder: Path | None, *, overwrite: bool) -> list[Path]:
-    """Places of both files, refused where something is there; none without a folder."""
-    from netdesign.edge.output import require_free
-    from netdesign.report.page.winter_page import DOCUMENT_FILE, PAGE_FILE
-
-    names = [folder / name for name in (DOCUMENT_FILE, PAGE_FILE)] if folder else []
-    require_free(names, overwrite=overwrite)
-    return names
-
-
-def _write(
-    folder: Path, document: dict[str, Any], language: Language, *, overwrite: bool
-) -> None:
-    from netdesign.edge.output import write_files
-    from netdesign.report.page.winter_page import render_winter
-
-    contents = render_winter(document, language)
-    files = {folder / name: content for name, content in contents.items()}
-    write_files(files, overwrite=overwrite)
+        refuse_without(FIT_NAMES, ("--fit",), asked["language"])
 
 
 def _is_proven(document: dict[str, Any]) -> bool:
@@ -170,14 +151,6 @@ def _is_proven(document: dict[str, Any]) -> bool:
         and (row["fit"] is None or row["fit"]["outcome"] == "fitted")
         for row in rows
     )
-
-
-def _read_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
-    reading = {one: asked[one] for one in READING} | {"overwrite": asked["force"]}
-    if site_file is not None:
-        return open_site(site_file, **reading)
-    with temporary_example() as path:
-        return open_site(path, **reading)
 
 
 def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
@@ -205,16 +178,6 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     if found is None:
         raise ModelError(say("winter.no_heights"))
     return replace(found, series=smooth(found.series)) if asked["median"] else found
-
-
-def _choose_rows(site: Site, row_ids: Sequence[str]) -> Site:
-    """Site with the rows asked for alone."""
-    known = tuple(row.id for row in site.rows)
-    unknown = tuple(one for one in row_ids if one not in known)
-    if unknown:
-        raise UsageRefusal(say("winter.no_such_rows", rows=unknown, known=known))
-    rows = tuple(row for row in site.rows if not row_ids or row.id in row_ids)
-    return replace(site, rows=rows)
 
 
 def _list_phases(site: Site, *, is_fitted: bool) -> list[Any]:
@@ -271,10 +234,8 @@ def _solve(
 
 
 def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> None:
-    import json
-
     if as_json:
-        print_json(json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False))
+        print_document(document)
         return
     for row in document["rows"]:
         for one in row["winters"]:

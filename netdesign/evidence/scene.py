@@ -1,14 +1,17 @@
-"""A scene as publications give it, in metres and degrees, and its steady state."""
+"""A scene as publications give it, in metres and degrees; its net or a wall solved."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import Solution
+from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
+from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
+from netdesign.outcome import SolveError
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import (
     GravityMode,
@@ -16,6 +19,7 @@ from netdesign.snow.snowpack import (
     Snowpack,
     build_layered_snowpack,
 )
+from netdesign.snow.wall import Wall
 
 FREE = GroundLaw(kind="free")
 
@@ -99,4 +103,34 @@ def solve(scene: Scene, settings: SolverSettings) -> Solution:
     """
     solution = solve_steady(scene, settings, on_failure="raise")
     assert isinstance(solution, Solution)
+    return solution
+
+
+def solve_wall(
+    scene: Scene, settings: SolverSettings, *, friction_angle: float | None = None
+) -> WallSolution:
+    """Snow of a scene held by a wall in the place of its net, as high as the snow.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its net gives the inclination.
+    settings : SolverSettings
+        Of the solve.
+    friction_angle : float, optional
+        Snow against wall [rad]; without one the snow adheres.
+
+    Raises
+    ------
+    SolveError
+        If it has no steady state.
+    """
+    wall = Wall(
+        height_normal=scene.snowpack.thickness,
+        inclination=scene.net.inclination,
+        friction_angle=friction_angle,
+    )
+    solution = solve_rigid(replace(scene, net=wall), settings)
+    if isinstance(solution, FailedSolution):
+        raise SolveError(solution.outcome, solution.reason)
     return solution

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from netdesign.report.words import MISSING, Words, show_own
-from netdesign.words.catalogue import load_texts, render
+from netdesign.words.catalogue import load_texts
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -30,7 +30,7 @@ _JUDGED = {
 Row = Mapping[str, Any]
 
 
-def print_document(
+def show_document(
     document: Row, console: Console, words: Words, area: str = AREA
 ) -> None:
     """Print the numbers of a document, then each of its lists of rows as a table."""
@@ -43,21 +43,11 @@ def print_document(
             console.print(line + _show(key, value, words, area), soft_wrap=True)
     for key, rows in lists.items():
         if rows and _is_named(area, key):
-            print_lines([words(f"{area}.{key}")], console)
-            print_rows(rows, console, words, area)
+            show_lines([words(f"{area}.{key}")], console)
+            show_rows(rows, console, words, area)
 
 
-def print_figure(figure: Row, console: Console, words: Words) -> None:
-    """Print what was measured, whether it is what was asked for, and every value."""
-    good, bad = _JUDGED["reached"]
-    state = words(good if figure["reached"] else bad)
-    reach = render(figure["reach"], words.language)
-    what = render(figure["what"], words.language)
-    print_lines([what, words("bench.reach", reach=reach, state=state)], console)
-    print_document(figure, console, words)
-
-
-def print_rows(
+def show_rows(
     rows: Sequence[Row], console: Console, words: Words, area: str = AREA
 ) -> None:
     """Print rows of equal keys as a table, numbers to the right.
@@ -93,7 +83,7 @@ def print_rows(
     console.print(table, width=max(console.width, needed), crop=False)
 
 
-def print_lines(lines: Iterable[str], console: Console) -> None:
+def show_lines(lines: Iterable[str], console: Console) -> None:
     """Print lines as they are."""
     for line in lines:
         console.print(line, highlight=False, markup=False, soft_wrap=True)

@@ -165,7 +165,7 @@ def test_snow_above_the_net_is_not_proven(call, site, tmp_path):
         (("--heights", "thin"), "Were metres taken for centimetres", 3),
         (
             ("--heights", "good", "--row", "R77"),
-            "--row R77: the site has no such row",
+            "R77: no net row of the site",
             2,
         ),
     ],

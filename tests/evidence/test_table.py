@@ -4,7 +4,7 @@ import pytest
 from rich.console import Console
 
 from netdesign.evidence.page_table import FORCES, TEXTS, Field, numbers, tabulate
-from netdesign.evidence.table import print_document
+from netdesign.evidence.table import show_document
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.pack import print_cases
 from netdesign.report.words import Words
@@ -21,7 +21,8 @@ def a_case(got):
     return VerificationCase(
         id="slab-shear",
         kind="closed form",
-        reference="[a] source",
+        reference="mirror",
+        mark="here",
         expected=309.674,
         got=got,
         tolerance=1e-3,
@@ -31,7 +32,8 @@ def a_case(got):
 def test_cases_with_five_digits_and_their_verdict():
     lines = shown(print_cases, [a_case(309.681), a_case(320.0)])
     assert lines[1] == (
-        "slab-shear closed form [a] source 309.67 309.68 2.3e-05 - pass"
+        "slab-shear closed form nodal forces mirror with the mesh "
+        "309.67 309.68 2.3e-05 - pass"
     )
     assert lines[2].endswith("0.033 - FAIL")
     assert lines[3] == "closed form: 1 of 2 pass"
@@ -43,10 +45,10 @@ def test_what_has_no_name_is_not_shown(language, mark):
         "schema": "netdesign.stress/1",
         "median_s": 0.123456,
         "pass": False,
-        "jumps": [{"place": 7, "tables": {"slope": {}}}],
+        "slowest": [{"scene": 7, "tables": {"slope": {}}}],
         "failures": [],
     }
-    lines = shown(print_document, document, language=language)
+    lines = shown(show_document, document, language=language)
     assert len(lines) == 5  # two numbers, a table of one row under its name
     assert lines[0].endswith(f"0{mark}1235")
     assert lines[-1] == "7"

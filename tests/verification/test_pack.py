@@ -6,7 +6,11 @@ import math
 
 import pytest
 
-from netdesign.evidence.verification.case import VerificationCase, observe_order
+from netdesign.evidence.verification.case import (
+    VerificationCase,
+    load_cases,
+    observe_order,
+)
 from netdesign.evidence.verification.pack import run_pack, write_pack
 from netdesign.words.catalogue import load_texts
 
@@ -15,7 +19,8 @@ def a_case(**changes):
     case = VerificationCase(
         id="one",
         kind="limit",
-        reference="a source",
+        reference="mirror",
+        mark="here",
         expected=2.0,
         got=2.02,
         tolerance=0.02,
@@ -58,9 +63,9 @@ def test_whole_pack_passes_and_can_be_written():
     assert failing == []
     assert done == list(range(1, len(done) + 1))
     names = [case.id for case in cases]
-    assert len(names) == len(set(names))
-    told = {text for key, text in load_texts("en").items() if key[:10] == "reference."}
-    assert {case.reference for case in cases} == told  # and so in every language
+    assert sorted(names) == sorted(load_cases())  # each once, and none is left out
+    told = {key[10:] for key in load_texts("en") if key[:10] == "reference."}
+    assert {case.reference for case in cases} == told
     document = json.loads(json.dumps(write_pack(cases), allow_nan=False))
     assert document["schema"] == "netdesign.verification/1"
     assert len(document["cases"]) == len(cases)

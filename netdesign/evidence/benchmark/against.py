@@ -25,14 +25,7 @@ import numpy as np
 
 from netdesign.core.library import name_core
 from netdesign.core.sources import SWITCH, SWITCHED_OFF
-from netdesign.evidence.benchmark.scenes import (
-    NAMES,
-    ROW,
-    SHORT,
-    write_scene,
-    write_scenes,
-    write_site,
-)
+from netdesign.evidence.benchmark.scenes import INPUTS, NAMED, NAMES, write_site
 from netdesign.evidence.runner import (
     SINGLE_THREADED,
     Clock,
@@ -40,7 +33,7 @@ from netdesign.evidence.runner import (
     describe_times,
     run_in_turns,
 )
-from netdesign.evidence.table import print_lines, print_rows
+from netdesign.evidence.table import show_lines, show_rows
 from netdesign.outcome import ModelError
 from netdesign.report.words import Words
 from netdesign.words.message import say
@@ -80,7 +73,8 @@ class Size:
     rows: int = 20
 
 
-QUICK = Size(short=1, long=1, scenes=NAMES[:2], solves=1, samples=3, rows=1)
+_FEW = ("paper-0", "paper-30")
+QUICK = Size(short=1, long=1, scenes=_FEW, solves=1, samples=3, rows=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,13 +94,6 @@ class Bench:
     folder: Path
     size: Size
     has_core: bool
-
-    def write_inputs(self) -> None:
-        """Write scenes and the site."""
-        write_scenes(self.folder / "scenes", self.size.scenes)
-        write_scene(self.folder / "row.toml", ROW)
-        write_scene(self.folder / "short.toml", SHORT)
-        write_site(self.folder / "site", self.size.rows)
 
     def start(
         self, words: Sequence[str | Path], store: Path | None = None
@@ -150,7 +137,7 @@ Measure = Callable[[Bench, Path], list[Time]]
 
 def time_scenes(bench: Bench, python: Path) -> list[Time]:
     """Median and 95th percentile of warm solves of the named scenes."""
-    files = sorted((bench.folder / "scenes").iterdir())
+    files = [NAMED / f"{name}.toml" for name in bench.size.scenes]
     found = _ask_probe(bench, [python, "scenes", *files, bench.size.solves])
     if failed := [name for name, one in found.items() if one is None]:
         raise RunFailure(", ".join(failed))
@@ -189,7 +176,7 @@ def time_site(bench: Bench, python: Path) -> list[Time]:
 
 def time_solve(bench: Bench, python: Path) -> list[Time]:
     """A scene solved from the command line, start of the program included."""
-    words = ["solve", f"scenes/{bench.size.scenes[0]}.toml", "--json"]
+    words = ["solve", str(NAMED / f"{bench.size.scenes[0]}.toml"), "--json"]
     return [_time_command(bench, python, words, (0,))]
 
 
@@ -204,9 +191,10 @@ def time_example(bench: Bench, python: Path) -> list[Time]:
 
 def _time_envelope(bench: Bench, python: Path, *, samples: str, jobs: str) -> Time:
     shared = ["--no-cache", "--confirm", "none", "--json", "--quiet", "--jobs", jobs]
-    warming = ["envelope", "short.toml", "--density", "300:310:2", *shared]
+    short, row = (str(INPUTS / f"{name}.toml") for name in ("short", "row"))
+    warming = ["envelope", short, "--density", "300:310:2", *shared]
     ranges = {"density": "250:450", "friction": "15:45", "inclination": "25:35"}
-    timed = ["envelope", "row.toml", "--accuracy", "0.005", *shared]
+    timed = ["envelope", row, "--accuracy", "0.005", *shared]
     for name, span in ranges.items():
         timed += [f"--{name}", f"{span}{samples}"]
     words = [python, "command", json.dumps(warming), json.dumps(timed)]
@@ -302,7 +290,7 @@ def compare_versions(
     rows = []
     with TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         bench = Bench(Path(folder), size, has_core=True)
-        bench.write_inputs()
+        write_site(bench.folder / "site", size.rows)
         for has_core in (True, False):
             bench = replace(bench, has_core=has_core)
             for timed in TIMED:
@@ -394,11 +382,11 @@ def _sum_up(runs: list[list[Time]] | str, place: int) -> dict[str, Any]:
 
 def print_versions(document: Mapping[str, Any], console: Console, words: Words) -> None:
     """Print each figure by each clock, with the compiled core and without."""
-    print_lines([words("against.head", **document["provenance"])], console)
+    show_lines([words("against.head", **document["provenance"])], console)
     rows = [
         _describe(row, clock, words) for row in document["rows"] for clock in _CLOCKS
     ]
-    print_rows(rows, console, words, "against_table")
+    show_rows(rows, console, words, "against_table")
 
 
 def _describe(row: Mapping[str, Any], clock: str, words: Words) -> dict[str, Any]:

@@ -35,7 +35,7 @@ from netdesign.evidence.benchmark.truth import (
     state_error,
 )
 from netdesign.evidence.runner import fit_order, measure, run_in_turns
-from netdesign.evidence.table import print_document, print_rows
+from netdesign.evidence.table import show_document, show_rows
 from netdesign.outcome import SolveError
 from netdesign.report.drawing.style import (
     ACCENT,
@@ -46,7 +46,6 @@ from netdesign.report.drawing.style import (
     write_svg,
 )
 from netdesign.report.words import ENGLISH, Words
-from netdesign.snow.mesh import MeshSize
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,11 +54,6 @@ if TYPE_CHECKING:
 BENCH_SCHEMA = "netdesign.bench/1"
 HISTORY_ACCURACY = 0.01  # of the steps
 
-# Even meshes as one draws them without a thought for the net's ends.
-PLAIN_LEVELS = tuple(
-    MeshSize(net_spacing=h, corner=h, sectors=0, upslope_spacing=2 * h)
-    for h in (1 / 4, 1 / 8, 1 / 16, 1 / 32)
-)
 # Accuracies asked for: of the truth, and of a pair of meshes (both are always solved).
 # The iterations leave a 25th of them.
 _TIGHT, _OFFERED = 1e-4, 5e-3
@@ -101,10 +95,6 @@ def measure_steady(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
             "reference": partial(solve_steady, scene, plain),
         }
         rows += _measure(name, "steady", solves, truth, effort.repeats)
-    for pair in pairwise(PLAIN_LEVELS[: effort.finest]):
-        plain = replace(settings, levels=pair, step=reference_path.advance)
-        solve = partial(solve_steady, scene, plain)
-        rows += _measure(name, "steady", {"plain": solve}, truth, effort.repeats)
     return rows
 
 
@@ -186,11 +176,11 @@ def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
 
 def print_bench(document: dict[str, Any], console: Console, words: Words) -> None:
     """Print a line for each row, then what they say together."""
-    print_rows(document["rows"], console, words)
-    print_document(document["summary"], console, words)
+    show_rows(document["rows"], console, words)
+    show_document(document["summary"], console, words)
 
 
-Path = Literal["fast", "reference", "plain"]
+Path = Literal["fast", "reference"]
 Method = Literal["steady", "transient"]
 
 
@@ -203,8 +193,7 @@ class Row:
     scene, method : str
         What was solved, and how.
     path : str
-        ``fast`` kernel; its meshes solved in scikit-fem (``reference``); scikit-fem on
-        even meshes, without grading, each from the start (``plain``).
+        ``fast`` kernel, or its meshes solved in scikit-fem (``reference``).
     elements, degrees_of_freedom : int
         Of the finer mesh.
     wall_s : float
@@ -238,12 +227,12 @@ def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
     """Figures of the steady rows over all scenes; None where there are too few.
 
     ``times_faster``: time of scikit-fem over that of the fast path on the same mesh,
-    hence at equal error; ``times_faster_at_error``: of scikit-fem on even meshes.
+    hence at equal error.
     ``cost_order``: p in time ~ degrees of freedom^p, of the fast path; ``error_order``:
     q in error ~ degrees of freedom^-q/2. All are medians unless named otherwise.
     """
     steady = [row for row in rows if row.method == "steady"]
-    ratios, at_error = compare_paths(steady), compare_at_error(steady)
+    ratios = compare_paths(steady)
     by_scene: dict[str, list[Row]] = defaultdict(list)
     for row in steady:
         if row.path == "fast":
@@ -255,7 +244,6 @@ def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
         "times_faster": median(ratios) if ratios else None,
         "least_times_faster": min(ratios, default=None),
         "most_times_faster": max(ratios, default=None),
-        "times_faster_at_error": median(at_error) if at_error else None,
         "cost_order": median(costs) if costs else None,
         "worst_cost_order": max(costs, default=None),
         "error_order": median(orders) if orders else None,
@@ -269,7 +257,7 @@ def _fit(rows: Sequence[Row], name: str) -> float:
 
 
 def compare_paths(rows: Sequence[Row]) -> list[float]:
-    """Time of the plain path over that of the fast one, wherever both were measured.
+    """Time of the reference path over the fast one's, wherever both were measured.
 
     Both are on one mesh, so their errors are equal to the solvers' tolerances.
     """
@@ -281,31 +269,8 @@ def compare_paths(rows: Sequence[Row]) -> list[float]:
     ]
 
 
-def compare_at_error(rows: Sequence[Row]) -> list[float]:
-    """Time of each plain row over the least that the fast path takes for its error.
-
-    The fast path counts with the cheapest of its meshes that is at least as accurate;
-    plain rows more accurate than all of them are left out.
-    """
-    ratios = []
-    for row in rows:
-        if row.path != "plain":
-            continue
-        as_good = [
-            fast.wall_s
-            for fast in rows
-            if fast.path == "fast"
-            and fast.scene == row.scene
-            and fast.error <= row.error
-        ]
-        if as_good:
-            ratios.append(row.wall_s / min(as_good))
-    return ratios
-
-
 _HEIGHT_IN = 3.6
-_PATHS: tuple[Path, ...] = ("fast", "reference", "plain")
-_COLOURS: dict[Path, str] = {"fast": ACCENT, "reference": INK, "plain": GREY}
+_COLOURS: dict[Path, str] = {"fast": ACCENT, "reference": INK}
 
 
 def draw_work_precision(rows: Sequence[Row], words: Words = ENGLISH) -> str:
@@ -316,9 +281,9 @@ def draw_work_precision(rows: Sequence[Row], words: Words = ENGLISH) -> str:
         figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
         axes = figure.add_subplot()
         steady = [row for row in rows if row.method == "steady"]
-        for path in _PATHS:
+        for path, colour in _COLOURS.items():
             of_path = [row for row in steady if row.path == path]
-            _draw_path(axes, of_path, _COLOURS[path], words(f"bench_plot.{path}"))
+            _draw_path(axes, of_path, colour, words(f"bench_plot.{path}"))
         histories = [row for row in rows if row.method == "transient"]
         _draw_histories(axes, histories, words("bench_plot.transient"))
         axes.set_xscale("log")

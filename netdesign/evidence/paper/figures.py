@@ -8,14 +8,12 @@ from dataclasses import dataclass, replace
 from netdesign.evidence.paper.cases import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,
-    INCLINATIONS_DEG,
     NORMAL_NET_DEG,
     PaperCase,
     find_exchange,
     find_history,
     find_paper_time,
     find_steady,
-    find_trend,
 )
 from netdesign.evidence.paper.findings import SETTLED
 from netdesign.evidence.paper.runs import PaperStudy, Track
@@ -45,10 +43,6 @@ def draw_plates(study: PaperStudy, words: Words) -> list[Plate]:
         _plate_nodes(study, words, "implicit"),
         _plate_meshes(study, words),
         _plate_methods(study, words),
-        _plate_trend(study, words),
-        _plate_drift(study, words),
-        _plate_inclination(study, words),
-        _plate_gravity(study, words),
     ]
     return [plate for plate in plates if plate is not None]
 
@@ -147,176 +141,50 @@ def _name_mesh(case: PaperCase, track: Track, words: Words) -> str:
 
 
 def _plate_methods(study: PaperStudy, words: Words) -> Plate | None:
-    panels = []
-    for net in _NETS:
-        straight = find_history(net)
-        lines = [
-            *_pulls(
-                study,
-                find_exchange(net, study.settings),
-                words("paper_plate.staggered"),
-                2,
-            ),
-            *_pulls(study, straight, words("paper_plate.straight"), 0),
-            *_pulls(
-                study, replace(straight, start="sagged"), words("paper_plate.sagged"), 1
-            ),
-        ]
-        panels.append(_with_steady(study, straight, lines, words))
-    return _plate(panels, "methods", words)
-
-
-def _plate_trend(study: PaperStudy, words: Words) -> Plate | None:
-    *staggered, history = find_trend(study.settings)
-    shown = [staggered[0], staggered[-2], staggered[-1]]
-    lines = [
-        line
-        for style, case in zip((2, 1, 0), shown, strict=True)
-        for line in _pulls(
-            study, case, words("paper_plate.drag", drag=case.drag), style
-        )
-    ]
-    lines += [
-        replace(line, is_accent=True)
-        for line in _pulls(study, history, words("paper_plate.implicit"), 0)
-    ]
-    end = day_from_second(study.settings.trend_time * history.scene.time_scale)
-    lines = [_cut(line, end) for line in lines]
-    return _plate(
-        [Panel(title=words("paper_plate.foot_at", inclination=0.0), lines=lines)]
-        if lines
-        else [],
-        "trend",
-        words,
-    )
-
-
-def _plate_drift(study: PaperStudy, words: Words) -> Plate | None:
-    panels = []
-    for net in _NETS:
-        lines = []
-        steady = study[find_steady(find_history(net))].foot
-        for start, style in (("sagged", 0), ("straight", 1)):
-            for densifies in (True, False):
-                case = replace(find_history(net), densifies=densifies)
-                if start == "sagged":
-                    case = replace(case, start="sagged")
-                word = words(f"paper_plate.{start}") if densifies else ""
-                lines += [
-                    replace(
-                        line,
-                        y=[1e5 * value / steady for value in line.y],
-                        is_accent=densifies,
-                    )
-                    for line in _pulls(study, case, word, style)
-                    if steady
-                ]
-        if lines:
-            panels.append(
-                Panel(
-                    title=words("paper_plate.foot_over_steady", inclination=net),
-                    lines=lines,
-                )
-            )
-    return _plate(panels, "drift", words)
-
-
-def _plate_inclination(study: PaperStudy, words: Words) -> Plate | None:
-    panels = []
-    for end in ("foot", "head"):
-        lines = [
-            line
-            for style, net in enumerate(INCLINATIONS_DEG)
-            for line in _pulls(study, find_history(net), f"{net:.0f}°", style, end)
-        ]
-        if lines:
-            title = words(f"paper_plate.pull_{end}")
-            panels.append(Panel(title=title, lines=lines))
-    return _plate(panels, "inclination", words, across=2)
-
-
-def _plate_gravity(study: PaperStudy, words: Words) -> Plate | None:
-    panels = []
-    for net in _NETS:
-        lines = []
-        for end, accent in (("foot", True), ("head", False)):
-            full = find_history(net)
-            for case, kind, style in (
-                (full, "full", 0),
-                (replace(full, gravity="parallel"), "parallel", 2),
-            ):
-                lines += [
-                    replace(line, is_accent=accent)
-                    for line in _pulls(
-                        study, case, words(f"paper_plate.{end}_{kind}"), style, end
-                    )
-                ]
-        if lines:
-            panels.append(
-                Panel(title=words("paper_plate.both_at", inclination=net), lines=lines)
-            )
-    return _plate(panels, "gravity", words, across=2)
-
-
-def _plate(
-    panels: Sequence[Panel], name: str, words: Words, *, across: int = 1
-) -> Plate | None:
-    if not panels:
+    panels = [_compare_ways(study, net, words) for net in _NETS]
+    if not any(panel.lines for panel in panels):
         return None
-    heading = words(f"paper_plate.{name}")
-    svg = draw_panels(
-        panels,
-        name,
-        heading,
-        across=across,
-        panel_in=1.9,
-        time_label=words("paper_plate.since"),
-        language=words.language,
+    heading = words("paper_plate.methods")
+    return Plate(
+        name="methods",
+        heading=heading,
+        caption=words("paper_plate.methods_caption"),
+        svg=draw_panels(
+            panels,
+            "methods",
+            heading,
+            across=1,
+            panel_in=1.9,
+            time_label=words("paper_plate.since"),
+            language=words.language,
+        ),
     )
-    caption = words(f"paper_plate.{name}_caption")
-    return Plate(name=name, heading=heading, caption=caption, svg=svg)
 
 
-def _with_steady(
-    study: PaperStudy, case: PaperCase, lines: list[Line], words: Words
-) -> Panel:
-    steady = study[find_steady(case)].foot
-    ends = [float(line.x[-1]) for line in lines]
-    begins = [float(line.x[0]) for line in lines]
-    if steady is not None and ends:
-        x = [min(begins), max(ends)]
-        level = [steady / 1e3] * 2
-        lines = [
-            *lines,
-            Line(label=words("paper_plate.steady"), x=x, y=level, is_accent=True),
-        ]
-    track = study[case].track
-    marks = []
+def _compare_ways(study: PaperStudy, net: float, words: Words) -> Panel:
+    """Pull on the foot by each way, and that of the steady state."""
+    straight = find_history(net)
+    ways = {
+        "staggered": (find_exchange(net, study.settings), 2),
+        "straight": (straight, 0),
+        "sagged": (replace(straight, start="sagged"), 1),
+    }
+    lines = []
+    for way, (case, style) in ways.items():
+        if (track := study[case].track) is not None:
+            pulls, label = [pull / 1e3 for pull in track.foot], f"paper_plate.{way}"
+            lines.append(_line(case, track, pulls, words(label), style))
+    steady, marks = study[find_steady(straight)].foot, []
+    if steady is not None and lines:
+        x = [min(line.x[0] for line in lines), max(line.x[-1] for line in lines)]
+        label, level = words("paper_plate.steady"), [steady / 1e3] * 2
+        lines.append(Line(label=label, x=x, y=level, is_accent=True))
+    track = study[straight].track
     if track is not None and track.plateau is not None:
         begin = day_from_second(float(track.times[track.plateau]))
         marks.append(Mark(x=begin, label=words("solved.plateau_from")))
-    return Panel(
-        title=words("paper_plate.foot_at", inclination=case.inclination_deg),
-        lines=lines,
-        marks=marks,
-    )
-
-
-def _cut(line: Line, end: float) -> Line:
-    """Line up to a time [d]."""
-    count = sum(time <= end * 1.001 for time in line.x)
-    return replace(line, x=line.x[:count], y=line.y[:count])
-
-
-def _pulls(
-    study: PaperStudy, case: PaperCase, label: str, style: int, end: str = "foot"
-) -> list[Line]:
-    """Line of a history's pull in kN/m; none without the run."""
-    run = study[case]
-    if run.track is None:
-        return []
-    values = [value / 1e3 for value in getattr(run.track, end)]
-    return [_line(run.case, run.track, values, label, style)]
+    title = words("paper_plate.foot_at", inclination=net)
+    return Panel(title=title, lines=lines, marks=marks)
 
 
 def _line(

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
-from netdesign.evidence.scene import build_scene
+from netdesign.evidence.scene import build_scene, solve_wall
 from netdesign.evidence.validation.structure import (
     ALONG_SLOPE,
     Measurement,
@@ -22,11 +20,9 @@ from netdesign.evidence.validation.structure import (
     Structure,
 )
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import ModelError
+from netdesign.outcome import ModelError, SolveError
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.snow.ground import build_ground_from_glide_factor
-from netdesign.snow.snowpack import Snowpack
-from netdesign.snow.wall import Wall
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from netdesign.words.message import say
@@ -52,7 +48,7 @@ class MemberBand:
         Between which four of five cases lie.
     share_below : float
         Part of the cases below the measured value [-].
-    errors : float
+    numerical_error : float
         Largest numerical error of a case, over its largest force [-].
     """
 
@@ -61,7 +57,7 @@ class MemberBand:
     high: float
     middle: tuple[float, float]
     share_below: float
-    errors: float
+    numerical_error: float
 
     def place(self, measured: Measurement) -> Place:
         """Place of the measured value, with its own uncertainty."""
@@ -184,28 +180,13 @@ def _solve(structure: Structure, point: dict[str, float]) -> _Forces:
         return _solve_net(point, has_ropes=structure.has_ropes)
     except ModelError as error:
         return _Forces(values={}, reason=str(error))
+    except SolveError as failure:
+        return _Forces(values={}, reason=str(failure.reason))
 
 
 def _solve_wall(point: dict[str, float]) -> _Forces:
-    thickness = point["net_height_m"] * point["filled"]
-    scene = Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(point["slope_deg"]),
-            thickness=thickness,
-            upslope_length=point["upslope_length_m"],
-            density=point["density_kg_m3"],
-        ),
-        ground=build_ground_from_glide_factor(point["glide_factor"], thickness),
-        net=Wall(
-            height_normal=thickness,
-            inclination=math.radians(point["inclination_deg"]),
-            friction_angle=math.radians(point["friction_deg"]),
-        ),
-    )
-    solution = solve_rigid(scene, _SETTINGS)
-    if isinstance(solution, FailedSolution):
-        return _Forces(values={}, reason=str(solution.reason))
-    force = solution.force
+    friction = math.radians(point["friction_deg"])
+    force = solve_wall(_build(point), _SETTINGS, friction_angle=friction).force
     return _Forces(
         values={ALONG_SLOPE: force.x / 1e3, "size": force.size / 1e3},
         error=force.error / force.size,
@@ -228,7 +209,13 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> _Forces:
         friction_angle=math.radians(point["friction_deg"]),
         inclination=math.radians(point["inclination_deg"]),
     )
-    task = build_task(case, lambda _: _build_net(point), layout, _SETTINGS, panels)
+    scene = _build(
+        point,
+        height=height,
+        stiffness=point["stiffness_kN_per_m"] * 1e3,
+        slack=point["slack"],
+    )
+    task = build_task(case, lambda _: scene, layout, _SETTINGS, panels)
     (result,) = run_cases([task])
     if not result.is_converged:
         return _Forces(values={}, reason=str(result.reason))
@@ -241,18 +228,16 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> _Forces:
     return _Forces(values=values, error=error / largest)
 
 
-def _build_net(point: dict[str, float]) -> Scene:
+def _build(point: dict[str, float], **net: Any) -> Scene:
     thickness = point["net_height_m"] * point["filled"]
     return build_scene(
         (thickness, point["density_kg_m3"]),
         slope=point["slope_deg"],
         length=point["upslope_length_m"],
         ground=build_ground_from_glide_factor(point["glide_factor"], thickness),
-        height=point["net_height_m"],
         lean=point["inclination_deg"],
         friction=point["friction_deg"],
-        stiffness=point["stiffness_kN_per_m"] * 1e3,
-        slack=point["slack"],
+        **net,
     )
 
 
@@ -270,5 +255,5 @@ def _find_band(
         high=float(values.max()),
         middle=(float(low), float(high)),
         share_below=float((values < measured.value).mean()),
-        errors=max(one.error for one in forces),
+        numerical_error=max(one.error for one in forces),
     )

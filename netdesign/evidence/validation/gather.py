@@ -8,7 +8,6 @@ from pathlib import Path
 
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import MAX_TOML_BYTES, read_bounded
-from netdesign.edge.output import write_files
 from netdesign.evidence.validation.band import validate_structure
 from netdesign.evidence.validation.page import (
     DOCUMENT_FILE,
@@ -55,24 +54,14 @@ def read_all(path: Path | None) -> tuple[Structure, ...]:
         raise ModelError(told) from None
 
 
-def list_pages(out: Path) -> list[Path]:
-    """Files of the page in a folder, the page first; then those of the scenes."""
-    return [out / name for name in (PAGE_FILE, DOCUMENT_FILE, *list_files())]
+def list_pages() -> list[str]:
+    """Names of the page's files, the page first; then those of the scenes."""
+    return [PAGE_FILE, DOCUMENT_FILE, *list_files()]
 
 
-def write_page(
-    evidence: Evidence, out: Path, *, force: bool, language: Language = "en"
-) -> None:
-    """Write the page, its document and the exported scenes into a folder.
-
-    Raises
-    ------
-    OutputError
-        If they exist and may not be replaced, or cannot be written.
-    """
-    files = render_validation(evidence, language) | write_scenes(solve_exported())
-    contents = {out / name: content for name, content in files.items()}
-    write_files(contents, overwrite=force)
+def render_pages(evidence: Evidence, language: Language = "en") -> dict[str, bytes]:
+    """Page, its document and the exported scenes, by the names of their files."""
+    return render_validation(evidence, language) | write_scenes(solve_exported())
 
 
 def count_parts(structures: Sequence[Structure]) -> int:

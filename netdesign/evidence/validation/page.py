@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from netdesign import __version__
@@ -13,10 +13,7 @@ from netdesign.evidence.page_table import (
     PAIRS,
     RANGES,
     TEXTS,
-    Field,
-    Kind,
     numbers,
-    tabulate,
     tabulate_items,
 )
 from netdesign.evidence.validation.band import MemberBand, Validation
@@ -27,7 +24,7 @@ from netdesign.evidence.validation.pictures import (
     name_validated,
 )
 from netdesign.evidence.validation.structure import Measurement, Span, Structure
-from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.case import MARKS, VerificationCase
 from netdesign.evidence.verification.compaction import (
     MODELS,
     PLACE,
@@ -49,32 +46,17 @@ from netdesign.report.blocks.block import (
     masthead,
     section,
 )
-from netdesign.report.blocks.table import Cell, Table
+from netdesign.report.blocks.table import Table
 from netdesign.report.blocks.text import CODE, Piece
 from netdesign.report.page.render import render_page
 from netdesign.report.words import Words, show_own
-from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, ZWINGER_2007
+from netdesign.snow.creep_law import BOUTILLIER_2004, ZWINGER_2007
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
 PAGE_FILE, DOCUMENT_FILE = "validation.html", "validation.json"
 _GROUNDS = {"no-slip": "validation.no_slip", "free": "validation.free"}
 _LAYERS = {"first": 0.8, "second": 1.0, "third": 1.2}  # of the layered scene [m]
-# What an expected value is: computed here, by a code of others, or from a publication.
-_HERE, _RECALLED, _READ = "here", "recalled", "read"
-_MARKS = {
-    "closed form": _HERE,
-    "manufactured": _HERE,
-    "invariant": _HERE,
-    "limit": _HERE,
-    "cross model": "code",
-}
-_RECALLED_CASES = ("guideline-",)  # of kind "published", but nobody had the page
-# Of kind "cross model", but both models are solved here.
-_OWN_CASES = (
-    *("paper-increments", "two-elements", "history-", "staggered-"),
-    *("panel-in-space", "plan-in-space"),
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,13 +67,6 @@ class Evidence:
     places: Sequence[Place]
     contrasts: Sequence[Contrast]
     validations: Sequence[Validation]
-
-
-def mark_expected(case: VerificationCase) -> str:
-    """Origin of a case's expected value: a text ``validation_mark`` of this key."""
-    if case.kind == "published":
-        return _RECALLED if case.id.startswith(_RECALLED_CASES) else _READ
-    return _HERE if case.id.startswith(_OWN_CASES) else _MARKS[case.kind]
 
 
 def render_validation(
@@ -108,13 +83,10 @@ def render_validation(
     """
     return {
         PAGE_FILE: _render_page(evidence, Words(language)).encode(),
-        DOCUMENT_FILE: write_validation(evidence).encode(),
+        DOCUMENT_FILE: json.dumps(
+            write_evidence(evidence), indent=1, allow_nan=False
+        ).encode(),
     }
-
-
-def write_validation(evidence: Evidence) -> str:
-    """Document ``netdesign.validation/1`` as JSON."""
-    return json.dumps(write_evidence(evidence), indent=1, allow_nan=False)
 
 
 def _render_page(evidence: Evidence, words: Words) -> str:
@@ -156,7 +128,7 @@ def _plate(name: str, svg: str, words: Words) -> Figure:
 
 def _list_marks(words: Words) -> Part:
     """Meaning of each mark of an expected value."""
-    meant = [(_mark(one, words), one) for one in (_HERE, "code", _READ, _RECALLED)]
+    meant = [(_mark(one, words), one) for one in MARKS]
     unknown = f"{_mark('assumed', words)}, {_mark('unknown', words)}"
     items = tuple(
         words("show.label", label=label, text=words(f"validation.{one}_means"))
@@ -187,7 +159,6 @@ def _show_settling(evidence: Evidence, words: Words) -> Part:
         words("validation.settling"),
         _text(words, "settling_text", f" {_list_models(words)}."),
         _plate("compaction", draw_compaction(evidence.places, words), words),
-        _tabulate_softness(_pick(evidence.places), words).shown("study"),
         _text(words, "quoted", **_quote(words)),
         Heading(text=words("validation.meaning"), level=3),
         _text(words, "meaning_text", layers=layers, **growth),
@@ -231,11 +202,11 @@ def _tabulate_cases(cases: Sequence[VerificationCase], words: Words) -> Table:
     columns = {
         "verify_table.id": (TEXTS, lambda one: one.id),
         "verify_table.kind": (TEXTS, lambda one: name_kind(one.kind, words)),
-        "verify_table.reference": (TEXTS, lambda one: show_own(words, one.reference)),
-        "validation.reference_is": (
+        "verify_table.reference": (
             TEXTS,
-            lambda one: _mark(mark_expected(one), words),
+            lambda one: words(f"reference.{one.reference}"),
         ),
+        "validation.reference_is": (TEXTS, lambda one: _mark(one.mark, words)),
         "verify_table.expected": (numbers(".5g"), lambda one: one.expected),
         "validation.computed": (numbers(".5g"), lambda one: one.got),
         "verify_table.error": (numbers(".1e"), lambda one: one.error),
@@ -248,40 +219,6 @@ def _tabulate_cases(cases: Sequence[VerificationCase], words: Words) -> Table:
 
 def _mark(mark: str, words: Words) -> str:
     return words(f"validation_mark.{mark}")
-
-
-def _pick(places: Sequence[Place]) -> list[Place]:
-    return [place for place in places if place.density % 100.0 == 50.0]
-
-
-def _tabulate_softness(places: Sequence[Place], words: Words) -> Table:
-    """Viscosity by each law, and over the middle of the models how soft that is."""
-    ratio = Kind(show=_show_ratio)
-    fields = [
-        Field("density", "validation.density", numbers("g")),
-        Field("stress", "validation.stress", numbers("g")),
-        Field("middle", "validation.models_middle", numbers(".2g")),
-    ]
-    for law in CREEP_LAWS:
-        fields.append(Field(law, law, numbers(".2g")))
-        fields.append(Field(f"{law}_softer", "validation.softer", ratio))
-    rows = [
-        (
-            *(place.density, place.stress / 1e3, find_middle(place.density)),
-            *(
-                value
-                for law in CREEP_LAWS
-                for value in (place.laws[law], place.softness[law])
-            ),
-        )
-        for place in places
-    ]
-    return tabulate(words("validation.softness_caption"), fields, rows, words)
-
-
-def _show_ratio(words: Words, value: float) -> Cell:
-    text = f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
-    return Cell(text=words.write(text), number=value)
 
 
 def _list_models(words: Words) -> str:
@@ -359,7 +296,10 @@ def _tabulate_measured(one: Validation, words: Words) -> Table:
         "validation.member": (TEXTS, lambda at: name_validated(at[1].member, words)),
         computed: (RANGES, lambda at: (at[1].low, at[1].high)),
         "validation.middle": (RANGES, lambda at: at[1].middle),
-        "validation.numerical": (numbers(".1f"), lambda at: 100 * at[1].errors),
+        "validation.numerical": (
+            numbers(".1f"),
+            lambda at: 100 * at[1].numerical_error,
+        ),
         "validation.value": (TEXTS, lambda at: _judge_band(at[0], at[1], one, words)),
     }
     bands = [(pair.measured, band) for pair in one.comparisons for band in pair.bands]
@@ -440,37 +380,17 @@ def write_evidence(evidence: Evidence) -> dict[str, Any]:
 
 def _write_structure(one: Validation) -> dict[str, Any]:
     return {
-        "id": one.structure.id,
-        "kind": one.structure.kind,
-        "source": one.structure.source,
+        **asdict(one.structure),
         "is_known": one.structure.is_known,
         "solved": one.solved,
         "failed": one.failed,
         "reasons": list(one.reasons),
-        "open": list(one.structure.open),
-        "inputs": {
-            name: {"low": span.low, "high": span.high, "mark": span.mark}
-            for name, span in one.structure.inputs.items()
-        },
         "measured": [
             {
-                "name": comparison.measured.name,
-                "value": comparison.measured.value,
-                "uncertainty": comparison.measured.uncertainty,
-                "mark": comparison.measured.mark,
+                **asdict(comparison.measured),
                 "is_inside": comparison.is_inside,
                 "is_in_the_middle": comparison.is_in_the_middle,
-                "bands": [
-                    {
-                        "member": band.member,
-                        "low": band.low,
-                        "high": band.high,
-                        "middle": list(band.middle),
-                        "share_below": band.share_below,
-                        "numerical_error": band.errors,
-                    }
-                    for band in comparison.bands
-                ],
+                "bands": [asdict(band) for band in comparison.bands],
             }
             for comparison in one.comparisons
         ],

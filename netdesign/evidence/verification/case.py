@@ -1,20 +1,26 @@
-"""One comparison with truth."""
+"""Cases of the verification: what each is compared with stands in ``cases.toml``."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from importlib.resources import files
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 Kind = Literal[
     "closed form", "manufactured", "invariant", "limit", "cross model", "published"
 ]
+# Origin of an expected value: computed here, by another code, read, recalled.
+Mark = Literal["here", "code", "read", "recalled"]
+MARKS: tuple[Mark, ...] = get_args(Mark)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class VerificationCase:
     """Result of one comparison.
 
@@ -25,9 +31,11 @@ class VerificationCase:
     kind : str
         What the truth is.
     reference : str
-        Where the expected value comes from.
+        Where the expected value comes from: a text ``reference`` of this key.
+    mark : str
+        Origin of the expected value.
     expected, got : float
-        In the same unit.
+        In the same unit; nan until known.
     error : float
         |got - expected| over |expected|; absolute where 0 is expected.
     tolerance : float
@@ -41,9 +49,10 @@ class VerificationCase:
     id: str
     kind: Kind
     reference: str
-    expected: float
-    got: float
-    tolerance: float
+    mark: Mark
+    expected: float = math.nan
+    got: float = math.nan
+    tolerance: float = math.nan
     order: float | None = None
     least_order: float | None = None
 
@@ -63,11 +72,34 @@ class VerificationCase:
         return self.order is not None and self.order >= self.least_order
 
 
-def expect_zero(
-    name: str, reference: str, got: float, tolerance: float = 1e-8
-) -> VerificationCase:
-    """Invariant whose expected value is 0."""
-    return VerificationCase(name, "invariant", reference, 0.0, got, tolerance)
+class Found(NamedTuple):
+    """Value of a case beside what is expected, where that is computed, too."""
+
+    got: float
+    expected: float
+    order: float | None = None
+
+
+@lru_cache(maxsize=1)
+def load_cases() -> Mapping[str, VerificationCase]:
+    """All cases by their ids, in the order of the table; nothing is computed yet."""
+    text = files(__package__).joinpath("cases.toml").read_text(encoding="utf-8")
+    return {
+        name: VerificationCase(id=name, **{**truth, **own})
+        for truth in tomllib.loads(text)["truth"]
+        for name, own in truth.pop("cases").items()
+    }
+
+
+def judge(found: Mapping[str, float | Found]) -> list[VerificationCase]:
+    """Cases of the table with what was found; a bare number is what was got."""
+    known = load_cases()
+    return [
+        replace(known[name], **one._asdict())
+        if isinstance(one, Found)
+        else replace(known[name], got=float(one))
+        for name, one in found.items()
+    ]
 
 
 def observe_order(sizes: Sequence[float], errors: Sequence[float]) -> float:

@@ -15,7 +15,12 @@ from netdesign.cable.tension import (
     compute_segment_lengths,
     compute_turning_angles,
 )
-from netdesign.evidence.verification.case import VerificationCase, observe_order
+from netdesign.evidence.verification.case import (
+    Found,
+    VerificationCase,
+    judge,
+    observe_order,
+)
 from netdesign.evidence.verification.manufactured import (
     PrescribedFlow,
     build_square,
@@ -35,8 +40,7 @@ from netdesign.snow.mesh import place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.units import SECONDS_PER_YEAR, fluidity_from_mpa_year
 
-_ROUNDING = 1e-12
-_ELMER = "Porous Law for snow and firn in Elmer/Ice (2012)"
+# Of "Porous Law for snow and firn in Elmer/Ice" (2012).
 _DENSITY, _FLUIDITY, _STRESS = 0.5, 20.0, -0.01  # [-], [MPa^-3 a^-1], [MPa]
 _N = 3.0
 _BULK_RATIO, _SLOPE = 2.0, math.radians(40.0)
@@ -46,39 +50,16 @@ _DIVISIONS = (4, 8, 16)
 def list_law() -> list[VerificationCase]:
     """Strain rates of simple stress states, against formula and printed figure."""
     confined, rows = _list_states()
-    cases = []
-    for name, stress, axis, formula, printed in rows:
-        got = _rate_per_year(stress)[axis, axis]
-        for suffix, expected, source, tolerance in (
-            ("", formula, f"formula of {_ELMER}", _ROUNDING),
-            ("-printed", printed, f"figure printed in {_ELMER}, 4 digits", 1e-3),
-        ):
-            cases.append(
-                VerificationCase(
-                    id=name + suffix,
-                    kind="published" if suffix else "closed form",
-                    reference=source,
-                    expected=expected,
-                    got=float(got),
-                    tolerance=tolerance,
-                )
-            )
-    lateral = _rate_per_year(confined)[0, 0] / _rate_per_year(confined)[2, 2]
-    cases.append(
-        VerificationCase(
-            "law-confined-lateral",
-            "closed form",
-            "no lateral strain",
-            expected=0.0,
-            got=float(lateral),
-            tolerance=_ROUNDING,
-        )
-    )
-    return cases
+    found: dict[str, float | Found] = {}
+    for name, stress, axis, formula in rows:
+        got = float(_rate_per_year(stress)[axis, axis])
+        found |= {name: Found(got, formula), f"{name}-printed": got}
+    rate = _rate_per_year(confined)
+    return judge({**found, "law-confined-lateral": rate[0, 0] / rate[2, 2]})
 
 
-def _list_states() -> tuple[Floats, tuple[tuple[str, Floats, int, float, float], ...]]:
-    """Confined compression, and all states: axis, rate by the formula, and printed."""
+def _list_states() -> tuple[Floats, tuple[tuple[str, Floats, int, float], ...]]:
+    """Confined compression, and all states with the axis and rate of the formula."""
     a = compute_shear_factor(ZWINGER_2007, _DENSITY)
     b = compute_bulk_factor(ZWINGER_2007, _DENSITY)
     s = _STRESS
@@ -89,17 +70,12 @@ def _list_states() -> tuple[Floats, tuple[tuple[str, Floats, int, float, float],
     confined = np.diag([s + 3.0 * tau, s + 3.0 * tau, s])
     one = a / 3.0 + b / 9.0
     two = 4.0 / (3.0 * a) + 1.0 / b
+    lateral = _FLUIDITY / 18.0 * one * (2 * b - 3 * a) * s**3
     rows = (
-        ("law-uniaxial", axial, 2, _FLUIDITY * one**2 * s**3, -0.1381),
-        (
-            "law-uniaxial-lateral",
-            axial,
-            0,
-            _FLUIDITY / 18.0 * one * (2 * b - 3 * a) * s**3,
-            0.03328,
-        ),
-        ("law-isotropic", even, 0, b**2 * _FLUIDITY * s**3 / 3.0, -0.1113),
-        ("law-confined", confined, 2, _FLUIDITY * two**-2 * s**3, -0.0991),
+        ("law-uniaxial", axial, 2, _FLUIDITY * one**2 * s**3),
+        ("law-uniaxial-lateral", axial, 0, lateral),
+        ("law-isotropic", even, 0, b**2 * _FLUIDITY * s**3 / 3.0),
+        ("law-confined", confined, 2, _FLUIDITY * two**-2 * s**3),
     )
     return confined, rows
 
@@ -110,62 +86,36 @@ def list_snow() -> list[VerificationCase]:
     size = math.hypot(math.sin(_SLOPE), math.cos(_SLOPE) / math.sqrt(stiffness))
     scale = size ** (_N - 1.0) / (_N + 1.0)
     column = stiffness ** (-(_N + 1.0) / 2.0) / (_N + 1.0)
-    return [
-        _slab_case("column-settlement", 0.0, 1, -column, f"w(z) of {_ELMER}"),
-        _slab_case(
-            "slab-shear",
-            _SLOPE,
-            0,
-            scale * math.sin(_SLOPE),
-            "surface velocity of an infinite slab, stress linear in depth",
-        ),
-        _slab_case(
-            "slab-settlement",
-            _SLOPE,
-            1,
-            -scale * math.cos(_SLOPE) / stiffness,
-            "settlement of an infinite slab, stress linear in depth",
-        ),
-    ]
+    along, across = scale * math.sin(_SLOPE), -scale * math.cos(_SLOPE) / stiffness
+    return judge(
+        {
+            "column-settlement": _settle_slab(0.0, 1, -column),
+            "slab-shear": _settle_slab(_SLOPE, 0, along),
+            "slab-settlement": _settle_slab(_SLOPE, 1, across),
+        }
+    )
 
 
 def list_cable() -> list[VerificationCase]:
     """Elastic catenary (uniform load along its length) and shallow parabola."""
     load, chord, stiffness = 10.0, 4.0, 20e3
     exact = _clamped_parabola(load, chord, stiffness)
-    cases = []
-    errors = []
-    counts = (2, 4, 8)
+    errors, counts = [], (2, 4, 8)
     for count in counts:
         cable = _solve_uniform(load, chord, stiffness, count)
         errors.append(abs(float(np.hypot(*cable.foot_pull)) / exact - 1.0))
-    cases.append(
-        VerificationCase(
-            id="cable-catenary",
-            kind="closed form",
-            reference="elastic catenary, cable/THEORY.md (C9)",
-            expected=exact,
-            got=exact * (1.0 + errors[-1]),
-            tolerance=1e-6,
-            order=observe_order([1.0 / n for n in counts], errors),
-            least_order=1.9,
-        )
-    )
+    order = observe_order([1.0 / n for n in counts], errors)
     # a small sag is the premise of the formula: a stiff cable, a light load
     stiff = 1e9
-    shallow = _solve_uniform(1.0, chord, stiff, 8)
-    sag = float(shallow.curve[0].max())
-    cases.append(
-        VerificationCase(
-            id="cable-parabola-sag",
-            kind="closed form",
-            reference="f^3 = 3 q b^4 / (64 ES), shallow limit",
-            expected=compute_parabola_sag(1.0, chord, stiff, 0.0),
-            got=sag,
-            tolerance=1e-4,
-        )
+    sag = float(_solve_uniform(1.0, chord, stiff, 8).curve[0].max())
+    return judge(
+        {
+            "cable-catenary": Found(exact * (1.0 + errors[-1]), exact, order),
+            "cable-parabola-sag": Found(
+                sag, compute_parabola_sag(1.0, chord, stiff, 0.0)
+            ),
+        }
     )
-    return cases
 
 
 def _rate_per_year(stress_mpa: Floats) -> Floats:
@@ -174,23 +124,12 @@ def _rate_per_year(stress_mpa: Floats) -> Floats:
     return rate * SECONDS_PER_YEAR
 
 
-def _slab_case(
-    name: str, slope: float, axis: int, exact: float, reference: str
-) -> VerificationCase:
+def _settle_slab(slope: float, axis: int, exact: float) -> Found:
     errors, got = [], math.nan
     for divisions in _DIVISIONS:
         got, error = _solve_slab(divisions, slope, axis)
         errors.append(error)
-    return VerificationCase(
-        id=name,
-        kind="closed form",
-        reference=reference,
-        expected=exact,
-        got=got,
-        tolerance=1e-4,
-        order=observe_order([1.0 / n for n in _DIVISIONS], errors),
-        least_order=2.85,
-    )
+    return Found(got, exact, observe_order([1.0 / n for n in _DIVISIONS], errors))
 
 
 def _solve_slab(divisions: int, slope: float, axis: int) -> tuple[float, float]:
@@ -270,40 +209,19 @@ _INCREMENTS = (16, 32, 64)
 def list_sliding_net() -> list[VerificationCase]:
     """Sliding in both directions over an arc; increments of the paper's cable."""
     exact = compute_capstan_ratio(_WRAP, _FRICTION_ANGLE)
-    cases = []
+    found = {}
     for name, expected, is_reversed in (
         ("capstan-to-head", exact, False),
         ("capstan-to-foot", 1.0 / exact, True),
     ):
         ratios = [_end_ratio(count, is_reversed=is_reversed) for count in _COUNTS]
         errors = [abs(ratio / expected - 1.0) for ratio in ratios]
-        cases.append(
-            VerificationCase(
-                id=name,
-                kind="closed form",
-                reference="Euler-Eytelwein exp(tan phi angle), 60 degrees, phi 30",
-                expected=expected,
-                got=ratios[-1],
-                tolerance=1e-3,
-                order=observe_order([1.0 / n for n in _COUNTS], errors),
-                least_order=1.9,
-            )
-        )
+        order = observe_order([1.0 / n for n in _COUNTS], errors)
+        found[name] = Found(ratios[-1], expected, order)
     pairs = [_bulge_tensions(count) for count in _INCREMENTS]
     errors = [abs(paper / ours - 1.0) for paper, ours in pairs]
-    cases.append(
-        VerificationCase(
-            id="paper-increments",
-            kind="cross model",
-            reference="the paper's Eqs 5 to 14 against the exact convex form",
-            expected=pairs[-1][1],
-            got=pairs[-1][0],
-            tolerance=1e-2,
-            order=observe_order([1.0 / n for n in _INCREMENTS], errors),
-            least_order=0.9,
-        )
-    )
-    return cases
+    order = observe_order([1.0 / n for n in _INCREMENTS], errors)
+    return judge({**found, "paper-increments": Found(*pairs[-1], order)})
 
 
 def _end_ratio(count: int, *, is_reversed: bool) -> float:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.evidence.scene import build_scene, solve
-from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.case import VerificationCase, judge
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,
@@ -28,7 +28,6 @@ from netdesign.snowpack.hs2swe import Hs2swe
 DENSITIES = tuple(float(rho) for rho in range(150, 451, 25))  # [kg/m3]
 STRESSES = (1e3, 3e3, 5e3, 10e3)  # [Pa]
 PLACE = (367.0, 5e3)  # at which one figure is quoted [kg/m3, Pa]
-_WITHIN = 2.0  # factor between the default law and the middle of the others
 _COLD = 5.0  # snow below freezing, for the band of temperature [K]
 
 
@@ -123,12 +122,6 @@ class Place:
     stress: float
     laws: dict[str, float]
     models: dict[str, tuple[float, float]]  # at freezing, and `_COLD` below
-
-    @property
-    def softness(self) -> dict[str, float]:
-        """Middle of the models over each law's: above 1 the law is too soft [-]."""
-        middle = find_middle(self.density)
-        return {name: middle / value for name, value in self.laws.items()}
 
 
 def list_places() -> list[Place]:
@@ -230,16 +223,5 @@ def _find_tensions(
 def list_compaction() -> list[VerificationCase]:
     """Settling of the default law at one place, against models in operational use."""
     density, stress = PLACE
-    return [
-        VerificationCase(
-            id="compaction-default",
-            kind="published",
-            reference="log over middle of Crocus, ISBA, HS2SWE, SNTHRM; factor 2",
-            expected=0.0,
-            got=math.log(
-                compute_viscosity(BOUTILLIER_2004, density, stress)
-                / find_middle(density)
-            ),
-            tolerance=math.log(_WITHIN),
-        )
-    ]
+    own = compute_viscosity(BOUTILLIER_2004, density, stress)
+    return judge({"compaction-default": math.log(own / find_middle(density))})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -15,10 +16,14 @@ from netdesign.coupling.history.settings import (
 from netdesign.coupling.history.staggered import run_exchange
 from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.moments import HistoryPoint
-from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.verification.case import VerificationCase, observe_order
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.evidence.scene import solve
+from netdesign.evidence.verification.case import (
+    Found,
+    VerificationCase,
+    judge,
+    observe_order,
+)
 from netdesign.evidence.verification.coupled import build_paper_scene
 from netdesign.numerics.arrays import Floats
 
@@ -29,36 +34,23 @@ _SETTLED = 1e-4  # creep time after which pulls must be smooth; 3 s in these sce
 
 def list_histories() -> list[VerificationCase]:
     """Steady state met, balance of all steps, smooth pulls, staggered trend."""
-    cases = []
-    for inclination in (0.0, 30.0):
-        scene = build_paper_scene(inclination=inclination)
+    found: dict[str, float | Found] = {}
+    for inclination in (0, 30):
+        scene, name = (
+            build_paper_scene(inclination=inclination),
+            f"history-{inclination}",
+        )
         run = _run(scene, start="sagged", densifies=False, level=1)
-        cases += _compare_with_steady(scene, run, f"history-{inclination:g}")
-        cases += _check_steps(run, f"history-{inclination:g}")
+        found |= _compare_with_steady(scene, run, name)
+        found |= _check_steps(run, name)
         straight = _run(scene, start="straight", densifies=True, level=1)
-        cases += _check_steps(straight, f"history-{inclination:g}-straight")
-    return [*cases, _compare_staggered()]
+        found |= _check_steps(straight, f"{name}-straight")
+    return judge({**found, "staggered-tends-to-transient": _compare_staggered()})
 
 
-def _check_steps(run: Run, name: str) -> list[VerificationCase]:
-    return [
-        VerificationCase(
-            id=f"{name}-balance",
-            kind="invariant",
-            reference="no force missing in any step, over the weight",
-            expected=0.0,
-            got=max(moment.residual for moment in run.moments),
-            tolerance=1e-8,
-        ),
-        VerificationCase(
-            id=f"{name}-smooth",
-            kind="invariant",
-            reference="no step takes back what the one before has changed in a pull",
-            expected=0.0,
-            got=_largest_return(run),
-            tolerance=5e-3,
-        ),
-    ]
+def _check_steps(run: Run, name: str) -> dict[str, float]:
+    residual = max(moment.residual for moment in run.moments)
+    return {f"{name}-balance": residual, f"{name}-smooth": _largest_return(run)}
 
 
 def _run(scene: Scene, *, start: str, densifies: bool, level: int) -> Run:
@@ -70,33 +62,22 @@ def _run(scene: Scene, *, start: str, densifies: bool, level: int) -> Run:
     return run_history(scene, TRANSIENT_LEVELS[level], settings, _HORIZON)
 
 
-def _compare_with_steady(scene: Scene, run: Run, name: str) -> list[VerificationCase]:
-    """Pulls when the net has come to rest, densification off."""
-    steady = solve_steady(scene, on_failure="raise")
-    if not isinstance(steady, Solution) or run.plateau.end is None:
-        return [
-            VerificationCase(
-                id=f"{name}-foot",
-                kind="cross model",
-                reference="the history has no plateau",
-                expected=0.0,
-                got=1.0,
-                tolerance=0.0,
-            )
-        ]
+def _compare_with_steady(scene: Scene, run: Run, name: str) -> dict[str, Found]:
+    """Pulls [kN/m] when the net has come to rest, densification off."""
+    steady = solve(scene, SolverSettings())
+    if run.plateau.end is None:
+        return {f"{name}-{end}": Found(math.nan, math.nan) for end in ("foot", "head")}
     moment = run.moments[run.plateau.end]
-    pulls = ((steady.foot.size, moment.foot), (steady.head.size, moment.head))
-    return [
-        VerificationCase(
-            id=f"{name}-{end}",
-            kind="cross model",
-            reference="steady state, when the sagged net has come to rest",
-            expected=expected / 1e3,
-            got=float(np.hypot(*got)) * scene.force_scale / 1e3,
-            tolerance=0.01,
-        )
-        for end, (expected, got) in zip(("foot", "head"), pulls, strict=True)
-    ]
+    pulls = {"foot": (moment.foot, steady.foot), "head": (moment.head, steady.head)}
+    return {
+        f"{name}-{end}": Found(_size(got, scene), expected.size / 1e3)
+        for end, (got, expected) in pulls.items()
+    }
+
+
+def _size(pull: Floats, scene: Scene) -> float:
+    """Pull of a history [kN/m]."""
+    return float(np.hypot(*pull)) * scene.force_scale / 1e3
 
 
 def _largest_return(run: Run) -> float:
@@ -115,29 +96,13 @@ def _sizes(moments: list[HistoryPoint], end: str) -> Floats:
     return np.array([float(np.hypot(*getattr(moment, end))) for moment in moments])
 
 
-def _compare_staggered() -> VerificationCase:
+def _compare_staggered() -> Found:
     """Foot pull of the exchange at one creep time, drag and step shrinking."""
     scene = build_paper_scene(inclination=0.0)
     history = _run(scene, start="straight", densifies=True, level=0)
-    expected = float(np.hypot(*history.moments[-1].foot)) * scene.force_scale / 1e3
+    expected = _size(history.moments[-1].foot, scene)
     settings = StaggeredSettings(horizon=_HORIZON)
-    got = [
-        float(
-            np.hypot(
-                *run_exchange(scene, replace(settings, base_drag=drag)).moments[-1].foot
-            )
-        )
-        * scene.force_scale
-        / 1e3
-        for drag in _DRAGS
-    ]
-    return VerificationCase(
-        id="staggered-tends-to-transient",
-        kind="cross model",
-        reference="implicit history at the same time; drag and step halved",
-        expected=expected,
-        got=got[-1],
-        tolerance=0.12,
-        order=observe_order(_DRAGS, [abs(value - expected) for value in got]),
-        least_order=0.6,
-    )
+    runs = [run_exchange(scene, replace(settings, base_drag=drag)) for drag in _DRAGS]
+    got = [_size(run.moments[-1].foot, scene) for run in runs]
+    order = observe_order(_DRAGS, [abs(value - expected) for value in got])
+    return Found(got[-1], expected, order)

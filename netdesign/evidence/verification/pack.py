@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from netdesign.evidence.table import print_lines, print_rows
+from netdesign.evidence.table import show_lines, show_rows
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.closed_forms import (
     list_cable,
@@ -30,6 +30,7 @@ from netdesign.evidence.verification.plan_view import list_plan_view
 from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
 from netdesign.evidence.verification.winters import list_snow_heights, list_winters
 from netdesign.report.words import Words
+from netdesign.words.catalogue import load_texts
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -73,13 +74,14 @@ def run_pack(
 
 def write_pack(cases: Sequence[VerificationCase]) -> dict[str, Any]:
     """Plain values in the form ``netdesign.verification/1``."""
+    texts = load_texts("en")
     return {
         "schema": "netdesign.verification/1",
         "cases": [
             {
                 "id": case.id,
                 "kind": case.kind,
-                "reference": case.reference,
+                "reference": texts[f"reference.{case.reference}"],
                 "expected": case.expected,
                 "got": case.got,
                 "error": case.error,
@@ -98,10 +100,14 @@ def print_cases(
 ) -> None:
     """Print one line per case, then how many of each kind pass."""
     rows = [
-        row | {"kind": name_kind(row["kind"], words)}
-        for row in write_pack(cases)["cases"]
+        row
+        | {
+            "kind": name_kind(case.kind, words),
+            "reference": words(f"reference.{case.reference}"),
+        }
+        for case, row in zip(cases, write_pack(cases)["cases"], strict=True)
     ]
-    print_rows(rows, console, words, "verify_table")
+    show_rows(rows, console, words, "verify_table")
     for kind in dict.fromkeys(case.kind for case in cases):
         passes = [case.passes for case in cases if case.kind == kind]
         line = words(
@@ -110,7 +116,7 @@ def print_cases(
             passed=sum(passes),
             count=len(passes),
         )
-        print_lines([line], console)
+        show_lines([line], console)
 
 
 def name_kind(kind: str, words: Words) -> str:

@@ -21,7 +21,7 @@ from scipy.sparse.linalg import spsolve
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.evidence.scene import build_scene, solve
-from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.case import Found, VerificationCase, judge
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Cut, Panel, Rope
@@ -34,11 +34,7 @@ _HEIGHT = 3.0  # [m]
 _SLIP_RATIO = 2.4147  # N 1.8 as the prototype had it
 _ROPE = Rope(stiffness=18e6, sag=0.05)
 _PANEL = Panel(post_spacing=4.0, lower=_ROPE, upper=_ROPE, cut="upper")
-# Of the prototype: foot, head, H and T of the lower, then of the upper rope [kN].
-_PROTOTYPE: dict[Cut, tuple[float, ...]] = {
-    "uniform": (175.0, 129.6, 237.2, 252.9, 187.4, 198.3),
-    "upper": (186.8, 141.2, 249.9, 266.8, 200.8, 212.9),
-}
+# Of foot, head, H and T of the lower, then of the upper rope.
 _NAMES = ("foot", "head", "lower-H", "lower-T", "upper-H", "upper-T")
 _STRAIGHT = Rope(stiffness=1e40, sag=0.0)  # [N]
 
@@ -46,55 +42,32 @@ _STRAIGHT = Rope(stiffness=1e40, sag=0.0)  # [N]
 def list_panels() -> list[VerificationCase]:
     """One section, its panel by a prototype, in space, and on straight ropes."""
     section = _solve_section()
-    cases = [
-        VerificationCase(
-            id=f"panel-{cut}-{name}",
-            kind="cross model",
-            reference="prototype of the same model: strips between two elastic ropes",
-            expected=expected,
-            got=got / 1e3,
-            tolerance=5e-3,
-        )
-        for cut, row in _PROTOTYPE.items()
-        for name, expected, got in zip(
-            _NAMES, row, _list_forces(_solve(section, cut)), strict=True
-        )
-    ]
-    return [*cases, *_list_in_space(section), _hang_straight(section)]
+    cuts: tuple[Cut, ...] = ("uniform", "upper")
+    found: dict[str, float | Found] = {
+        f"panel-{cut}-{name}": got / 1e3
+        for cut in cuts
+        for name, got in zip(_NAMES, _list_forces(_solve(section, cut)), strict=True)
+    }
+    straight = replace(_PANEL, lower=_STRAIGHT, upper=_STRAIGHT, cut="uniform")
+    foot = math.hypot(*_require(solve_panel(section, straight)).foot)
+    expected = section.foot.size * straight.post_spacing
+    found |= _list_in_space(section)
+    return judge({**found, "panel-straight-ropes": Found(foot / 1e3, expected / 1e3)})
 
 
-def _list_in_space(section: Solution) -> list[VerificationCase]:
+def _list_in_space(section: Solution) -> dict[str, Found]:
     panel = _solve(section, "upper")
     net = solve_net_in_space(take_strip(section), panel.panel)
     pairs = {
-        "foot": (np.hypot(*net.foot), math.hypot(*panel.foot)),
-        "head": (np.hypot(*net.head), math.hypot(*panel.head)),
-        "lower-H": (net.lower_along, panel.lower.along),
-        "upper-H": (net.upper_along, panel.upper.along),
+        "foot": (math.hypot(*panel.foot), math.hypot(*net.foot)),
+        "head": (math.hypot(*panel.head), math.hypot(*net.head)),
+        "lower-H": (panel.lower.along, net.lower_along),
+        "upper-H": (panel.upper.along, net.upper_along),
     }
-    return [
-        VerificationCase(
-            id=f"panel-in-space-{name}",
-            kind="cross model",
-            reference="net of bars in space that only pull, least energy",
-            expected=float(expected) / 1e3,
-            got=got / 1e3,
-            tolerance=0.02,
-        )
-        for name, (expected, got) in pairs.items()
-    ]
-
-
-def _hang_straight(section: Solution) -> VerificationCase:
-    panel = replace(_PANEL, lower=_STRAIGHT, upper=_STRAIGHT, cut="uniform")
-    return VerificationCase(
-        id="panel-straight-ropes",
-        kind="limit",
-        reference="pull times spacing, as EA grows without bound",
-        expected=section.foot.size * panel.post_spacing / 1e3,
-        got=math.hypot(*_require(solve_panel(section, panel)).foot) / 1e3,
-        tolerance=1e-10,
-    )
+    return {
+        f"panel-in-space-{name}": Found(got / 1e3, expected / 1e3)
+        for name, (got, expected) in pairs.items()
+    }
 
 
 def _solve_section() -> Solution:

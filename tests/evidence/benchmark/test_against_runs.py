@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from netdesign import __version__
-from netdesign.evidence.benchmark import probe
+from netdesign.evidence.benchmark import against, probe
 from netdesign.evidence.benchmark.against import (
     Bench,
     RunFailure,
@@ -17,7 +17,13 @@ from netdesign.evidence.benchmark.against import (
     time_scenes,
     time_solve,
 )
-from netdesign.evidence.benchmark.scenes import NAMES, SHORT, write_scene, write_site
+from netdesign.evidence.benchmark.scenes import (
+    INPUTS,
+    NAMED,
+    NAMES,
+    load_scenes,
+    write_site,
+)
 from netdesign.files.scene import read_scene
 from netdesign.outcome import ModelError
 from netdesign.site.reader import read_site
@@ -28,9 +34,9 @@ SMALL = Size(scenes=("flat-light",), solves=1, samples=2, rows=9)
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory):
-    made = Bench(tmp_path_factory.mktemp("bench"), SMALL, has_core=True)
-    made.write_inputs()
-    return made
+    folder = tmp_path_factory.mktemp("bench")
+    write_site(folder / "site", SMALL.rows)
+    return Bench(folder, SMALL, has_core=True)
 
 
 def test_scenes_are_solved_in_a_process_of_the_version(bench):
@@ -39,23 +45,19 @@ def test_scenes_are_solved_in_a_process_of_the_version(bench):
     assert middle == high  # of one scene
 
 
-def test_a_scene_without_a_result_fails(bench, tmp_path):
-    spoilt = Bench(tmp_path, SMALL, has_core=True)
-    (tmp_path / "scenes").mkdir()
-    (tmp_path / "scenes" / "flat-light.toml").write_text("[slope]\n")
+def test_a_scene_without_a_result_fails(tmp_path, monkeypatch):
+    (tmp_path / "spoilt.toml").write_text("[slope]\n")
+    monkeypatch.setattr(against, "NAMED", tmp_path)
+    spoilt = Bench(tmp_path, Size(scenes=("spoilt",)), has_core=True)
     with pytest.raises(RunFailure, match="1"):
         time_scenes(spoilt, THIS)
     with pytest.raises(RunFailure, match="3"):  # its exit code
         time_solve(spoilt, THIS)
 
 
-def test_every_scene_is_written_as_it_is(tmp_path):
-    from netdesign.evidence.benchmark.scenes import SCENES, load_scenes
-
-    known = load_scenes()
-    for name in SCENES:
-        write_scene(tmp_path / "scene.toml", SCENES[name])
-        assert read_scene(tmp_path / "scene.toml")[0] == known[name]
+def test_every_named_scene_is_a_scene_file():
+    for name, scene in load_scenes().items():
+        assert read_scene(NAMED / f"{name}.toml")[0] == scene
     assert len(NAMES) == 16
 
 
@@ -72,9 +74,8 @@ def test_rows_of_the_site_are_all_different(tmp_path):
     assert len({(row.snow_thickness, row.upslope_length) for row in rows}) == 20
 
 
-def test_a_command_in_a_process_that_has_loaded_what_it_needs(bench, monkeypatch):
-    write_scene(bench.folder / "short.toml", SHORT)
-    monkeypatch.chdir(bench.folder)
+def test_a_command_in_a_process_that_has_loaded_what_it_needs(monkeypatch):
+    monkeypatch.chdir(INPUTS)
     monkeypatch.setattr(sys, "argv", [])
     words = ["envelope", "short.toml", "--density", "300:310:2", "--confirm", "none"]
     words += ["--no-cache", "--json", "--quiet", "--jobs", "1"]

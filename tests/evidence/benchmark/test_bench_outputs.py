@@ -6,16 +6,14 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 from rich.console import Console
 
-from netdesign.evidence.benchmark.honesty import Finding, write_errors
-from netdesign.evidence.benchmark.lines import Line, write_lines
+from netdesign.evidence.benchmark.attempts import Attempt, write_errors, write_stress
 from netdesign.evidence.benchmark.precision import (
     Row,
     draw_work_precision,
     print_bench,
     write_bench,
 )
-from netdesign.evidence.benchmark.stress import Attempt, write_stress
-from netdesign.evidence.table import print_document, print_figure
+from netdesign.evidence.table import show_document
 from netdesign.report.words import Words
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import say
@@ -39,6 +37,11 @@ ROWS = [
     for elements, error in ((100, 0.01), (200, 0.005), (400, 0.0025))
     for path, seconds in (("fast", 0.0125), ("reference", 0.1))
 ]
+
+
+def compared(number, **more) -> Attempt:
+    """Attempt that was held against a finer mesh."""
+    return Attempt(number=number, kind="converged", cpu_s=1, **more)
 
 
 def printed(show, document, language="en") -> list[list[str]]:
@@ -68,7 +71,7 @@ def test_a_stress_test_on_a_terminal():
         Attempt(number=1, kind="failed", reason="[diverged] wholly"),
         Attempt(number=2, kind="refused before", reason="too low"),
     ]
-    lines = printed(print_document, write_stress(attempts, 4))
+    lines = printed(show_document, write_stress(attempts, 4))
     for line in (
         ["scenes", "3"],
         ["seed", "4"],
@@ -82,14 +85,12 @@ def test_a_stress_test_on_a_terminal():
 
 
 def test_honesty_on_a_terminal():
-    findings = [
-        Finding(
-            number=0, true_error=0.001, stated_error=0.002, is_inside=True, cpu_s=1
-        ),
-        Finding(number=1, true_error=0.02, stated_error=0.01, cpu_s=1),
-        Finding(number=2, missing="finer mesh: diverged"),
+    attempts = [
+        compared(0, true_error=0.001, stated_error=0.002, is_inside=True),
+        compared(1, true_error=0.02, stated_error=0.01),
+        compared(2, reason="finer mesh: diverged"),
     ]
-    lines = printed(print_document, write_errors(findings, 1, 0.005))
+    lines = printed(show_document, write_errors(attempts, 1, 0.005))
     assert ["compared with a finer mesh", "2"] in lines
     assert ["share inside the stated error [-]", "0.3333"] in lines
     assert ["share below the accuracy [-]", "0.3333"] in lines
@@ -97,8 +98,8 @@ def test_honesty_on_a_terminal():
     assert ["2", "finer mesh: diverged"] in lines
 
 
-# Of use to programs alone: what made a document, a scene's file, each single ratio.
-FOR_PROGRAMS = {"schema", "tables", "ratios", "reasons"}
+# Of use to programs alone: what made a document, a scene's file.
+FOR_PROGRAMS = {"schema", "tables"}
 
 
 def list_keys(value):
@@ -116,12 +117,11 @@ def test_every_key_of_a_document_has_a_name():
     documents = [
         write_stress(ATTEMPTS, 4),
         write_errors(FINDINGS, 1, 0.005),
-        write_lines(LINES, 1, 0.005),
-        *({"rows": [row]} for row in write_bench(ROWS)["rows"]),
+        *write_bench(ROWS)["rows"],
         write_bench(ROWS)["summary"],
     ]
     named = {key for key in load_texts("en") if key.startswith("bench_value.")}
-    assert {f"bench_value.{key}" for key in list_keys(documents)} <= named
+    assert {f"bench_value.{key}" for key in list_keys(documents)} == named
 
 
 def test_plot():
@@ -146,24 +146,9 @@ ATTEMPTS = [
     Attempt(number=3, kind="refused while solving", reason=say("bench.yes")),
 ]
 FINDINGS = [
-    Finding(number=1, true_error=0.0213, stated_error=0.01, cpu_s=1),
-    Finding(number=2, missing=FINER),
+    compared(1, true_error=0.0213, stated_error=0.01),
+    compared(2, reason=FINER),
 ]
-FIGURE = {
-    "what": say("bench.row_what"),
-    "reach": say("bench.row_reach"),
-    "reached": True,
-    **dict.fromkeys(
-        (
-            key.partition(".")[2]
-            for key in load_texts("en")
-            if key.startswith("bench_value.")
-        ),
-        1.25,
-    ),
-    "first": {"wall_s": 2.5},
-    "is_closed": False,
-}
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])
@@ -171,10 +156,8 @@ def test_every_table_in_a_language(language):
     """No word of English, and no decimal point, besides names and what others said."""
     documents = (
         (print_bench, write_bench(ROWS)),
-        (print_document, write_stress(ATTEMPTS, 4, 0.005, language)),
-        (print_document, write_errors(FINDINGS, 1, 0.005, language)),
-        (print_document, write_lines(LINES, 1, 0.005, language)),
-        (print_figure, FIGURE),
+        (show_document, write_stress(ATTEMPTS, 4, 0.005, language)),
+        (show_document, write_errors(FINDINGS, 1, 0.005, language)),
     )
     told = [
         "\n".join(map(" ".join, printed(show, one, language)))
@@ -187,28 +170,4 @@ def test_every_table_in_a_language(language):
     text = re.sub(r"scikit-fem|paper-\d+|layered", "", "\n".join(told))
     assert list_words(text) & english == set()
     assert re.findall(r"\d\.\d", text) == []
-    assert len(re.findall(r"\d,\d", text)) > 60
-
-
-LINES = [
-    Line(
-        number=1,
-        parameter="friction angle",
-        solved=17,
-        refused=1,
-        jumps=[
-            {
-                "place": 3,
-                "end": "foot",
-                "relative": 0.031,
-                "over_stated": 1.25,
-                "elements": [100, 200],
-            }
-        ],
-        bends=0,
-        largest_jump=1.25,
-        ratios=[0.25],
-        missing=["..."],
-        reasons=[],
-    )
-]
+    assert len(re.findall(r"\d,\d", text)) > 50

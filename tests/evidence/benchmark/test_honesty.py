@@ -5,12 +5,11 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.evidence.benchmark import honesty
-from netdesign.evidence.benchmark.honesty import (
-    Finding,
-    judge_scene,
+from netdesign.evidence.benchmark import attempts
+from netdesign.evidence.benchmark.attempts import (
+    Attempt,
+    attempt_scene,
     list_accepted,
     study_errors,
     write_errors,
@@ -19,13 +18,15 @@ from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import Truth
 from netdesign.outcome import ModelError, Outcome, SolveError
 
+ACCEPTED = next(list_accepted(1))
+
 
 @pytest.mark.parametrize(
     ("end", "share", "is_inside"),
     [("foot", 0.99, True), ("foot", 1.01, False), ("head", 1.01, False)],
 )
 def test_each_end_has_to_lie_inside_its_own_error(
-    monkeypatch, solved, a_scene, end, share, is_inside
+    monkeypatch, solved, end, share, is_inside
 ):
     solution = solved()
     pulls = {
@@ -36,12 +37,12 @@ def test_each_end_has_to_lie_inside_its_own_error(
     size = float(np.hypot(*pulls[end]))
     # true pull in the same direction, off by a share of the stated relative error
     pulls[end] *= 1.0 / (1.0 + share * error / size)
-    monkeypatch.setattr(honesty, "solve_steady", lambda *_: solution)
-    monkeypatch.setattr(honesty, "solve_truth", lambda *_: Truth(**pulls))
-    finding = judge_scene(3, a_scene(), SolverSettings())
-    assert finding.is_inside is is_inside
-    assert finding.true_error == pytest.approx(share * error / size)
-    assert not finding.missing
+    monkeypatch.setattr(attempts, "solve_steady", lambda *_: solution)
+    monkeypatch.setattr(attempts, "solve_truth", lambda *_: Truth(**pulls))
+    attempt = attempt_scene(ACCEPTED, seed=1, is_compared=True)
+    assert attempt.is_inside is is_inside
+    assert attempt.true_error == pytest.approx(share * error / size)
+    assert not attempt.reason
 
 
 def test_only_accepted_scenes_are_studied():
@@ -58,14 +59,15 @@ def test_a_truth_that_fails_is_told(monkeypatch):
     def fail(*_):
         raise SolveError(Outcome.DIVERGED, "too fine")
 
-    monkeypatch.setattr(honesty, "solve_truth", fail)
-    (finding,) = study_errors(1, 1, 0.05)
-    assert "too fine" in str(finding.missing)
+    monkeypatch.setattr(attempts, "solve_truth", fail)
+    (attempt,) = study_errors(1, 1, accuracy=0.05)
+    assert "too fine" in str(attempt.reason)
 
 
 def finding(number, true, stated, *, inside=True):
-    return Finding(
+    return Attempt(
         number=number,
+        kind="converged",
         true_error=true,
         stated_error=stated,
         is_inside=inside,
@@ -76,7 +78,7 @@ def finding(number, true, stated, *, inside=True):
 def test_report():
     good = [finding(k, 0.001, 0.002) for k in range(18)]
     missed = [finding(18, 0.004, 0.003, inside=False)]
-    lost = [Finding(number=19, missing="finer mesh: diverged")]
+    lost = [Attempt(number=19, kind="converged", reason="finer mesh: diverged")]
     document = write_errors([*good, *missed, *lost], 1, 0.005)
     assert document["schema"] == "netdesign.errors/1"
     assert (document["scenes"], document["compared"]) == (20, 19)
@@ -99,7 +101,7 @@ def test_share_that_has_to_be_reached(count, passes):
 
 
 def test_what_was_not_compared_never_passes():
-    lost = [Finding(number=k, missing="diverged") for k in range(3)]
+    lost = [Attempt(number=k, kind="failed", reason="diverged") for k in range(3)]
     assert write_errors(lost, 1, 0.005)["pass"] is False
     few = [finding(k, 0.001, 0.002) for k in range(2)]
     assert write_errors([*few, *lost], 1, 0.005)["pass"] is False
@@ -107,7 +109,10 @@ def test_what_was_not_compared_never_passes():
 
 
 def test_what_the_model_excludes_counts_neither_way():
-    refused = [Finding(number=k, missing="touches", is_refused=True) for k in range(9)]
+    refused = [
+        Attempt(number=k, kind="refused while solving", reason="touches")
+        for k in range(9)
+    ]
     good = [finding(k, 0.001, 0.002) for k in range(2)]
     document = write_errors([*good, *refused], 1, 0.005)
     assert document["pass"] is True
@@ -115,10 +120,9 @@ def test_what_the_model_excludes_counts_neither_way():
     assert write_errors(refused, 1, 0.005)["pass"] is False
 
 
-@pytest.mark.parametrize("outcome", [Outcome.OUT_OF_VALIDITY, Outcome.MAX_ITERATIONS])
-def test_only_the_models_own_limits_are_refusals(monkeypatch, a_scene, outcome):
-    failed = FailedSolution(outcome=outcome, reason="why")
-    monkeypatch.setattr(honesty, "solve_steady", lambda *_: failed)
-    finding = judge_scene(0, a_scene(), SolverSettings())
-    assert str(finding.missing) == "why"
-    assert finding.is_refused is (outcome is Outcome.OUT_OF_VALIDITY)
+def test_a_solve_that_fails_is_not_compared(monkeypatch):
+    failed = FailedSolution(outcome=Outcome.MAX_ITERATIONS, reason="why")
+    monkeypatch.setattr(attempts, "solve_steady", lambda *_: failed)
+    monkeypatch.setattr(attempts, "solve_truth", lambda *_: pytest.fail("compared"))
+    attempt = attempt_scene(ACCEPTED, seed=1, is_compared=True)
+    assert (attempt.kind, str(attempt.reason)) == ("failed", "max_iterations: why")

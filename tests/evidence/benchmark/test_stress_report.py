@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.solution import FailedSolution
-from netdesign.evidence.benchmark import stress
-from netdesign.evidence.benchmark.honesty import list_accepted
-from netdesign.evidence.benchmark.stress import (
+from netdesign.evidence.benchmark import attempts
+from netdesign.evidence.benchmark.attempts import (
     Attempt,
     attempt_scene,
     generalise,
+    list_accepted,
     run_stress,
     write_stress,
 )
@@ -22,7 +22,7 @@ ACCEPTED = next(list_accepted(SEED))
 
 
 def attempt_with(monkeypatch, solve) -> Attempt:
-    monkeypatch.setattr(stress, "solve_steady", solve)
+    monkeypatch.setattr(attempts, "solve_steady", solve)
     return attempt_scene(ACCEPTED, seed=SEED)
 
 
@@ -73,7 +73,7 @@ def test_a_poor_balance_is_a_failure(monkeypatch, solved, balance, kind):
 
 
 def test_refused_before_solving(monkeypatch):
-    monkeypatch.setattr(stress, "solve_steady", lambda *_: pytest.fail("was solved"))
+    monkeypatch.setattr(attempts, "solve_steady", lambda *_: pytest.fail("was solved"))
     accepted = set()
     for number in list_accepted(SEED):
         accepted.add(number)

@@ -60,7 +60,7 @@ def test_page_has_every_statement_with_its_call(study, files):
 def test_every_drawing_stands_on_the_page_and_as_a_file(files):
     page = files[PAGE_FILE].decode()
     drawings = [name for name in files if name.endswith(".svg")]
-    assert len(drawings) == 8
+    assert len(drawings) == 4
     for name in drawings:
         ElementTree.fromstring(files[name])
         assert f'id="plate-{name.removesuffix(".svg")}"' in page
