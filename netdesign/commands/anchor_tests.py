@@ -111,8 +111,9 @@ def _write_plan(
 
     require_free([form], overwrite=force)
     if not study_file.exists():
-        told = {"study": str(study_file), "site": str(site_file)}
-        raise StudyError(say("plan.no_study", **told))
+        raise StudyError(
+            say("plan.no_study", study=str(study_file), site=str(site_file))
+        )
     study = load_study(study_file)
     require_sound(study, study_file, site_file, named, language)
     site = read_own_site(study, study_file, site_file)
