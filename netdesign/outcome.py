@@ -172,6 +172,12 @@ class SceneFileError(NetDesignError):
     exit_code = 3
 
 
+class TerrainError(NetDesignError):
+    """A grid, or lines on it, were refused; the message lists every fault."""
+
+    exit_code = 3
+
+
 class OutputError(NetDesignError):
     """An output cannot be written: it exists already, or the place is unfit."""
 

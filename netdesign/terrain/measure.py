@@ -1,0 +1,311 @@
+"""Terrain of one net row: slope, aspect, altitude, bends, upslope length, posts.
+
+Theory: terrain/THEORY.md, (E4) to (E8).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import TerrainError
+from netdesign.terrain.crossings import find_crossing
+from netdesign.terrain.fall_line import FallLines, follow_fall
+from netdesign.terrain.plan import NetLine, Plan
+from netdesign.terrain.surface import Surface
+from netdesign.words.message import Message, say
+
+LEAST_STEEP = math.radians(25.0)  # below it the snow holds itself
+KINK, BROKEN = math.radians(5.0), math.radians(15.0)  # bends of a row at a post
+CARED_ANGLE, CARED_LENGTH = math.radians(0.5), 0.1  # a check cares about [rad, m]
+_ERRORS = 2.0  # standard errors of a band
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Band:
+    """A length or an angle with its ends [m or rad]."""
+
+    low: float
+    value: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Upslope:
+    """Snow above a row, along the line of fall of one post.
+
+    Attributes
+    ----------
+    length : Band
+        Along the ground [m].
+    end : str
+        "row", "zone", "flat", "cap", "edge" (of the grid, or of a hole in it).
+    row : str
+        The row that ends it, or "".
+    """
+
+    length: Band
+    end: str
+    row: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasuredRow:
+    """One net row on the terrain.
+
+    Attributes
+    ----------
+    line : NetLine
+        As drawn.
+    posts : ndarray, shape (n, 3)
+        East, north, height [m].
+    length : float
+        From the first post to the last, along the ground [m].
+    slopes : ndarray, shape (n,)
+        Mean slope angle on the line of fall of each post, over its snow [rad].
+    slope : Band
+        Of the steepest post [rad].
+    aspect : float
+        Direction in which the ground falls, clockwise from north [rad].
+    upslope : Upslope
+        The longest.
+    bends : ndarray, shape (n - 2,)
+        At the posts inside the row [rad].
+    above : FallLines
+        Lines of fall, up to their ends.
+    below_row, below_length : str, float or None
+        Row below, and how far along the line of fall [m]; "" and None without one.
+    """
+
+    line: NetLine
+    posts: Floats
+    length: float
+    slopes: Floats
+    slope: Band
+    aspect: float
+    upslope: Upslope
+    bends: Floats
+    above: FallLines
+    ends: tuple[Upslope, ...]
+    below_row: str = ""
+    below_length: float | None = None
+
+    @property
+    def kinks(self) -> tuple[int, ...]:
+        """Posts at which the row bends by more than a kink, from 1 on."""
+        return tuple(int(one) + 2 for one in np.flatnonzero(self.bends > KINK))
+
+
+def measure_row(
+    surface: Surface, plan: Plan, line: NetLine, *, most: float
+) -> MeasuredRow:
+    """Measure one net row.
+
+    Parameters
+    ----------
+    surface : Surface
+        Ground.
+    plan : Plan
+        All rows, and the starting zones.
+    line : NetLine
+        The row.
+    most : float
+        Cap on the upslope length [m].
+
+    Raises
+    ------
+    TerrainError
+        If the row leaves the grid or meets a hole, is shorter than a post spacing, or
+        bends too much to be one row.
+
+    Verified by
+    -----------
+    tests/terrain/test_measure.py
+    """
+    posts = place_posts(surface, line)
+    places = posts[:, :2]
+    bends = find_bends(places)
+    if bends.size and bends.max() > BROKEN:
+        told = {"row": line.id, "post": int(bends.argmax()) + 2}
+        angle, limit = (math.degrees(one) for one in (float(bends.max()), BROKEN))
+        raise TerrainError(say("terrain.broken", **told, angle=angle, limit=limit))
+    above = follow_fall(surface, places, most=most, is_up=True)
+    below = follow_fall(surface, places, most=line.net_height, is_up=False)
+    ends = tuple(
+        _end_above(surface, plan, line, above, post, most) for post in range(len(posts))
+    )
+    slopes = np.array(
+        [
+            _find_mean(above, below, post, one.length.value, line.net_height)
+            for post, one in enumerate(ends)
+        ]
+    )
+    gradient = surface.at(places).gradient.mean(axis=0)
+    row, length = _find_below(surface, plan, line, places, most)
+    return MeasuredRow(
+        line=line,
+        posts=posts,
+        length=_measure(posts),
+        slopes=slopes,
+        slope=_band_slope(surface, slopes, ends, line),
+        aspect=math.atan2(-gradient[0], -gradient[1]) % (2.0 * math.pi),
+        upslope=max(ends, key=lambda one: one.length.high),
+        bends=bends,
+        above=above,
+        ends=ends,
+        below_row=row,
+        below_length=length,
+    )
+
+
+def place_posts(surface: Surface, line: NetLine) -> Floats:
+    """Posts along a line by its spacing along the ground, shape (n, 3) [m].
+
+    What is left of the line stands out half at each end: its direction says nothing.
+    """
+    step = 0.5 * surface.grid.cell
+    fine = _divide(line.points, step)
+    heights = surface.at(fine).height
+    if np.isnan(heights).any():
+        at = fine[int(np.flatnonzero(np.isnan(heights))[0])]
+        told = {"row": line.id, "east": float(at[0]), "north": float(at[1])}
+        raise TerrainError(say("terrain.off_grid", **told))
+    ground = np.column_stack((fine, heights))
+    along = np.concatenate(
+        ([0.0], np.cumsum(np.linalg.norm(np.diff(ground, axis=0), axis=1)))
+    )
+    count = math.floor(along[-1] / line.post_spacing + 1e-6) + 1
+    if count < 2:
+        told = {"row": line.id, "length": float(along[-1])}
+        raise TerrainError(say("terrain.short", **told, spacing=line.post_spacing))
+    left = max(0.0, float(along[-1]) - line.post_spacing * (count - 1))
+    wanted = 0.5 * left + line.post_spacing * np.arange(count)
+    return np.column_stack([np.interp(wanted, along, part) for part in ground.T])
+
+
+def find_bends(places: Floats) -> Floats:
+    """Angles by which a line turns at its inner points, in plan, shape (n - 2,) [rad]."""
+    steps = np.diff(places, axis=0)
+    headings = np.arctan2(steps[:, 1], steps[:, 0])
+    turned = np.diff(headings)
+    return np.abs((turned + math.pi) % (2.0 * math.pi) - math.pi)
+
+
+def _divide(points: Floats, step: float) -> Floats:
+    """Points of a line, no farther apart than a step, shape (n, 2) [m]."""
+    parts = [points[:1]]
+    for start, end in zip(points[:-1], points[1:], strict=True):
+        count = max(1, math.ceil(float(np.linalg.norm(end - start)) / step))
+        shares = np.arange(1, count + 1)[:, None] / count
+        parts.append(start + shares * (end - start))
+    return np.concatenate(parts)
+
+
+def _measure(posts: Floats) -> float:
+    return float(np.linalg.norm(np.diff(posts, axis=0), axis=1).sum())
+
+
+def _end_above(
+    surface: Surface, plan: Plan, line: NetLine, above: FallLines, post: int, most: float
+) -> Upslope:
+    """What ends the snow above a post first: a row, the zone's edge, flat ground."""
+    spread = _ERRORS * surface.slope_error
+    flat = [_find_flat(above, post, LEAST_STEEP + one) for one in (spread, 0.0, -spread)]
+    known = above.find_length(post)
+    ends = [("cap", "", most)]
+    if known < most:
+        ends.append(("edge", "", known))
+    for other in plan.lines:
+        if other.id != line.id:
+            found = find_crossing(above, post, other.points, least=surface.grid.cell)
+            ends += [("row", other.id, found)] if found is not None else []
+    for zone in plan.zones:
+        found = find_crossing(above, post, np.vstack((zone, zone[:1])), least=0.0)
+        ends += [("zone", "", found)] if found is not None else []
+    end, row, length = min(ends, key=lambda one: one[2])
+    low, value, high = (min(one, length) for one in flat)
+    if value < length:
+        end, row = "flat", ""
+    return Upslope(length=Band(low=low, value=value, high=high), end=end, row=row)
+
+
+def _find_flat(above: FallLines, post: int, least: float) -> float:
+    """Length at which a line of fall first becomes flatter than an angle [m]."""
+    angles, lengths = above.steepness[:, post], above.lengths[:, post]
+    flatter = np.flatnonzero(angles < least)
+    if not flatter.size:
+        return math.inf
+    first = int(flatter[0])
+    if first == 0:
+        return 0.0
+    share = (angles[first - 1] - least) / (angles[first - 1] - angles[first])
+    return float(lengths[first - 1] + share * (lengths[first] - lengths[first - 1]))
+
+
+def _find_mean(
+    above: FallLines, below: FallLines, post: int, up: float, down: float
+) -> float:
+    """Mean slope angle on a line of fall, from ``down`` below to ``up`` above [rad]."""
+    sums = [
+        _integrate(part.lengths[:, post], part.steepness[:, post], most)
+        for part, most in ((above, up), (below, down))
+    ]
+    length, turned = (sum(one) for one in zip(*sums, strict=True))
+    return turned / length if length > 0.0 else float(above.steepness[0, post])
+
+
+def _integrate(lengths: Floats, angles: Floats, most: float) -> tuple[float, float]:
+    """Length up to ``most`` and the integral of the angle over it [m, rad m]."""
+    known = np.isfinite(lengths) & np.isfinite(angles)
+    lengths, angles = lengths[known], angles[known]
+    if lengths.size < 2:
+        return 0.0, 0.0
+    end = min(most, float(lengths[-1]))
+    inside = lengths < end
+    places = np.append(lengths[inside], end)
+    values = np.append(angles[inside], np.interp(end, lengths, angles))
+    return end, float(np.trapezoid(values, places))
+
+
+def _band_slope(
+    surface: Surface, slopes: Floats, ends: Sequence[Upslope], line: NetLine
+) -> Band:
+    """Slope of the steepest post with its standard errors, (E6)."""
+    steepest = int(np.argmax(slopes))
+    stretch = ends[steepest].length.value + line.net_height
+    windows = max(1.0, stretch / (surface.window * surface.grid.cell))
+    spread = _ERRORS * surface.slope_error / math.sqrt(windows)
+    value = float(slopes[steepest])
+    return Band(low=value - spread, value=value, high=value + spread)
+
+
+def _find_below(
+    surface: Surface, plan: Plan, line: NetLine, places: Floats, most: float
+) -> tuple[str, float | None]:
+    """Nearest row below, along the lines of fall of the posts."""
+    below = follow_fall(surface, places, most=most, is_up=False)
+    found = [
+        (length, other.id)
+        for other in plan.lines
+        if other.id != line.id
+        for post in range(len(places))
+        if (length := find_crossing(below, post, other.points, least=surface.grid.cell))
+        is not None
+    ]
+    if not found:
+        return "", None
+    length, row = min(found)
+    return row, length
+
+
+def describe_kinks(row: MeasuredRow) -> Message | None:
+    """Sentence on the posts at which a row bends; None of a straight one."""
+    if not row.kinks:
+        return None
+    most = math.degrees(float(row.bends.max()))
+    told = {"row": row.line.id, "posts": tuple(map(str, row.kinks))}
+    return say("terrain.kinks", **told, angle=most, limit=math.degrees(KINK))

@@ -1,0 +1,226 @@
+"""Net rows as lines on a map: GeoJSON in the coordinates of the grid."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from netdesign.edge.causes import explain
+from netdesign.edge.given_files import read_bounded
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import TerrainError
+from netdesign.site.columns.all_tables import NETS
+from netdesign.site.columns.fields import split_heading
+from netdesign.site.columns.lexicon import Lexicon
+from netdesign.site.columns.unit_names import convert_unit, normalise_unit
+from netdesign.words.message import Message, say
+
+MOST_BYTES = 20_000_000
+ZONE = "starting zone"
+_OPEN = ("id", "post_spacing", "net_height")  # that the terrain cannot be asked
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NetLine:
+    """One net row as it is drawn.
+
+    Attributes
+    ----------
+    id : str
+        Its name.
+    points : ndarray, shape (n, 2)
+        Feet of the net along the row, east and north [m].
+    cells : mapping of str to float or str
+        Columns of sheet Nets that its properties give, in their first units.
+    """
+
+    id: str
+    points: Floats
+    cells: Mapping[str, float | str]
+
+    @property
+    def net_height(self) -> float:
+        """D_K, normal to the slope [m]."""
+        return float(self.cells["net_height"])
+
+    @property
+    def post_spacing(self) -> float:
+        """Along the row [m]."""
+        return float(self.cells["post_spacing"])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plan:
+    """Rows and starting zones of a file.
+
+    Attributes
+    ----------
+    lines : tuple of NetLine
+        In the order of the file.
+    zones : tuple of ndarray, shape (n, 2)
+        Outer rings of the starting zones [m].
+    """
+
+    lines: tuple[NetLine, ...]
+    zones: tuple[Floats, ...] = ()
+
+
+def read_plan(path: Path) -> Plan:
+    """Read rows and zones from GeoJSON.
+
+    Raises
+    ------
+    TerrainError
+        With all faults of the file at once.
+    """
+    try:
+        content = read_bounded(path, MOST_BYTES)
+        document = json.loads(content, parse_constant=_refuse_constant)
+    except (OSError, ValueError, RecursionError) as error:
+        raise TerrainError(
+            say("terrain.unreadable", file=path.name, cause=explain(error))
+        ) from None
+    return parse_plan(document, path.name)
+
+
+def _refuse_constant(text: str) -> float:
+    raise ValueError(text)
+
+
+def parse_plan(document: object, file: str) -> Plan:
+    """Rows and zones of a GeoJSON document.
+
+    Raises
+    ------
+    TerrainError
+        With all faults at once.
+    """
+    faults: list[Message] = []
+    lines: list[NetLine] = []
+    zones: list[Floats] = []
+    for place, feature in _list_features(document, faults):
+        kind, parts = _read_geometry(feature, place, faults)
+        properties = feature.get("properties")
+        given = properties if isinstance(properties, Mapping) else {}
+        if kind == "line":
+            line = _read_line(parts[0], given, place, faults)
+            lines += [line] if line else []
+        elif kind == "zone" and given.get("kind") == ZONE:
+            zones += parts
+    names = [one.id for one in lines]
+    for twice in dict.fromkeys(name for name in names if names.count(name) > 1):
+        faults.append(say("terrain.twice", row=twice))
+    if not lines and not faults:
+        faults.append(say("terrain.no_rows"))
+    if faults:
+        told = (say("text.at_place", place=file, text=one) for one in faults)
+        raise TerrainError(say("text.lines", lines=tuple(told)))
+    return Plan(lines=tuple(lines), zones=tuple(zones))
+
+
+def _list_features(
+    document: object, faults: list[Message]
+) -> Iterator[tuple[Message, Mapping[str, object]]]:
+    features = document.get("features") if isinstance(document, Mapping) else None
+    if not isinstance(features, Sequence) or isinstance(features, str):
+        faults.append(say("terrain.no_features"))
+        return
+    for number, feature in enumerate(features, 1):
+        place = say("terrain.feature", number=number)
+        if isinstance(feature, Mapping):
+            yield place, feature
+        else:
+            faults.append(say("text.at_place", place=place, text=say("terrain.shape")))
+
+
+def _read_geometry(
+    feature: Mapping[str, object], place: Message, faults: list[Message]
+) -> tuple[str, list[Floats]]:
+    """Kind of a feature that counts here, and its points; "" of any other one."""
+    geometry = feature.get("geometry")
+    given = geometry if isinstance(geometry, Mapping) else {}
+    kind, points = given.get("type"), given.get("coordinates")
+    if kind == "LineString":
+        found, least, named = [_read_points(points)], 2, "line"
+    elif kind == "Polygon":
+        found, least, named = [_read_points(_first(points))], 4, "zone"
+    elif kind == "MultiPolygon" and isinstance(points, Sequence):
+        found, least, named = [_read_points(_first(one)) for one in points], 4, "zone"
+    else:
+        return "", []
+    known = [one for one in found if one is not None and len(one) >= least]
+    if len(known) < len(found) or not found:
+        faults.append(say("text.at_place", place=place, text=say("terrain.points")))
+        return "", []
+    return named, known
+
+
+def _first(rings: object) -> object:
+    is_list = isinstance(rings, Sequence) and len(rings) > 0
+    return rings[0] if is_list and isinstance(rings, Sequence) else None
+
+
+def _read_points(points: object) -> Floats | None:
+    """Points that are finite numbers, each once; None of anything else."""
+    if not isinstance(points, Sequence) or isinstance(points, str):
+        return None
+    try:
+        found = np.array([(float(one[0]), float(one[1])) for one in points])
+    except (TypeError, ValueError, IndexError, KeyError, OverflowError):
+        return None
+    if found.size == 0 or not (np.abs(found) < 1e8).all():
+        return None
+    moves = np.ones(len(found), dtype=bool)
+    moves[1:] = (np.diff(found, axis=0) != 0.0).any(axis=1)
+    return found[moves]
+
+
+def _read_line(
+    points: Floats,
+    properties: Mapping[str, object],
+    place: Message,
+    faults: list[Message],
+) -> NetLine | None:
+    cells: dict[str, float | str] = {}
+    lexicon, count = Lexicon.of(NETS.fields, NETS), len(faults)
+    for heading, value in properties.items():
+        field = lexicon.match(str(heading)).field
+        if field is None or value is None:
+            continue
+        found = _read_value(str(heading), value, field.unit)
+        if found is None or field.key in cells:
+            told = say("terrain.property", name=f"{heading!r:.60}")
+            faults.append(say("text.at_place", place=place, text=told))
+        else:
+            cells[field.key] = found
+    for key in _OPEN:
+        is_number = isinstance(cells.get(key), float) and float(cells[key]) > 0.0
+        if not (cells.get(key) if key == "id" else is_number):
+            told = say("terrain.no_property", name=say(f"column.Nets.{key}"))
+            faults.append(say("text.at_place", place=place, text=told))
+    if len(faults) > count:
+        return None
+    name = cells["id"]
+    return NetLine(
+        id=f"{name:g}" if isinstance(name, float) else name, points=points, cells=cells
+    )
+
+
+def _read_value(heading: str, value: object, unit: str) -> float | str | None:
+    """Number in the column's first unit, or words; None of what is neither."""
+    if isinstance(value, str):
+        return value.strip() or None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    own = normalise_unit(split_heading(heading)[1])
+    if not math.isfinite(value):
+        return None
+    try:
+        return convert_unit(float(value), own, unit) if own and unit else float(value)
+    except KeyError:
+        return None

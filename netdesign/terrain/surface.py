@@ -1,0 +1,154 @@
+"""Ground between the cells of a grid: a quadratic fitted around each point.
+
+Theory: terrain/THEORY.md, (E1) to (E3).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
+from netdesign.terrain.grid import Grid
+
+WINDOWS = (3, 5, 7)  # cells on a side
+_ENOUGH = math.radians(0.25)  # standard error of a slope at which a window serves
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ground:
+    """Ground at some points; NaN where a window leaves the grid or has a hole.
+
+    Attributes
+    ----------
+    height : ndarray, shape (n,)
+        [m].
+    gradient : ndarray, shape (n, 2)
+        Rise towards east and north [-].
+    misfit : ndarray, shape (n,)
+        Standard deviation of the heights from the quadratic [m].
+    """
+
+    height: Floats
+    gradient: Floats
+    misfit: Floats
+
+    @property
+    def steepness(self) -> Floats:
+        """Slope angle, shape (n,) [rad]."""
+        return np.arctan(np.hypot(self.gradient[:, 0], self.gradient[:, 1]))
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """A grid with the window of its fits.
+
+    Attributes
+    ----------
+    grid : Grid
+        Heights.
+    window : int
+        Cells on a side of the window.
+    noise : float
+        Standard deviation of a height [m].
+    """
+
+    grid: Grid
+    window: int
+    noise: float
+
+    @property
+    def slope_error(self) -> float:
+        """Standard error of the slope at one point by the noise, (E3) [rad]."""
+        return self.noise * _gain(self.window) / self.grid.cell
+
+    def at(self, points: Floats) -> Ground:
+        """Ground at points, shape (n, 2) [m]."""
+        return fit(self.grid, points, self.window)
+
+
+def choose_window(grid: Grid, points: Floats) -> Surface:
+    """Surface with the least window whose noise tells a slope well enough.
+
+    Parameters
+    ----------
+    grid : Grid
+        Heights.
+    points : ndarray, shape (n, 2)
+        Where the noise is looked at [m].
+    """
+    misfits = fit(grid, points, WINDOWS[-1]).misfit
+    known = misfits[np.isfinite(misfits)]
+    noise = float(np.median(known)) if known.size else 0.0
+    surfaces = [Surface(grid, window, noise) for window in WINDOWS]
+    enough = (one for one in surfaces if one.slope_error <= _ENOUGH)
+    return next(enough, surfaces[-1])
+
+
+def fit(grid: Grid, points: Floats, window: int) -> Ground:
+    """Quadratic around the cell next to each point, at the point.
+
+    Parameters
+    ----------
+    grid : Grid
+        Heights.
+    points : ndarray, shape (n, 2)
+        East and north [m].
+    window : int
+        Cells on a side.
+
+    Verified by
+    -----------
+    tests/terrain/test_surface.py
+    """
+    half = window // 2
+    lines, columns = grid.heights.shape
+    place = (points - (grid.west, grid.south)) / grid.cell
+    is_known = np.isfinite(place).all(axis=1)
+    nearest = np.rint(np.where(is_known[:, None], place, 0.0)).astype(np.int64)
+    inside = (nearest >= half).all(axis=1) & is_known
+    inside &= (nearest[:, 0] < columns - half) & (nearest[:, 1] < lines - half)
+    middle = np.where(inside[:, None], nearest, half)
+    steps = np.arange(-half, half + 1)
+    rows = middle[:, 1, None, None] + steps[None, :, None]
+    cells = middle[:, 0, None, None] + steps[None, None, :]
+    around = grid.heights[rows, cells].reshape(len(points), -1)
+    centre = grid.heights[middle[:, 1], middle[:, 0]]
+    relative = around - centre[:, None]
+    terms, solve = _prepare(window)
+    quadratic = relative @ solve.T
+    off = relative - quadratic @ terms.T
+    free = max(1, window**2 - terms.shape[1])
+    u, v = (place - middle).T
+    _, c1, c2, c3, c4, c5 = quadratic.T
+    east, north = c1 + 2.0 * c3 * u + c4 * v, c2 + c4 * u + 2.0 * c5 * v
+    shape = _list_terms(u, v)
+    height = centre + np.einsum("nk,nk->n", quadratic, shape)
+    nothing = np.where(inside, 0.0, math.nan)
+    return Ground(
+        height=height + nothing,
+        gradient=np.stack((east, north), axis=1) / grid.cell + nothing[:, None],
+        misfit=np.sqrt((off**2).sum(axis=1) / free) + nothing,
+    )
+
+
+@lru_cache(maxsize=len(WINDOWS))
+def _prepare(window: int) -> tuple[Floats, Floats]:
+    """Terms of a quadratic at the cells of a window, and what solves for them."""
+    steps = np.arange(window) - window // 2
+    v, u = (one.ravel().astype(np.float64) for one in np.meshgrid(steps, steps, indexing="ij"))
+    terms = _list_terms(u, v)
+    return terms, np.linalg.pinv(terms)
+
+
+def _list_terms(u: Floats, v: Floats) -> Floats:
+    return np.stack((np.ones_like(u), u, v, u * u, u * v, v * v), axis=-1)
+
+
+def _gain(window: int) -> float:
+    """Standard error of a slope for each of the noise, in cells [-]."""
+    steps = np.arange(window) - window // 2
+    return 1.0 / math.sqrt(window * float((steps**2).sum()))

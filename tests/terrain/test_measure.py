@@ -1,0 +1,186 @@
+"""Rows on surfaces whose slopes and lengths are known."""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.outcome import TerrainError
+from netdesign.terrain.measure import measure_row
+from netdesign.terrain.surface import choose_window
+from tests.terrain.surfaces import SPACING, build_grid, draw_line, plan_of, plane
+
+PSI = math.radians(38.3)
+CELLS = (0.5, 1.0, 2.0, 5.0)
+ALONG_CONTOUR = [(-13.0, -20.0), (14.0, -20.0)]
+
+
+def measure(grid, *lines, zones=(), most=60.0, at=0):
+    surface = choose_window(grid, np.vstack([one.points for one in lines]))
+    return measure_row(surface, plan_of(*lines, zones=zones), lines[at], most=most)
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("turned", [0.0, 0.7391, 2.113])
+def test_a_plane_has_its_angle_aspect_and_length(cell, turned):
+    placed = {"turned": turned, "shift": (713.37, -219.61)}
+    grid = build_grid(plane(PSI), cell=cell, size=160.0, **placed)
+    row = draw_line(ALONG_CONTOUR, **placed)
+    # another row 25 m up the slope, in plan 25 cos psi
+    above = -20.0 + 25.0 * math.cos(PSI)
+    upper = draw_line([(-30.0, above), (30.0, above)], name="R2", **placed)
+    found = measure(grid, row, upper)
+    assert found.slopes == pytest.approx(PSI, rel=1e-9)
+    assert found.slope.value == pytest.approx(PSI, rel=1e-9)
+    # the ground falls to the south of the surface's own axes
+    assert found.aspect == pytest.approx((math.pi - turned) % (2 * math.pi), abs=1e-9)
+    assert (found.upslope.end, found.upslope.row) == ("row", "R2")
+    assert found.upslope.length.value == pytest.approx(25.0, rel=1e-9)
+    assert measure(grid, row, upper, at=1).below_row == "R1"
+    assert measure(grid, row, upper, at=1).below_length == pytest.approx(25.0, rel=1e-9)
+    assert found.bends == pytest.approx(0.0, abs=1e-9)
+    assert len(found.posts) == 10
+    assert found.length == pytest.approx(9 * SPACING)
+    heights = 1500.0 - 20.0 * math.tan(PSI)
+    assert found.posts[:, 2] == pytest.approx(heights, abs=1e-8)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_noise_of_a_decimetre_leaves_three_tenths_of_a_degree(seed):
+    turned = 0.3 + seed
+    grid = build_grid(plane(PSI), size=140.0, turned=turned, noise=0.1)
+    found = measure(grid, draw_line(ALONG_CONTOUR, turned=turned))
+    mean = float(found.slopes.mean())
+    assert abs(mean - PSI) < math.radians(0.3)
+    assert found.slope.high - found.slope.low > math.radians(0.05)
+    # the steepest of the posts is above the mean, within its band
+    assert found.slope.low <= PSI + math.radians(0.3)
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("turned", [0.0, 1.234])
+def test_rows_on_a_cone_are_arcs_of_constant_slope(cell, turned):
+    slope, radius = math.radians(36.9), 40.0
+
+    def cone(x, y):
+        return 2000.0 - math.tan(slope) * np.hypot(x, y)
+
+    angles = np.linspace(-0.4, 0.4, 400) - math.pi / 2
+    arc = np.column_stack((radius * np.cos(angles), radius * np.sin(angles)))
+    grid = build_grid(cone, cell=cell, size=140.0, turned=turned)
+    found = measure(grid, draw_line(arc, turned=turned), most=200.0)
+    assert found.slopes == pytest.approx(slope, abs=0.02 * cell**2 / 4 + 2e-3)
+    chord = 2.0 * math.asin(SPACING / 2.0 / radius)
+    assert found.bends == pytest.approx(chord, rel=0.02)
+    # up to the apex, where a window sees the top as flat
+    apex = radius / math.cos(slope)
+    assert found.upslope.end == "flat"
+    assert found.upslope.length.value == pytest.approx(apex, abs=3.0 * cell)
+    assert found.upslope.length.value <= apex + 1e-6
+
+
+def test_on_a_cylinder_slope_and_length_converge_with_the_square_of_the_cell():
+    """z = f(y): the mean of atan f' over the stretch, and the arc to the next row."""
+    foot, upper, cells = -25.0, 3.0, (4.0, 2.0, 1.0, 0.5)
+    arc, mean = integrate_wave(foot, upper)
+    errors = []
+    for cell in cells:
+        grid = build_grid(lambda x, y: wave(y) + 0.0 * x, cell=cell, size=160.0)
+        row = draw_line([(-10.0, foot), (11.0, foot)])
+        other = draw_line([(-30.0, upper), (30.0, upper)], name="R2")
+        found = measure(grid, row, other)
+        angle = float(found.slopes.mean())
+        errors.append((abs(found.upslope.length.value - arc), abs(angle - mean)))
+    lengths, angles = np.log(errors).T
+    assert np.polyfit(np.log(cells), angles, 1)[0] > 1.8
+    assert np.polyfit(np.log(cells), lengths, 1)[0] > 1.7
+    assert errors[-1][0] < 1e-4
+    assert errors[-1][1] < math.radians(0.002)
+
+
+def wave(y):
+    return 40.0 * np.sin(y / 45.0)
+
+
+def integrate_wave(foot, upper, below=3.0):
+    """Arc from foot to the next row; mean angle from 3 m of arc below the foot."""
+    y = np.linspace(foot - 5.0, upper, 800_001)
+    tangent = 40.0 / 45.0 * np.cos(y / 45.0)
+    pace = np.hypot(1.0, tangent)
+    along = np.concatenate(([0.0], np.cumsum(0.5 * (pace[1:] + pace[:-1]) * np.diff(y))))
+    arc = along[-1] - np.interp(foot, y, along)
+    is_loaded = along >= along[-1] - arc - below
+    loaded, angles = along[is_loaded], np.arctan(tangent)[is_loaded]
+    return arc, np.trapezoid(angles, loaded) / (loaded[-1] - loaded[0])
+
+
+@pytest.mark.parametrize("upper", [23.0, 27.0, 25.0])
+def test_an_edge_ends_the_snow_by_the_rule_of_25_degrees(upper):
+    """Two planes that meet at y = 0, the upper one flatter."""
+    below, above = math.radians(40.0), math.radians(upper)
+
+    def edge(x, y):
+        return 1000.0 + np.where(y < 0.0, math.tan(below), math.tan(above)) * y + 0 * x
+
+    grid = build_grid(edge, size=160.0, noise=0.02)
+    found = measure(grid, draw_line([(-10.0, -20.0), (10.0, -20.0)]), most=60.0)
+    to_edge = 20.0 / math.cos(below)
+    length = found.upslope.length
+    if upper == 25.0:  # within the noise: the band covers both
+        assert length.low < to_edge + 3.0
+        assert length.high > 55.0
+    elif upper < 25.0:
+        assert length.value == pytest.approx(to_edge, abs=2.5)
+    else:
+        assert length.value == 60.0
+
+
+def test_a_hole_ends_the_snow_and_says_so():
+    def waves(x, y):
+        return 0.8 * y + 1.5 * np.sin(x / 9.0) * np.sin(y / 11.0)
+
+    grid = build_grid(waves, size=160.0)
+    heights = grid.heights.copy()
+    heights[90:95, 40:120] = math.nan
+    holed = type(grid)(west=grid.west, south=grid.south, cell=1.0, heights=heights)
+    found = measure(holed, draw_line([(-10.0, -20.0), (10.0, -20.0)]))
+    assert found.upslope.end == "edge"
+    assert {one.end for one in found.ends} == {"edge"}
+    on_hole = draw_line([(-10.0, 12.0), (10.0, 12.0)])
+    with pytest.raises(TerrainError, match="R1"):
+        measure(holed, on_hole)
+
+
+def test_direction_of_a_line_and_order_of_rows_change_nothing():
+    def hill(x, y):
+        return 0.75 * y + 0.004 * x**2
+
+    grid = build_grid(hill, size=160.0)
+    points = [(-12.0, -20.0), (0.0, -21.0), (12.0, -20.0)]
+    upper = draw_line([(-30.0, 5.0), (30.0, 5.0)], name="R2")
+    one = measure(grid, draw_line(points), upper)
+    back = measure(grid, upper, draw_line(points[::-1]), at=1)
+    assert one.slope.value == pytest.approx(back.slope.value, rel=1e-9)
+    assert one.slopes == pytest.approx(back.slopes[::-1], rel=1e-9)
+    assert one.aspect == pytest.approx(back.aspect, abs=1e-9)
+    assert one.length == pytest.approx(back.length)
+    assert len(one.posts) == len(back.posts)
+
+
+def test_a_row_that_bends_too_much_is_refused_and_a_kink_is_named():
+    grid = build_grid(plane(PSI), size=160.0)
+    bent = [(-9.0, -20.0), (0.0, -20.0), (9.0, -20.0 + 9.0 * math.tan(0.15))]
+    assert measure(grid, draw_line(bent)).kinks == (4,)
+    broken = [(-9.0, -20.0), (0.0, -20.0), (9.0, -16.0)]
+    with pytest.raises(TerrainError, match="post 4"):
+        measure(grid, draw_line(broken))
+    with pytest.raises(TerrainError, match="shorter than"):
+        measure(grid, draw_line([(0.0, 0.0), (2.0, 0.0)]))
+
+
+def test_a_zone_ends_the_snow_at_its_edge():
+    grid = build_grid(plane(PSI), size=160.0)
+    zone = np.array([(-40.0, -30.0), (40.0, -30.0), (40.0, -4.0), (-40.0, -4.0)])
+    found = measure(grid, draw_line(ALONG_CONTOUR), zones=(zone,))
+    assert found.upslope.end == "zone"
+    assert found.upslope.length.value == pytest.approx(16.0 / math.cos(PSI), rel=1e-9)
