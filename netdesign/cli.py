@@ -48,7 +48,7 @@ _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
 
 _OWN_MODULES = (
     *("bench", "check", "completion", "doctor", "envelope", "paper", "report"),
-    *("solve", "standards", "validate", "verify", "winter"),
+    *("solve", "standards", "terrain", "validate", "verify", "winter"),
 )
 _COMMANDS = CommandTable(
     {

@@ -47,12 +47,12 @@ class Grid:
     @property
     def east(self) -> float:
         """Middle of the last cell of a line [m]."""
-        return self.west + self.cell * (self.heights.shape[1] - 1)
+        return self.west + self.cell * (int(self.heights.shape[1]) - 1)
 
     @property
     def north(self) -> float:
         """Middle of the last cell of a column [m]."""
-        return self.south + self.cell * (self.heights.shape[0] - 1)
+        return self.south + self.cell * (len(self.heights) - 1)
 
 
 def read_grid(path: Path) -> Grid:
@@ -98,8 +98,9 @@ def parse_grid(content: bytes) -> Grid:
     outside = (heights < LOWEST) | (heights > HIGHEST)
     if np.isnan(values).any() or outside.any():
         wrong = values[np.isnan(values) | outside.ravel()][0]
-        told = {"value": f"{wrong:g}", "low": LOWEST, "high": HIGHEST}
-        raise TerrainError(say("terrain.no_height", **told))
+        raise TerrainError(
+            say("terrain.no_height", value=f"{wrong:g}", low=LOWEST, high=HIGHEST)
+        )
     return Grid(west=west, south=south, cell=cell, heights=heights[::-1].copy())
 
 
@@ -146,16 +147,16 @@ def _require_size(header: dict[str, float]) -> None:
     columns, lines = header["ncols"], header["nrows"]
     is_whole = columns.is_integer() and lines.is_integer()
     if not is_whole or not (min(columns, lines) >= 3 and columns * lines <= MOST_CELLS):
-        told = {"columns": f"{columns:g}", "lines": f"{lines:g}", "most": MOST_CELLS}
-        raise TerrainError(say("terrain.size", **told))
+        size = {"columns": f"{columns:g}", "lines": f"{lines:g}"}
+        raise TerrainError(say("terrain.size", **size, most=MOST_CELLS))
 
 
 def _require_metres(cell: float, west: float, south: float) -> None:
     if 0.0 < cell < _DEGREES and abs(west) <= 360.0 and abs(south) <= 90.0:
         raise TerrainError(say("terrain.degrees", cell=f"{cell:g}"))
     if not _LEAST_CELL <= cell <= _LARGEST_CELL:
-        told = {"cell": f"{cell:g}", "least": _LEAST_CELL, "most": _LARGEST_CELL}
-        raise TerrainError(say("terrain.cell", **told))
+        ends = {"least": _LEAST_CELL, "most": _LARGEST_CELL}
+        raise TerrainError(say("terrain.cell", cell=f"{cell:g}", **ends))
 
 
 def _read_numbers(text: bytes, count: int) -> Floats:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -15,8 +16,9 @@ from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 from netdesign.terrain.crossings import find_crossing
 from netdesign.terrain.fall_line import FallLines, follow_fall
+from netdesign.terrain.grid import Grid
 from netdesign.terrain.plan import NetLine, Plan
-from netdesign.terrain.surface import Surface
+from netdesign.terrain.surface import Surface, choose_window
 from netdesign.words.message import Message, say
 
 LEAST_STEEP = math.radians(25.0)  # below it the snow holds itself
@@ -130,9 +132,7 @@ def measure_row(
     places = posts[:, :2]
     bends = find_bends(places)
     if bends.size and bends.max() > BROKEN:
-        told = {"row": line.id, "post": int(bends.argmax()) + 2}
-        angle, limit = (math.degrees(one) for one in (float(bends.max()), BROKEN))
-        raise TerrainError(say("terrain.broken", **told, angle=angle, limit=limit))
+        raise TerrainError(_refuse_bend(line, bends))
     above = follow_fall(surface, places, most=most, is_up=True)
     below = follow_fall(surface, places, most=line.net_height, is_up=False)
     ends = tuple(
@@ -162,6 +162,12 @@ def measure_row(
     )
 
 
+def _refuse_bend(line: NetLine, bends: Floats) -> Message:
+    angle, limit = (math.degrees(one) for one in (float(bends.max()), BROKEN))
+    post = int(bends.argmax()) + 2
+    return say("terrain.broken", row=line.id, post=post, angle=angle, limit=limit)
+
+
 def place_posts(surface: Surface, line: NetLine) -> Floats:
     """Posts along a line by its spacing along the ground, shape (n, 3) [m].
 
@@ -172,23 +178,25 @@ def place_posts(surface: Surface, line: NetLine) -> Floats:
     heights = surface.at(fine).height
     if np.isnan(heights).any():
         at = fine[int(np.flatnonzero(np.isnan(heights))[0])]
-        told = {"row": line.id, "east": float(at[0]), "north": float(at[1])}
-        raise TerrainError(say("terrain.off_grid", **told))
+        east, north = map(float, at)
+        raise TerrainError(say("terrain.off_grid", row=line.id, east=east, north=north))
     ground = np.column_stack((fine, heights))
     along = np.concatenate(
         ([0.0], np.cumsum(np.linalg.norm(np.diff(ground, axis=0), axis=1)))
     )
     count = math.floor(along[-1] / line.post_spacing + 1e-6) + 1
     if count < 2:
-        told = {"row": line.id, "length": float(along[-1])}
-        raise TerrainError(say("terrain.short", **told, spacing=line.post_spacing))
+        whole, spacing = float(along[-1]), line.post_spacing
+        raise TerrainError(
+            say("terrain.short", row=line.id, length=whole, spacing=spacing)
+        )
     left = max(0.0, float(along[-1]) - line.post_spacing * (count - 1))
     wanted = 0.5 * left + line.post_spacing * np.arange(count)
     return np.column_stack([np.interp(wanted, along, part) for part in ground.T])
 
 
 def find_bends(places: Floats) -> Floats:
-    """Angles by which a line turns at its inner points, in plan, shape (n - 2,) [rad]."""
+    """Angles by which a line turns at its inner points, shape (n - 2,) [rad]."""
     steps = np.diff(places, axis=0)
     headings = np.arctan2(steps[:, 1], steps[:, 0])
     turned = np.diff(headings)
@@ -198,7 +206,7 @@ def find_bends(places: Floats) -> Floats:
 def _divide(points: Floats, step: float) -> Floats:
     """Points of a line, no farther apart than a step, shape (n, 2) [m]."""
     parts = [points[:1]]
-    for start, end in zip(points[:-1], points[1:], strict=True):
+    for start, end in pairwise(points):
         count = max(1, math.ceil(float(np.linalg.norm(end - start)) / step))
         shares = np.arange(1, count + 1)[:, None] / count
         parts.append(start + shares * (end - start))
@@ -210,11 +218,18 @@ def _measure(posts: Floats) -> float:
 
 
 def _end_above(
-    surface: Surface, plan: Plan, line: NetLine, above: FallLines, post: int, most: float
+    surface: Surface,
+    plan: Plan,
+    line: NetLine,
+    above: FallLines,
+    post: int,
+    most: float,
 ) -> Upslope:
     """What ends the snow above a post first: a row, the zone's edge, flat ground."""
     spread = _ERRORS * surface.slope_error
-    flat = [_find_flat(above, post, LEAST_STEEP + one) for one in (spread, 0.0, -spread)]
+    flat = [
+        _find_flat(above, post, LEAST_STEEP + one) for one in (spread, 0.0, -spread)
+    ]
     known = above.find_length(post)
     ends = [("cap", "", most)]
     if known < most:
@@ -306,6 +321,42 @@ def describe_kinks(row: MeasuredRow) -> Message | None:
     """Sentence on the posts at which a row bends; None of a straight one."""
     if not row.kinks:
         return None
-    most = math.degrees(float(row.bends.max()))
-    told = {"row": row.line.id, "posts": tuple(map(str, row.kinks))}
-    return say("terrain.kinks", **told, angle=most, limit=math.degrees(KINK))
+    return say(
+        "terrain.kinks",
+        row=row.line.id,
+        posts=tuple(map(str, row.kinks)),
+        angle=math.degrees(float(row.bends.max())),
+        limit=math.degrees(KINK),
+    )
+
+
+def measure_plan(
+    grid: Grid, plan: Plan, *, most: float
+) -> tuple[Surface, list[MeasuredRow]]:
+    """Measure all rows of a plan on a grid; and the surface that served.
+
+    Parameters
+    ----------
+    grid : Grid
+        Heights.
+    plan : Plan
+        Rows and zones.
+    most : float
+        Cap on the upslope length [m].
+
+    Raises
+    ------
+    TerrainError
+        With the faults of all rows at once.
+    """
+    surface = choose_window(grid, np.concatenate([one.points for one in plan.lines]))
+    rows: list[MeasuredRow] = []
+    faults: list[Message] = []
+    for line in plan.lines:
+        try:
+            rows.append(measure_row(surface, plan, line, most=most))
+        except TerrainError as error:
+            faults.append(error.message)
+    if faults:
+        raise TerrainError(say("text.lines", lines=tuple(faults)))
+    return surface, rows

@@ -113,8 +113,8 @@ def parse_plan(document: object, file: str) -> Plan:
         elif kind == "zone" and given.get("kind") == ZONE:
             zones += parts
     names = [one.id for one in lines]
-    for twice in dict.fromkeys(name for name in names if names.count(name) > 1):
-        faults.append(say("terrain.twice", row=twice))
+    doubles = dict.fromkeys(name for name in names if names.count(name) > 1)
+    faults += [say("terrain.twice", row=name) for name in doubles]
     if not lines and not faults:
         faults.append(say("terrain.no_rows"))
     if faults:

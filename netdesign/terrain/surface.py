@@ -107,10 +107,10 @@ def fit(grid: Grid, points: Floats, window: int) -> Ground:
     half = window // 2
     lines, columns = grid.heights.shape
     place = (points - (grid.west, grid.south)) / grid.cell
-    is_known = np.isfinite(place).all(axis=1)
-    nearest = np.rint(np.where(is_known[:, None], place, 0.0)).astype(np.int64)
-    inside = (nearest >= half).all(axis=1) & is_known
-    inside &= (nearest[:, 0] < columns - half) & (nearest[:, 1] < lines - half)
+    is_known = np.isfinite(place).all(axis=1, keepdims=True)
+    nearest = np.rint(np.where(is_known, place, -1.0)).astype(np.int64)
+    last = np.array((columns, lines)) - half
+    inside = np.asarray(((nearest >= half) & (nearest < last)).all(axis=1))
     middle = np.where(inside[:, None], nearest, half)
     steps = np.arange(-half, half + 1)
     rows = middle[:, 1, None, None] + steps[None, :, None]
@@ -139,9 +139,12 @@ def fit(grid: Grid, points: Floats, window: int) -> Ground:
 def _prepare(window: int) -> tuple[Floats, Floats]:
     """Terms of a quadratic at the cells of a window, and what solves for them."""
     steps = np.arange(window) - window // 2
-    v, u = (one.ravel().astype(np.float64) for one in np.meshgrid(steps, steps, indexing="ij"))
+    v, u = (
+        one.ravel().astype(np.float64)
+        for one in np.meshgrid(steps, steps, indexing="ij")
+    )
     terms = _list_terms(u, v)
-    return terms, np.linalg.pinv(terms)
+    return terms, np.asarray(np.linalg.pinv(terms), dtype=np.float64)
 
 
 def _list_terms(u: Floats, v: Floats) -> Floats:

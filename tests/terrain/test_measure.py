@@ -107,7 +107,9 @@ def integrate_wave(foot, upper, below=3.0):
     y = np.linspace(foot - 5.0, upper, 800_001)
     tangent = 40.0 / 45.0 * np.cos(y / 45.0)
     pace = np.hypot(1.0, tangent)
-    along = np.concatenate(([0.0], np.cumsum(0.5 * (pace[1:] + pace[:-1]) * np.diff(y))))
+    along = np.concatenate(
+        ([0.0], np.cumsum(0.5 * (pace[1:] + pace[:-1]) * np.diff(y)))
+    )
     arc = along[-1] - np.interp(foot, y, along)
     is_loaded = along >= along[-1] - arc - below
     loaded, angles = along[is_loaded], np.arctan(tangent)[is_loaded]

@@ -104,7 +104,7 @@ def write_site_workbook(
     """
     path = Path(path)
     require_free([path], overwrite=overwrite)
-    lines = load_example() if example else _starting_lines()
+    lines = load_example() if example else list_starting_lines()
     content = BytesIO()
     book = start_book(content, language)
     workbook = book.workbook
@@ -133,7 +133,7 @@ def load_example() -> dict[str, _Lines]:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def _starting_lines() -> dict[str, _Lines]:
+def list_starting_lines() -> dict[str, _Lines]:
     """Lines of which only the numbers are left to the engineer."""
     return {
         PROJECT.name: [{"item": field.label} for field in PROJECT_ITEMS],

@@ -1,0 +1,178 @@
+"""``netdesign terrain``: net rows on an elevation grid, as a site workbook."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from netdesign.commands.options import (
+    DEFAULT_STANDARD,
+    force_option,
+    json_option,
+    language_option,
+    quiet_option,
+)
+from netdesign.commands.running import print_document
+from netdesign.commands.usage import UsageRefusal, tell
+from netdesign.words.catalogue import Language
+from netdesign.words.message import say
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from netdesign.terrain.coverage import Coverage
+    from netdesign.terrain.measure import MeasuredRow
+
+_SITE = "site.xlsx"
+ROWS_FILE = "rows.geojson"
+
+
+@click.command()
+@click.argument("grid", type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("rows", type=click.Path(path_type=Path, dir_okay=False))
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help=f"Site workbook to write; rows.geojson stands beside it [{_SITE}].",
+)
+@click.option(
+    "--types",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="SITE",
+    help="Workbook whose other sheets are taken over: types, ranges, project.",
+)
+@click.option(
+    "--most",
+    type=click.FloatRange(1.0, 500.0),
+    default=60.0,
+    show_default=True,
+    help="Largest upslope length that is looked for [m].",
+)
+@click.option(
+    "--standard",
+    metavar="ID",
+    default=DEFAULT_STANDARD,
+    show_default=True,
+    help="Limit profile of the distance of rows, for the zone's coverage.",
+)
+@language_option("Of workbook and messages.")
+@json_option("rows on the terrain")
+@force_option
+@quiet_option
+def terrain(grid: Path, rows: Path, **asked: Any) -> None:
+    """Read slope, length and posts of net rows off an elevation grid.
+
+    \b
+    netdesign terrain grid.asc rows.geojson --out site.xlsx
+    netdesign terrain grid.asc rows.geojson --types types.xlsx --most 40
+
+    GRID is an ESRI ASCII grid in metres. ROWS are GeoJSON LineStrings in its
+    coordinates; their properties are columns of sheet Nets: id, net height, post
+    spacing and any other. Each derived cell has a note with its band and its stretch.
+    """
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.terrain.geojson import list_row_features, write_features
+    from netdesign.terrain.grid import read_grid
+    from netdesign.terrain.measure import measure_plan
+    from netdesign.terrain.plan import read_plan
+    from netdesign.terrain.site_lines import read_other_sheets, write_workbook
+
+    language: Language = asked["language"]
+    if asked["as_json"] and asked["out"] is None:
+        site = None
+    else:
+        site = asked["out"] or Path(_SITE)
+        if site.suffix.lower() != ".xlsx":
+            raise UsageRefusal(say("terrain.no_xlsx", file=site.name))
+        require_free([site, site.parent / ROWS_FILE], overwrite=asked["force"])
+    ground, plan = read_grid(grid), read_plan(rows)
+    others = read_other_sheets(asked["types"]) if asked["types"] else None
+    surface, measured = measure_plan(ground, plan, most=asked["most"])
+    coverage = _cover(surface, plan, measured, asked["standard"])
+    sha256 = hashlib.sha256(grid.read_bytes()).hexdigest()
+    features = list_row_features(measured, grid.name, sha256)
+    if asked["as_json"]:
+        print_document(_describe(features, coverage, surface.noise))
+    else:
+        _tell_rows(measured, coverage, surface.noise, language)
+    if site is not None:
+        workbook = write_workbook(measured, grid.name, others, language)
+        places = {site: workbook, site.parent / ROWS_FILE: write_features(features)}
+        write_files(places, overwrite=asked["force"])
+        for path in places:
+            if not asked["quiet"]:
+                tell(say("cli.wrote", path=str(path)), language, err=True)
+
+
+def _cover(
+    surface: Any, plan: Any, rows: Sequence[MeasuredRow], standard: str
+) -> Coverage:
+    """Coverage of the zones by the profile's distance of rows."""
+    from netdesign.checks import load_standard
+    from netdesign.checks.geometry import compute_largest_row_spacing
+    from netdesign.checks.schema import GROUND_FRICTION
+    from netdesign.terrain.coverage import find_coverage
+
+    friction = load_standard(standard).find(GROUND_FRICTION)
+    reach = {
+        row.line.id: compute_largest_row_spacing(
+            row.slope.high, row.line.net_height, friction.value if friction else 0.0
+        )
+        for row in rows
+    }
+    return find_coverage(surface, plan, rows, reach)
+
+
+def _describe(features: Any, coverage: Coverage, noise: float) -> dict[str, Any]:
+    return {
+        "schema": "netdesign.terrain/1",
+        "noise_m": noise,
+        "zone_m2": coverage.area,
+        "uncovered_m2": coverage.uncovered,
+        "rows": [
+            one["properties"]
+            for one in features
+            if one["properties"]["kind"] == "net row"
+        ],
+    }
+
+
+def _tell_rows(
+    rows: Sequence[MeasuredRow], coverage: Coverage, noise: float, language: Language
+) -> None:
+    import math
+
+    from netdesign.terrain.measure import describe_kinks
+
+    tell(say("terrain.noise", noise=noise), language)
+    for row in rows:
+        end = say(f"terrain.end_{row.upslope.end}", row=row.upslope.row)
+        tell(
+            say(
+                "terrain.row",
+                row=row.line.id,
+                slope=math.degrees(row.slope.value),
+                spread=math.degrees(row.slope.high - row.slope.value),
+                aspect=math.degrees(row.aspect),
+                length=row.length,
+                posts=len(row.posts),
+                upslope=row.upslope.length.value,
+                end=end,
+            ),
+            language,
+        )
+        if kinks := describe_kinks(row):
+            tell(kinks, language)
+    if coverage.area:
+        tell(
+            say(
+                "terrain.coverage",
+                area=coverage.area,
+                uncovered=coverage.uncovered,
+                share=100.0 * coverage.share,
+            ),
+            language,
+        )

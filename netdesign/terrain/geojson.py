@@ -1,0 +1,93 @@
+"""Rows, posts and verdicts as GeoJSON, in the coordinates of the grid."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from netdesign.numerics.arrays import Floats
+from netdesign.terrain.measure import MeasuredRow
+
+Feature = dict[str, Any]
+
+
+def write_features(features: Iterable[Feature]) -> bytes:
+    """GeoJSON of some features, the same bytes each time."""
+    document = {"type": "FeatureCollection", "features": list(features)}
+    return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False).encode()
+
+
+def list_row_features(
+    rows: Sequence[MeasuredRow], grid: str, sha256: str
+) -> list[Feature]:
+    """Rows with what was measured, and their posts with number and height.
+
+    Parameters
+    ----------
+    rows : sequence of MeasuredRow
+        On the terrain.
+    grid, sha256 : str
+        Name and digest of the grid's file.
+    """
+    found = []
+    for row in rows:
+        below = row.below_length
+        properties = {
+            "kind": "net row",
+            "id": row.line.id,
+            "net_height_m": row.line.net_height,
+            "post_spacing_m": row.line.post_spacing,
+            "slope_deg": _degrees(row.slope.value),
+            "slope_low_deg": _degrees(row.slope.low),
+            "slope_high_deg": _degrees(row.slope.high),
+            "slope_mean_deg": _degrees(float(row.slopes.mean())),
+            "aspect_deg": _degrees(row.aspect),
+            "exposure": find_exposure(row.aspect),
+            "altitude_m": round(float(row.posts[:, 2].max()), 2),
+            "length_m": round(row.length, 3),
+            "upslope_length_m": round(row.upslope.length.value, 3),
+            "upslope_end": row.upslope.end,
+            "row_above": row.upslope.row or None,
+            "row_below": row.below_row or None,
+            "row_below_m": None if below is None else round(below, 3),
+            "kinks_at_posts": list(row.kinks),
+            "grid": grid,
+            "grid_sha256": sha256,
+        }
+        found.append(_line(row.posts, properties))
+        for number, post in enumerate(row.posts, 1):
+            told = {"kind": "post", "row": row.line.id, "post": number}
+            found.append(_point(post, told))
+    return found
+
+
+def find_exposure(aspect: float) -> str:
+    """Class of exposure of the guideline's table of ground: "N" or "S".
+
+    WNW over N to ENE is north, the rest south; as the ground's table has it.
+
+    Parameters
+    ----------
+    aspect : float
+        Direction in which the ground falls, clockwise from north [rad].
+    """
+    from_north = abs((math.degrees(aspect) + 180.0) % 360.0 - 180.0)
+    return "N" if from_north <= 67.5 else "S"
+
+
+def _degrees(angle: float) -> float:
+    return round(math.degrees(angle), 3)
+
+
+def _line(points: Floats, properties: dict[str, Any]) -> Feature:
+    coordinates = [[round(float(one), 3) for one in point] for point in points]
+    geometry = {"type": "LineString", "coordinates": coordinates}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def _point(point: Floats, properties: dict[str, Any]) -> Feature:
+    coordinates = [round(float(one), 3) for one in point]
+    geometry = {"type": "Point", "coordinates": coordinates}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}

@@ -1,0 +1,68 @@
+"""Gap beside a row, and how far rows lie over each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
+from netdesign.terrain.measure import MeasuredRow
+
+_FARTHEST = 20.0  # from a row's end; beyond it the next work counts as none [m]
+
+
+def find_gap(row: MeasuredRow, rows: Sequence[MeasuredRow]) -> float | None:
+    """Free distance from a row's ends to the next row beside it [m].
+
+    The larger one of its two ends, along which the end effect is larger; None where
+    no row stands beside one of them.
+
+    Parameters
+    ----------
+    row : MeasuredRow
+        The row.
+    rows : sequence of MeasuredRow
+        All rows.
+
+    Verified by
+    -----------
+    tests/terrain/test_neighbours.py
+    """
+    gaps = [_find_beside(row, rows, end) for end in (0, -1)]
+    known = [one for one in gaps if one is not None]
+    return max(known) if len(known) == len(gaps) else None
+
+
+def _find_beside(
+    row: MeasuredRow, rows: Sequence[MeasuredRow], end: int
+) -> float | None:
+    """Distance from an end along the row to the nearest row that stands there [m]."""
+    start = row.posts[end, :2]
+    outward = start - row.posts[1 if end == 0 else -2, :2]
+    outward = outward / np.linalg.norm(outward)
+    across = np.array((-outward[1], outward[0]))
+    found = []
+    for other in rows:
+        if other is row:
+            continue
+        away = other.posts[:, :2] - start
+        along, aside = away @ outward, np.abs(away @ across)
+        beside = (along > 0.0) & (along <= _FARTHEST) & (aside <= row.line.net_height)
+        found += [float(one) for one in along[beside]]
+    return min(found, default=None)
+
+
+def find_overlap(row: MeasuredRow, other: MeasuredRow) -> float:
+    """Length along a row that another one stands above or below [m]."""
+    start, end = row.posts[0, :2], row.posts[-1, :2]
+    length = math.dist(start, end)
+    along = (end - start) / length
+    places = _project(other.posts[:, :2], start, along)
+    low, high = float(places.min()), float(places.max())
+    return max(0.0, min(length, high) - max(0.0, low))
+
+
+def _project(points: Floats, start: Floats, along: Floats) -> Floats:
+    return np.asarray((points - start) @ along)

@@ -1,0 +1,90 @@
+"""Rows as GeoJSON: headings of any language, all faults at once."""
+
+import json
+import math
+
+import pytest
+
+from netdesign.outcome import TerrainError
+from netdesign.terrain.plan import parse_plan, read_plan
+
+
+def feature(points, shape="LineString", **properties):
+    geometry = {"type": shape, "coordinates": points}
+    return {"type": "Feature", "geometry": geometry, "properties": properties}
+
+
+def collect(*features):
+    return {"type": "FeatureCollection", "features": list(features)}
+
+
+LINE = [[700.0, 200.0], [730.0, 201.0, 1500.0], [760.0, 203.0]]
+GIVEN = {"id": "A", "net height [m]": 3.5, "post spacing": 3.0}
+
+
+@pytest.mark.parametrize(
+    "properties",
+    [
+        GIVEN,
+        {"Werkreihe": "A", "Netzhöhe": 3.5, "Stützenabstand [cm]": 300},
+        {"ligne": "A", "hauteur du filet [cm]": 350.0, "entraxe des montants": 3},
+    ],
+)
+def test_properties_are_the_workbooks_columns_in_any_language(properties):
+    plan = parse_plan(collect(feature(LINE, **properties)), "rows.geojson")
+    (line,) = plan.lines
+    assert (line.id, line.net_height, line.post_spacing) == ("A", 3.5, 3.0)
+    assert line.points.tolist() == [[700, 200], [730, 201], [760, 203]]
+
+
+def test_zones_other_columns_and_what_is_no_matter_are_read():
+    ring = [[0, 0], [9, 0], [9, 9], [0, 0]]
+    plan = parse_plan(
+        collect(
+            feature(LINE, **GIVEN, slack=0.05, ground="till", colour="red"),
+            feature([ring], "Polygon", kind="starting zone"),
+            feature([[ring], [ring]], "MultiPolygon", kind="starting zone"),
+            feature([ring], "Polygon", kind="house"),
+            feature([1, 2], "Point", kind="station"),
+        ),
+        "rows.geojson",
+    )
+    assert len(plan.zones) == 3
+    assert plan.lines[0].cells["slack"] == 0.05
+    assert plan.lines[0].cells["ground"] == "till"
+
+
+def test_all_faults_are_told_at_once():
+    bad = collect(
+        feature(LINE, **GIVEN),
+        feature(LINE, **GIVEN),
+        feature([[1.0, math.nan], [2.0, 3.0]], **GIVEN),
+        feature([[1.0, 2.0]], **GIVEN),
+        feature(LINE, id="B", net_height=-3.0),
+        feature(LINE, **{**GIVEN, "id": "C", "net height": 4.0}),
+        "nothing",
+    )
+    with pytest.raises(TerrainError) as caught:
+        parse_plan(bad, "rows.geojson")
+    told = str(caught.value).splitlines()
+    assert len(told) == 7
+    assert all(line.startswith("rows.geojson") for line in told)
+    for part in ("two rows are named A", "feature 3", "feature 7", "'net height'"):
+        assert [line for line in told if part in line]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "[]", "{}", '{"features": "x"}', '{"features": []}', "[" * 100_000, "NaN"],
+)
+def test_what_is_no_geojson_is_refused_in_words(tmp_path, text):
+    path = tmp_path / "rows.geojson"
+    path.write_text(text)
+    with pytest.raises(TerrainError, match="rows.geojson"):
+        read_plan(path)
+
+
+def test_written_rows_are_read_again(tmp_path):
+    path = tmp_path / "rows.geojson"
+    path.write_text(json.dumps(collect(feature(LINE, **GIVEN))))
+    assert read_plan(path).lines[0].id == "A"
