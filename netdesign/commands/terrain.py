@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from netdesign.commands.options import (
-    DEFAULT_STANDARD,
     force_option,
     json_option,
     language_option,
@@ -24,10 +24,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.terrain.coverage import Coverage
+    from netdesign.terrain.geojson import Feature
     from netdesign.terrain.measure import MeasuredRow
+    from netdesign.terrain.plan import Plan
+    from netdesign.terrain.surface import Surface
 
 _SITE = "site.xlsx"
-ROWS_FILE = "rows.geojson"
+_GUIDELINE = "swiss-guideline-2007"
+_ROWS = "rows.geojson"
 
 
 @click.command()
@@ -36,7 +40,7 @@ ROWS_FILE = "rows.geojson"
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
-    help=f"Site workbook to write; rows.geojson stands beside it [{_SITE}].",
+    help=f"Workbook; beside it rows.geojson and terrain.html [{_SITE}].",
 )
 @click.option(
     "--types",
@@ -54,7 +58,7 @@ ROWS_FILE = "rows.geojson"
 @click.option(
     "--standard",
     metavar="ID",
-    default=DEFAULT_STANDARD,
+    default=_GUIDELINE,
     show_default=True,
     help="Limit profile of the distance of rows, for the zone's coverage.",
 )
@@ -74,6 +78,7 @@ def terrain(grid: Path, rows: Path, **asked: Any) -> None:
     spacing and any other. Each derived cell has a note with its band and its stretch.
     """
     from netdesign.edge.output import require_free, write_files
+    from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
     from netdesign.terrain.geojson import list_row_features, write_features
     from netdesign.terrain.grid import read_grid
     from netdesign.terrain.measure import measure_plan
@@ -87,7 +92,8 @@ def terrain(grid: Path, rows: Path, **asked: Any) -> None:
         site = asked["out"] or Path(_SITE)
         if site.suffix.lower() != ".xlsx":
             raise UsageRefusal(say("terrain.no_xlsx", file=site.name))
-        require_free([site, site.parent / ROWS_FILE], overwrite=asked["force"])
+        names = (site.name, _ROWS, PAGE_FILE)
+        require_free([site.parent / one for one in names], overwrite=asked["force"])
     ground, plan = read_grid(grid), read_plan(rows)
     others = read_other_sheets(asked["types"]) if asked["types"] else None
     surface, measured = measure_plan(ground, plan, most=asked["most"])
@@ -99,8 +105,14 @@ def terrain(grid: Path, rows: Path, **asked: Any) -> None:
     else:
         _tell_rows(measured, coverage, surface.noise, language)
     if site is not None:
-        workbook = write_workbook(measured, grid.name, others, language)
-        places = {site: workbook, site.parent / ROWS_FILE: write_features(features)}
+        page = render_terrain(
+            *(surface, plan, measured, coverage, (grid.name, sha256), language)
+        )
+        places = {
+            site: write_workbook(measured, grid.name, others, language),
+            site.parent / _ROWS: write_features(features),
+            site.parent / PAGE_FILE: page,
+        }
         write_files(places, overwrite=asked["force"])
         for path in places:
             if not asked["quiet"]:
@@ -108,7 +120,7 @@ def terrain(grid: Path, rows: Path, **asked: Any) -> None:
 
 
 def _cover(
-    surface: Any, plan: Any, rows: Sequence[MeasuredRow], standard: str
+    surface: Surface, plan: Plan, rows: Sequence[MeasuredRow], standard: str
 ) -> Coverage:
     """Coverage of the zones by the profile's distance of rows."""
     from netdesign.checks import load_standard
@@ -117,16 +129,20 @@ def _cover(
     from netdesign.terrain.coverage import find_coverage
 
     friction = load_standard(standard).find(GROUND_FRICTION)
+    if friction is None:
+        raise UsageRefusal(say("terrain.no_friction", profile=standard))
     reach = {
         row.line.id: compute_largest_row_spacing(
-            row.slope.high, row.line.net_height, friction.value if friction else 0.0
+            row.slope.high, row.line.net_height, friction.value
         )
         for row in rows
     }
     return find_coverage(surface, plan, rows, reach)
 
 
-def _describe(features: Any, coverage: Coverage, noise: float) -> dict[str, Any]:
+def _describe(
+    features: Sequence[Feature], coverage: Coverage, noise: float
+) -> dict[str, Any]:
     return {
         "schema": "netdesign.terrain/1",
         "noise_m": noise,
@@ -143,8 +159,6 @@ def _describe(features: Any, coverage: Coverage, noise: float) -> dict[str, Any]
 def _tell_rows(
     rows: Sequence[MeasuredRow], coverage: Coverage, noise: float, language: Language
 ) -> None:
-    import math
-
     from netdesign.terrain.measure import describe_kinks
 
     tell(say("terrain.noise", noise=noise), language)

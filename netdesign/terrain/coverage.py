@@ -1,6 +1,6 @@
 """Part of a starting zone whose snow no row holds.
 
-Theory: terrain/THEORY.md, (E9).
+Theory: terrain/THEORY.md, (T9).
 """
 
 from __future__ import annotations

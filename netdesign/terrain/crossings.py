@@ -1,4 +1,4 @@
-"""Where a line of fall crosses another line, in plan."""
+"""Crossings of a line of fall with another line, in plan."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def find_crossing(
 
     Verified by
     -----------
-    tests/terrain/test_fall_line.py
+    tests/terrain/test_measure.py
     """
     points, lengths = lines.points[:, line], lines.lengths[:, line]
     known = np.isfinite(points).all(axis=1) & np.isfinite(lengths)

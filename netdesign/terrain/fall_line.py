@@ -1,6 +1,6 @@
 """Lines of fall on a surface, followed up or down from many points at once.
 
-Theory: terrain/THEORY.md, (E4).
+Theory: terrain/THEORY.md, (T4).
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def follow_fall(
 
     Verified by
     -----------
-    tests/terrain/test_fall_line.py
+    tests/terrain/test_measure.py
     """
     step = surface.grid.cell
     sign = 1.0 if is_up else -1.0

@@ -13,7 +13,7 @@ from netdesign.edge.causes import explain
 from netdesign.edge.given_files import read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 MOST_CELLS = 16_000_000  # 4,000 x 4,000
 MOST_BYTES = 400_000_000
@@ -181,9 +181,3 @@ def _parse(text: bytes) -> Floats:
             return np.fromstring(text.decode("latin-1"), dtype=np.float64, sep=" ")
         except (ValueError, DeprecationWarning):
             raise TerrainError(say("terrain.no_number")) from None
-
-
-def describe_grid(grid: Grid) -> Message:
-    """Size of a grid in a sentence."""
-    lines, columns = grid.heights.shape
-    return say("terrain.grid", columns=columns, lines=lines, cell=grid.cell)

@@ -1,6 +1,6 @@
 """Terrain of one net row: slope, aspect, altitude, bends, upslope length, posts.
 
-Theory: terrain/THEORY.md, (E4) to (E8).
+Theory: terrain/THEORY.md, (T4) to (T8).
 """
 
 from __future__ import annotations
@@ -225,7 +225,7 @@ def _end_above(
     post: int,
     most: float,
 ) -> Upslope:
-    """What ends the snow above a post first: a row, the zone's edge, flat ground."""
+    """First end of the snow above a post: a row, the zone's edge, flat ground."""
     spread = _ERRORS * surface.slope_error
     flat = [
         _find_flat(above, post, LEAST_STEEP + one) for one in (spread, 0.0, -spread)
@@ -289,7 +289,7 @@ def _integrate(lengths: Floats, angles: Floats, most: float) -> tuple[float, flo
 def _band_slope(
     surface: Surface, slopes: Floats, ends: Sequence[Upslope], line: NetLine
 ) -> Band:
-    """Slope of the steepest post with its standard errors, (E6)."""
+    """Slope of the steepest post with its standard errors, (T6)."""
     steepest = int(np.argmax(slopes))
     stretch = ends[steepest].length.value + line.net_height
     windows = max(1.0, stretch / (surface.window * surface.grid.cell))

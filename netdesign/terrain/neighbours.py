@@ -28,7 +28,7 @@ def find_gap(row: MeasuredRow, rows: Sequence[MeasuredRow]) -> float | None:
 
     Verified by
     -----------
-    tests/terrain/test_neighbours.py
+    tests/terrain/test_coverage.py
     """
     gaps = [_find_beside(row, rows, end) for end in (0, -1)]
     known = [one for one in gaps if one is not None]

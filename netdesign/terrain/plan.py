@@ -189,7 +189,12 @@ def _read_line(
     cells: dict[str, float | str] = {}
     lexicon, count = Lexicon.of(NETS.fields, NETS), len(faults)
     for heading, value in properties.items():
-        field = lexicon.match(str(heading)).field
+        meaning = lexicon.match(str(heading))
+        field = meaning.field
+        if meaning.is_unclear:
+            readings = tuple(one.name for one in meaning.readings)
+            told = say("terrain.unclear", name=f"{heading!r:.60}", readings=readings)
+            faults.append(say("text.at_place", place=place, text=told))
         if field is None or value is None:
             continue
         found = _read_value(str(heading), value, field.unit)

@@ -1,6 +1,6 @@
 """Ground between the cells of a grid: a quadratic fitted around each point.
 
-Theory: terrain/THEORY.md, (E1) to (E3).
+Theory: terrain/THEORY.md, (T1) to (T3).
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Surface:
 
     @property
     def slope_error(self) -> float:
-        """Standard error of the slope at one point by the noise, (E3) [rad]."""
+        """Standard error of the slope at one point by the noise, (T3) [rad]."""
         return self.noise * _gain(self.window) / self.grid.cell
 
     def at(self, points: Floats) -> Ground:
@@ -102,7 +102,7 @@ def fit(grid: Grid, points: Floats, window: int) -> Ground:
 
     Verified by
     -----------
-    tests/terrain/test_surface.py
+    tests/terrain/test_measure.py
     """
     half = window // 2
     lines, columns = grid.heights.shape

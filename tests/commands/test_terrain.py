@@ -1,0 +1,156 @@
+"""``netdesign terrain``: from a grid and lines to a workbook that is checked."""
+
+import json
+
+import numpy as np
+import openpyxl
+import pytest
+
+from netdesign.site.template.workbook import write_site_workbook
+
+EAST, NORTH = 2_700_300.0, 1_180_200.0
+ROWS = (("A", 40, 40, 79), ("B", 62, 40, 79), ("C", 62, 80.5, 115))
+
+
+@pytest.fixture(scope="module")
+def slope(tmp_path_factory):
+    """Folder with a grid of 38 degrees or so, three rows, and types."""
+    folder = tmp_path_factory.mktemp("slope")
+    x, y = np.meshgrid(np.arange(160.0), np.arange(160.0))
+    noise = np.random.default_rng(11).normal(0.0, 0.04, x.shape)
+    z = 1800.0 + 0.78 * y + 1.5 * np.sin(x / 31.0) + noise
+    head = f"ncols 160\nnrows 160\nxllcorner {EAST}\nyllcorner {NORTH}\ncellsize 1\n"
+    lines = "\n".join(" ".join(f"{one:.3f}" for one in row) for row in z[::-1])
+    (folder / "slope.asc").write_text(head + lines + "\n")
+    (folder / "rows.json").write_text(json.dumps(write_rows()))
+    write_site_workbook(folder / "types.xlsx", example=True)
+    return folder
+
+
+def write_rows(**special):
+    features = [
+        {
+            "type": "Feature",
+            "properties": {
+                "id": name,
+                "net height [m]": 3.0,
+                "post spacing [m]": 3.0,
+                "snow thickness [m]": 2.8,
+                "ground law": "no-slip",
+                "net stiffness [kN/m]": 12000,
+                "slack": 0.05,
+                **special,
+            },
+            "geometry": {
+                "type": "LineString",
+                "coordinates": [[EAST + a, NORTH + y], [EAST + b, NORTH + y]],
+            },
+        }
+        for name, y, a, b in ROWS
+    ]
+    zone = [(35, 35), (120, 35), (120, 90), (35, 90), (35, 35)]
+    ring = [[EAST + x, NORTH + y] for x, y in zone]
+    features.append(
+        {
+            "type": "Feature",
+            "properties": {"kind": "starting zone"},
+            "geometry": {"type": "Polygon", "coordinates": [ring]},
+        }
+    )
+    return {"type": "FeatureCollection", "features": features}
+
+
+@pytest.mark.parametrize(
+    ("language", "sheet", "heading", "note"),
+    [
+        ("en", "Nets", "slope angle [deg]", "line of fall of each post"),
+        ("fr", "Filets", "pente [deg]", "ligne de pente de chaque montant"),
+        ("de", "Netze", "Hangneigung [deg]", "Falllinie jeder Stütze"),
+    ],
+)
+def test_rows_become_lines_of_a_workbook_with_notes(
+    slope, tmp_path, call, language, sheet, heading, note
+):
+    out = tmp_path / "site.xlsx"
+    options = ("--out", out, "--types", slope / "types.xlsx", "--language", language)
+    ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
+    assert ended.code == 0, ended.err
+    nets = openpyxl.load_workbook(out)[sheet]
+    cells = {one.value: one.column for one in nets[1]}
+    cell = nets.cell(2, cells[heading])
+    assert 37.5 < cell.value < 39.0
+    assert note in cell.comment.text
+    assert "slope.asc" in cell.comment.text
+    page = (tmp_path / "terrain.html").read_text()
+    assert page.count("<svg") == 2 + len(ROWS)
+    assert "<script" not in page
+    rows = json.loads((tmp_path / "rows.geojson").read_text())["features"]
+    named = {one["properties"]["id"]: one for one in rows if "id" in one["properties"]}
+    a = named["A"]["properties"]
+    assert (a["row_above"], a["upslope_end"], a["exposure"]) == ("B", "row", "S")
+    assert a["row_below"] is None
+    assert named["B"]["properties"]["row_below"] == "A"
+    posts = [one for one in rows if one["properties"]["kind"] == "post"]
+    places = [named[one]["geometry"]["coordinates"] for one in named]
+    assert len(posts) == sum(map(len, places))
+
+
+def test_the_workbook_is_checked_as_any_other(slope, tmp_path, call):
+    out = tmp_path / "site.xlsx"
+    call(
+        *("terrain", slope / "slope.asc", slope / "rows.json", "--out", out),
+        *("--types", slope / "types.xlsx", "--quiet"),
+    )
+    ended = call("check", out, "--dry-run")
+    assert ended.code in (0, 4), ended.err
+    assert "A" in ended.out
+
+
+def test_json_is_printed_and_nothing_written(slope, tmp_path, call, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    ended = call("terrain", slope / "slope.asc", slope / "rows.json", "--json")
+    told = json.loads(ended.out)
+    assert told["schema"] == "netdesign.terrain/1"
+    assert [one["id"] for one in told["rows"]] == ["A", "B", "C"]
+    assert 0.0 < told["uncovered_m2"] < told["zone_m2"]
+    assert 0.03 < told["noise_m"] < 0.05
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_faults_are_told_all_at_once_and_nothing_is_written(slope, tmp_path, call):
+    rows = write_rows()
+    rows["features"][0]["geometry"]["coordinates"][0][0] -= 500.0
+    rows["features"][1]["geometry"]["coordinates"] = [
+        [EAST + 40, NORTH + 62],
+        [EAST + 60, NORTH + 62],
+        [EAST + 60, NORTH + 90],
+    ]
+    (tmp_path / "rows.json").write_text(json.dumps(rows))
+    out = tmp_path / "site.xlsx"
+    ended = call("terrain", slope / "slope.asc", tmp_path / "rows.json", "--out", out)
+    assert ended.code == 3
+    assert "row A leaves the grid" in ended.err
+    assert "row B bends by" in ended.err
+    assert not out.exists()
+
+
+def test_what_is_there_is_not_overwritten(slope, tmp_path, call):
+    (tmp_path / "rows.geojson").write_text("mine")
+    out = tmp_path / "site.xlsx"
+    ended = call("terrain", slope / "slope.asc", slope / "rows.json", "--out", out)
+    assert ended.code == 2
+    assert (tmp_path / "rows.geojson").read_text() == "mine"
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--out", "site.ods"), "xlsx"),
+        (("--standard", "nf-p-95-304-style"), "--standard"),
+    ],
+)
+def test_what_cannot_be_done_is_refused(slope, call, options, said):
+    ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
+    assert ended.code == 2
+    assert said in ended.err
