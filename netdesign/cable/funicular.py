@@ -10,14 +10,11 @@ once. Theory: cable/THEORY.md, eqs (C1) to (C5).
 
 from __future__ import annotations
 
-import ctypes
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from netdesign.core.arguments import locate, to_floats
-from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.newton import minimise_convex
 from netdesign.outcome import Outcome
@@ -91,9 +88,6 @@ def solve_funicular(
     -----------
     tests/verification/test_elastic_cable.py
     """
-    core = find_core()
-    if core is not None:
-        return _hang_compiled(core, forces, lengths, stiffness, head, start, tolerance)
     bend = -0.75 * forces[:, 1::2]  # half the change of tension over an element
     offset = tension_offsets(forces, bend)
     total = float(lengths.sum())
@@ -127,41 +121,6 @@ def solve_funicular(
         tension=size,
         foot_pull=middle[:, 0] - 2.0 / 3.0 * bend[:, 0] + forces[:, 0],
         head_pull=forces[:, -1] - middle[:, -1] - 2.0 / 3.0 * bend[:, -1],
-    )
-
-
-def _hang_compiled(
-    core: ctypes.PyDLL,
-    forces: Floats,
-    lengths: Floats,
-    stiffness: float,
-    head: Floats,
-    start: Floats,
-    tolerance: float,
-) -> Funicular:
-    """The same by the compiled core."""
-    count = lengths.size
-    arrays = (
-        to_floats(forces, (2, 2 * count + 1)),
-        to_floats(lengths, (count,)),
-        to_floats(head, (2,)),
-    )
-    pull, ends = to_floats(start, (2,)).copy(), np.empty((2, 2))
-    curve, tension = np.empty((2, 2 * count + 1)), np.empty((2, count))
-    given = [ctypes.c_void_p(locate(one)) for one in arrays]
-    found = [ctypes.c_void_p(locate(one)) for one in (pull, curve, tension, ends)]
-    real = ctypes.c_double
-    code = core.nd_hang(
-        count, *given[:2], real(stiffness), given[2], real(tolerance), *found
-    )
-    is_open = require_sound(code) != 0
-    return Funicular(
-        outcome=Outcome.NO_EQUILIBRIUM if is_open else Outcome.CONVERGED,
-        curve=curve,
-        pull=pull,
-        tension=tension,
-        foot_pull=ends[0],
-        head_pull=ends[1],
     )
 
 

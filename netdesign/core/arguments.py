@@ -46,27 +46,6 @@ class RulesArgument(ctypes.Structure):
     ]
 
 
-class StepArgument(ctypes.Structure):
-    """``Step`` of element.h: where a step starts, and where its results go."""
-
-    _fields_ = [
-        *((name, _POINTER) for name in ("stress", "shear")),
-        *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
-        *((name, _POINTER) for name in ("unknowns", "reaction", "new_stress")),
-        *((name, _POINTER) for name in ("new_shear", "root")),
-    ]
-
-
-class StateArgument(ctypes.Structure):
-    """``State`` of round.h: an iterate of the flow, start and end."""
-
-    _fields_ = [
-        ("numbers", _POINTER),
-        *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
-        ("slides", _INT),
-    ]
-
-
 class EffortArgument(ctypes.Structure):
     """``Effort`` of round.h: what is asked of a flow, and what it took."""
 

@@ -270,7 +270,8 @@ def _finish(
         if is_balanced(problem.snow, last.mesh, forces):
             return last.state, net, forces
     state, forces = find_support_forces(problem.snow, last.mesh, last.state)
-    return state, hang_net(problem, last.net, forces.on_net), forces
+    net = last.net
+    return state, hang_net(problem, forces.on_net, net.cable.pull, net.parts), forces
 
 
 def _build_solution(

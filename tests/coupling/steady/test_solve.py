@@ -78,6 +78,7 @@ def test_net_without_equilibrium(a_scene, monkeypatch):
         cable = solve_funicular(*arguments)
         return replace(cable, outcome=Outcome.NO_EQUILIBRIUM)
 
+    monkeypatch.setenv("NETDESIGN_CORE", "numpy")  # the core has its own net
     solve_funicular = net.solve_funicular
     monkeypatch.setattr(net, "solve_funicular", without_equilibrium)
     result = solve_steady(a_scene(), COARSE)
