@@ -5,10 +5,8 @@ Theory: snow/THEORY.md, sections 2 and 5.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
-from functools import reduce
-from operator import add
 from typing import NamedTuple
 
 import numpy as np
@@ -22,11 +20,11 @@ from netdesign.snow.contact import (
 )
 from netdesign.snow.kernel import (
     assemble_base_force,
+    assemble_base_stiffness,
     assemble_body_force,
     assemble_end_load,
+    assemble_stiffness,
     assemble_stress,
-    build_base_stiffness,
-    build_stiffness,
     compute_base_velocity,
     compute_strain,
 )
@@ -40,16 +38,16 @@ from netdesign.snow.law import (
     sample_material,
     total_stress,
 )
-from netdesign.snow.linear import Blocks, SingularError, solve_blocks
+from netdesign.snow.linear import Matrix, SingularError, solve_matrix
 from netdesign.snow.placed_mesh import PlacedMesh
 
 
 class _Linear(NamedTuple):
-    """Laws linearised about a state, and the blocks of their matrix."""
+    """Laws linearised about a state, and their matrix."""
 
     creep: Tangent
     base: Tangent | None  # None where the ground does not slide by a law
-    blocks: list[Blocks]
+    matrix: Matrix
 
 
 # A Newton step to the next state.
@@ -79,13 +77,13 @@ def take_step(
     SingularError
         If nothing holds the snow.
     """
-    creep, base, blocks = _linearise(problem, material, mesh, state, contact)
+    creep, base, matrix = _linearise(problem, material, mesh, state, contact)
     force = assemble_stress(mesh, creep.intercept) - _gravity_load(
         problem, material, mesh
     )
     if base is not None:
         force += assemble_base_force(mesh, base.intercept)
-    unknowns = _solve_step(problem, mesh, contact, blocks, force)
+    unknowns = _solve_step(problem, mesh, contact, matrix, force)
     base_shear = None
     if base is not None:
         base_shear = base.intercept + base.modulus * compute_base_velocity(
@@ -93,7 +91,7 @@ def take_step(
         )
     return FlowState(
         unknowns=unknowns,
-        reaction=force + sum(block.multiply(unknowns) for block in blocks),
+        reaction=force + matrix @ unknowns,
         stress=advance_stress(problem, creep, compute_strain(mesh, unknowns)),
         base_shear=base_shear,
         contact=contact,
@@ -123,14 +121,13 @@ def condense_to_net(problem: FlowProblem, mesh: PlacedMesh, state: FlowState) ->
         If nothing holds the snow.
     """
     material = sample_material(problem, mesh.template)
-    blocks = _linearise(problem, material, mesh, state, state.contact).blocks
-    matrix = reduce(add, (block.to_matrix(mesh.n_dofs) for block in blocks))
+    matrix = _linearise(problem, material, mesh, state, state.contact).matrix
     net = _list_net(mesh)
     free = free_unknowns(problem, mesh, state.contact)
     free[net] = False
     moved = np.zeros((mesh.n_dofs, net.size))
     moved[net, np.arange(net.size)] = 1.0
-    moved += solve_blocks(mesh.template, blocks, matrix @ moved, free)
+    moved += solve_matrix(mesh.template, matrix, matrix @ moved, free)
     return np.asarray(matrix[net] @ moved)
 
 
@@ -225,7 +222,7 @@ def remove_rounding(
     material = sample_material(problem, mesh.template)
     linear = _linearise(problem, material, mesh, state, state.contact)
     residual = compute_residual(problem, mesh, state)
-    change = _solve_step(problem, mesh, state.contact, linear.blocks, residual)
+    change = _solve_step(problem, mesh, state.contact, linear.matrix, residual)
     still = linear.creep._replace(intercept=np.zeros_like(state.stress))
     base_shear = state.base_shear
     if linear.base is not None and base_shear is not None:
@@ -234,7 +231,7 @@ def remove_rounding(
     return replace(
         state,
         unknowns=state.unknowns + change,
-        reaction=residual + sum(block.multiply(change) for block in linear.blocks),
+        reaction=residual + linear.matrix @ change,
         stress=state.stress
         + advance_stress(problem, still, compute_strain(mesh, change)),
         base_shear=base_shear,
@@ -272,13 +269,13 @@ def _solve_step(
     problem: FlowProblem,
     mesh: PlacedMesh,
     contact: Contact,
-    blocks: Sequence[Blocks],
+    matrix: Matrix,
     force: Floats,
 ) -> Floats:
     """Unknowns that balance forces (n_dofs,) or (n_dofs, m) under a contact."""
-    return solve_blocks(
+    return solve_matrix(
         mesh.template,
-        blocks,
+        matrix,
         force,
         free_unknowns(problem, mesh, contact),
         friction_shares(problem, mesh, contact),
@@ -294,12 +291,11 @@ def _linearise(
 ) -> _Linear:
     """Creep and sliding about a state, under a contact."""
     creep = linearise_creep(problem, material, state.stress)
-    blocks = [build_stiffness(mesh, creep.modulus)]
-    base = None
+    matrix, base = assemble_stiffness(mesh, creep.modulus), None
     if state.base_shear is not None:
         base = _linearise_base(problem, state.base_shear, contact)
-        blocks.append(build_base_stiffness(mesh, base.modulus))
-    return _Linear(creep=creep, base=base, blocks=blocks)
+        matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
+    return _Linear(creep=creep, base=base, matrix=matrix)
 
 
 def _linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tangent:
