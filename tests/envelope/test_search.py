@@ -16,6 +16,7 @@ from netdesign.envelope.search import RowSearch, run_grid, search_rows
 from netdesign.outcome import ModelError, Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
+from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
 from netdesign.words.names import name_member
@@ -151,6 +152,17 @@ def test_a_search_can_be_stepped(found):
         one.member for one in found.confirmations
     ]
     assert 0.0 < gaps[-1] <= TASK.search.gap * (1.0 + 1e-9)
+
+
+def test_a_second_run_solves_nothing_and_ends_the_same(tmp_path):
+    ends = []
+    for _ in range(2):
+        with CaseStore(tmp_path / "cases.sqlite", pytest.fail) as store:
+            runner = Runner(store=store)
+            (one,) = search_rows([TASK], runner)
+        ends.append((one.maxima.upper_bound, one.maxima.values, one.maxima.is_closed))
+    assert runner.counts.solved == 0
+    assert ends[0] == ends[1]
 
 
 def test_rows_that_share_net_and_snow_share_cases(found):
