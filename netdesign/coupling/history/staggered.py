@@ -25,7 +25,6 @@ from netdesign.cable.response import (
     pull_nodes,
 )
 from netdesign.cable.tension import compute_turning_angles
-from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.instant import Instant, advance_under
 from netdesign.coupling.history.net_start import build_start, find_start
 from netdesign.coupling.history.run import (
@@ -33,7 +32,6 @@ from netdesign.coupling.history.run import (
     build_solution,
     measure_run,
     record_moment,
-    scale_history,
 )
 from netdesign.coupling.history.settings import (
     StaggeredSettings,
@@ -109,15 +107,11 @@ def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
         EndPull.of_estimate(one, scene.force_scale)
         for one in _ERROR.estimate([measure_run(run) for run in runs])
     )
-    history = scale_history(
-        runs[-1], scene, Clock(), start=settings.start, densifies=True
-    )
     return build_solution(
         scene,
         runs,
         foot,
         head,
-        history,
         "staggered",
         _BALANCE_TOLERANCE,
         _FRICTION_TOLERANCE,
@@ -176,7 +170,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
         ended=None,
         linear_solves=solves,
         rejected=0,
-        is_guessed=settings.start != "steady",
+        start=settings.start,
     )
 
 

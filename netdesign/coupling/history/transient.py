@@ -13,7 +13,6 @@ from typing import Literal
 import numpy as np
 
 from netdesign.cable.response import measure_arcs
-from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.follow import follow
 from netdesign.coupling.history.instant import Instant, advance
 from netdesign.coupling.history.net_start import build_start, find_start
@@ -22,7 +21,6 @@ from netdesign.coupling.history.run import (
     build_solution,
     measure_run,
     record_moment,
-    scale_history,
 )
 from netdesign.coupling.history.settings import (
     TransientSettings,
@@ -74,7 +72,6 @@ def solve_transient(
     scene: Scene,
     settings: TransientSettings | None = None,
     *,
-    clock: Clock | None = None,
     on_failure: Literal["return", "raise"] = "return",
 ) -> Solution | FailedSolution:
     """History of a scene on two meshes or more.
@@ -85,8 +82,6 @@ def solve_transient(
         Snow, ground and net.
     settings : TransientSettings, optional
         Start, horizon, accuracy.
-    clock : Clock, optional
-        Temperature of the snow against time; default is the scene's fluidity.
     on_failure : str
         ``return`` a FailedSolution, or ``raise`` a SolveError.
 
@@ -107,10 +102,8 @@ def solve_transient(
     -----------
     tests/coupling/history/test_transient.py, ``netdesign verify``
     """
-    settings = settings or TransientSettings()
-    clock = clock or Clock()
     try:
-        return _refine(scene, settings, clock)
+        return _refine(scene, settings or TransientSettings())
     except SolveError as failure:
         if on_failure == "raise":
             raise
@@ -246,7 +239,7 @@ class _Walk:
             ended=None if self.failure is None else self.failure.reason,
             linear_solves=self.solves,
             rejected=self.rejected,
-            is_guessed=self.settings.start != "steady",
+            start=self.settings.start,
         )
 
     def _advance(self, step: float) -> Instant:
@@ -323,8 +316,8 @@ def _list_pulls(run: Run, time: float) -> list[Floats]:
     return [*measure_run(run), *at_time]
 
 
-def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution:
-    horizon = clock.to_creep_time(settings.horizon) / scene.time_scale
+def _refine(scene: Scene, settings: TransientSettings) -> Solution:
+    horizon = settings.horizon / scene.time_scale
 
     rests: list[float] = []
 
@@ -348,13 +341,6 @@ def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution
         runs,
         foot,
         head,
-        scale_history(
-            runs[-1],
-            scene,
-            clock,
-            start=settings.start,
-            densifies=settings.densifies,
-        ),
         "transient",
         _WHOLE_BALANCE * settings.balance_tolerance,
     )
