@@ -124,22 +124,15 @@ def locate_all(*arrays: np.ndarray[Any, Any] | None) -> list[int]:
     return [locate(one) for one in arrays]
 
 
-def to_array(
-    values: object, kind: type[np.generic], shape: tuple[int, ...]
-) -> np.ndarray[Any, Any]:
-    """Values as the core takes them: of this type and shape, contiguous.
+def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
+    """Numbers as the core takes them: of this shape, contiguous.
 
     Raises
     ------
     ValueError
         If the shape is another.
     """
-    array = np.ascontiguousarray(values, dtype=kind)
+    array = np.ascontiguousarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"shape {array.shape}, expected {shape}")
     return array
-
-
-def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
-    """Numbers as the core takes them, as ``to_array``."""
-    return to_array(values, np.float64, shape)
