@@ -7,7 +7,7 @@ Theory: envelope/THEORY.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 
 from netdesign.envelope.cases import Cases, FirstCases
@@ -27,8 +27,6 @@ from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import Batch, Ends
 from netdesign.words.message import say
-
-_WORTH_SHARING = 3  # cases alike but for friction; two take longer than one by one
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -215,8 +213,6 @@ def run_grid(
     """Solve a tensor grid with so many samples of each axis."""
     points = list_grid([counts[name] or 2 for name in task.ranges.axes])
     skip = FrictionSkip(task.ranges.axes)
-    if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
-        task = replace(task, settings=replace(task.settings, shares_start=True))
     cases = Cases(task, points, skip)
     while batches := cases.ask():
         cases.tell(runner.solve_batches(batches))

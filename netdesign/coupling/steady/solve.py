@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 
-from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
+from netdesign.cable.net import Net
 from netdesign.coupling.balance import (
     LARGEST_SUCTION,
     SuctionError,
@@ -149,16 +147,7 @@ def _widen(freed: Solution, held: Solution | None) -> Solution:
 
 
 def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
-    if start := _find_start(scene, settings):
-        with suppress(SolveError):  # then it is solved as any other
-            return _refine(scene, settings, start)
-    return _refine(scene, settings, None)
-
-
-def _refine(
-    scene: Scene, settings: SolverSettings, start: CoupledState | None
-) -> Solution:
-    states, estimates = _solve_levels(scene, settings, start)
+    states, estimates = _solve_levels(scene, settings)
     solution = _build_solution(scene, states, [one.error for one in estimates])
     try:
         check_balance(
@@ -173,7 +162,7 @@ def _refine(
 
 
 def _solve_levels(
-    scene: Scene, settings: SolverSettings, start: CoupledState | None
+    scene: Scene, settings: SolverSettings
 ) -> tuple[list[CoupledState], list[Estimate]]:
     """Meshes until two agree; those before the one that fails, if they are two."""
     first = _build_problem(scene, _require_net(scene), settings.levels[0])
@@ -182,9 +171,7 @@ def _solve_levels(
     def solve(size: MeshSize, coarse: CoupledState | None) -> CoupledState:
         if size not in solved:
             problem = replace(first, template=_build_template(scene, size))
-            solved[size] = couple(
-                problem, settings, coarse or start, is_first=coarse is None
-            )
+            solved[size] = couple(problem, settings, coarse, is_first=coarse is None)
             _require_pressure(solved[size])
         return solved[size]
 
@@ -220,28 +207,6 @@ def _require_pressure(end: CoupledState) -> None:
     suction = measure_suction(mesh, on_net)
     if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
         raise SuctionError(suction)
-
-
-def _find_start(scene: Scene, settings: SolverSettings) -> CoupledState | None:
-    """State that the first mesh starts from; None if there is none."""
-    if not settings.shares_start:
-        return None
-    net = replace(_require_net(scene), friction_angle=LARGEST_FRICTION_ANGLE)
-    return _find_stuck(replace(scene, net=net), settings)
-
-
-@lru_cache(maxsize=1)
-def _find_stuck(scene: Scene, settings: SolverSettings) -> CoupledState | None:
-    """First mesh of a scene whose snow sticks to its net; None without a solution.
-
-    Scenes in turn that differ in friction only have it in common. Each ends the same
-    whether this was known or not.
-    """
-    problem = _build_problem(scene, _require_net(scene), settings.levels[0])
-    try:
-        return couple(problem, settings, None, is_first=True)
-    except SolveError:
-        return None
 
 
 def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
