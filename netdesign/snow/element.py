@@ -165,31 +165,15 @@ def list_dofs(template: MeshTemplate, element: Element) -> Ints:
     Returns
     -------
     ndarray of int, shape (n_triangles, C)
-        Velocities first.
-    """
-    dofs = list_velocity_dofs(template)
-    if element == "mixed":
-        first = 2 * template.nodes.shape[1]
-        dofs = np.hstack([dofs, first + template.triangles[:3].T])
-    dofs.setflags(write=False)
-    return dofs
-
-
-def list_velocity_dofs(template: MeshTemplate) -> Ints:
-    """Velocity components of each triangle.
-
-    Parameters
-    ----------
-    template : MeshTemplate
-        Reference mesh.
-
-    Returns
-    -------
-    ndarray of int, shape (n_triangles, 12)
-        X and Y of each node in turn.
+        X and Y of each node in turn, then the pressures.
     """
     first = 2 * template.triangles.T
-    return np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
+    dofs = np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
+    if element == "mixed":
+        pressures = 2 * template.nodes.shape[1] + template.triangles[:3].T
+        dofs = np.hstack([dofs, pressures])
+    dofs.setflags(write=False)
+    return dofs
 
 
 def add_pressure_rows(strain: Floats) -> Floats:

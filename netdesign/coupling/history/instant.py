@@ -121,7 +121,7 @@ def advance(
     equations = assemble_step(problem, state, step)
     unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
     iterate = SnowIterate(unknowns, state.stress, state.base_shear)
-    points = list_net_points(problem, state.body.vertices[:, state.carried])
+    points = list_net_points(problem, state.net_nodes)
     forces = hold_net(points, state.lengths, stiffness=problem.stiffness).forces
     guess = NetGuess.at_rest(equations.place_net(unknowns), state.slide_signs)
     top_changes = 0

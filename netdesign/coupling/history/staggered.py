@@ -40,6 +40,7 @@ from netdesign.coupling.history.state import (
     TransientProblem,
     TransientState,
     build_problem,
+    list_net_points,
 )
 from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
@@ -181,20 +182,15 @@ def _longest_step(problem: TransientProblem, aspect: float) -> float:
 
 
 def _start_cable(problem: TransientProblem, state: TransientState) -> CableState:
-    arcs = measure_arcs(_net_points(problem, state))
+    arcs = measure_arcs(list_net_points(problem, state.net_nodes))
     return build_cable_state(arcs, np.minimum(state.lengths, arcs), problem.stiffness)
-
-
-def _net_points(problem: TransientProblem, state: TransientState) -> Floats:
-    nodes = state.body.vertices[:, state.carried]
-    return np.column_stack([np.zeros(2), nodes, problem.head])
 
 
 def _respond(
     problem: TransientProblem, state: TransientState, cable: CableState
 ) -> NetResponse:
     """The net as it is, its forces taken as they are."""
-    points = _net_points(problem, state)
+    points = list_net_points(problem, state.net_nodes)
     return pull_nodes(points, keep_lengths(cable.unstressed_lengths, cable.tensions))
 
 
@@ -219,7 +215,7 @@ def _follow(
         stress=instant.stress,
         base_shear=instant.base_shear,
     )
-    points = _net_points(problem, moved)
+    points = list_net_points(problem, moved.net_nodes)
     increment = advance_increment(
         cable,
         measure_arcs(points),

@@ -411,7 +411,7 @@ def _describe_form(
     described = describe_template(template, library)
     if described is None:
         return None
-    frame, net = _describe_frame(template), _describe_net(template, top)
+    frame, net = _describe_frame(template), cut_net(template, top)
     end = share_end_load(template)
     mesh = MeshArgument(*described.counts, *described.numbers)
     mesh.edge_shape = locate(EDGE_SHAPE)
@@ -423,23 +423,12 @@ def _describe_form(
     for name, place in zip(_NET, locate_all(*net), strict=True):
         setattr(argument, name, place)
     argument.end_share, argument.edge_weights = locate_all(end, EDGE_WEIGHTS)
-    argument.n_elements, argument.n_parts = net[0].size, net[-1].size
+    argument.n_elements, argument.n_parts = net.shares.size, net.rises.size
     argument.tolerance = CLOSED
     return _Form(
         argument=argument,
-        places=_lay_out(template, net[0].size, net[-1].size, slides=slides),
+        places=_lay_out(template, net.shares.size, net.rises.size, slides=slides),
         kept=(*described.kept, *frame, *net, end, template.orientation),
-    )
-
-
-def _describe_net(template: MeshTemplate, top: float) -> _Arrays:
-    """The net's parts, as ``Scene`` of round.c has them."""
-    parts = cut_net(template, top)
-    return (
-        np.ascontiguousarray(parts.shares, dtype=np.float64),
-        np.ascontiguousarray(parts.part, dtype=np.int64),
-        np.ascontiguousarray(parts.firsts, dtype=np.int64),
-        np.ascontiguousarray(parts.rises, dtype=np.float64),
     )
 
 
