@@ -25,23 +25,6 @@ _POINTS = ((1.0 / 6.0, 1.0 / 6.0), (2.0 / 3.0, 1.0 / 6.0), (1.0 / 6.0, 2.0 / 3.0
 Element = Literal["velocity", "mixed"]
 
 
-def point_heights(template: MeshTemplate) -> Floats:
-    """Reference heights of the quadrature points.
-
-    Parameters
-    ----------
-    template : MeshTemplate
-        Reference mesh.
-
-    Returns
-    -------
-    ndarray, shape (n_triangles, n_points)
-        [thickness].
-    """
-    shape, _, _ = reference_element()
-    return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
-
-
 def interpolate_reference(template: MeshTemplate) -> Floats:
     """Reference coordinates of the quadrature points.
 

@@ -9,7 +9,6 @@ section 7.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 
@@ -45,7 +44,13 @@ from netdesign.coupling.history.state import (
 from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    EndPull,
+    FailedSolution,
+    OnFailure,
+    Solution,
+    end_solve,
+)
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.body import move_body
@@ -65,7 +70,7 @@ def solve_staggered(
     scene: Scene,
     settings: StaggeredSettings | None = None,
     *,
-    on_failure: Literal["return", "raise"] = "return",
+    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """The paper's exchange, with a step and with half of it.
 
@@ -92,16 +97,19 @@ def solve_staggered(
     -----------
     tests/coupling/history/test_staggered.py, ``netdesign verify``
     """
-    try:
-        return _solve(scene, settings or StaggeredSettings())
-    except SolveError as failure:
-        reason = say("staggered.advice", reason=failure.reason)
-        if on_failure == "raise":
-            raise SolveError(failure.outcome, reason) from None
-        return FailedSolution(outcome=failure.outcome, reason=reason)
+    return end_solve(lambda: _solve(scene, settings or StaggeredSettings()), on_failure)
 
 
 def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
+    """Solution, or its failure with what to try."""
+    try:
+        return _halve(scene, settings)
+    except SolveError as failure:
+        advice = say("staggered.advice", reason=failure.reason)
+        raise SolveError(failure.outcome, advice) from None
+
+
+def _halve(scene: Scene, settings: StaggeredSettings) -> Solution:
     half = replace(settings, step_share=settings.step_share / 2.0)
     runs = [run_exchange(scene, settings), run_exchange(scene, half)]
     foot, head = (

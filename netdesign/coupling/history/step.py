@@ -248,11 +248,12 @@ def assemble_step(
         )
     moved = replace(body, vertices=vertices)
     material = build_material(problem.settling, snow, moved)
+    fluidity = np.broadcast_to(material.fluidity_ratio, mesh.weights.shape)
     return StepEquations(
         problem=problem,
         mesh=mesh,
         material=material,
-        bottom_fluidity_ratio=material.sample_fluidity_ratio(body.topology.bottom),
+        bottom_fluidity_ratio=fluidity[body.topology.bottom, :1],
         weight=_nodal_weight(problem, mesh, body),
         free=_free_places(problem, mesh, state),
         net_dofs=np.concatenate([2 * state.carried, 2 * state.carried + 1]),

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
@@ -38,7 +37,13 @@ from netdesign.coupling.moments import (
 )
 from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    EndPull,
+    FailedSolution,
+    OnFailure,
+    Solution,
+    end_solve,
+)
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template
@@ -72,7 +77,7 @@ def solve_transient(
     scene: Scene,
     settings: TransientSettings | None = None,
     *,
-    on_failure: Literal["return", "raise"] = "return",
+    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """History of a scene on two meshes or more.
 
@@ -102,12 +107,9 @@ def solve_transient(
     -----------
     tests/coupling/history/test_transient.py, ``netdesign verify``
     """
-    try:
-        return _refine(scene, settings or TransientSettings())
-    except SolveError as failure:
-        if on_failure == "raise":
-            raise
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    return end_solve(
+        lambda: _refine(scene, settings or TransientSettings()), on_failure
+    )
 
 
 def run_history(

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -34,7 +33,9 @@ from netdesign.coupling.solution import (
     Cost,
     EndPull,
     FailedSolution,
+    OnFailure,
     Solution,
+    end_solve,
     list_skipped,
     triangle_density,
 )
@@ -56,7 +57,7 @@ def solve_steady(
     scene: Scene,
     settings: SolverSettings | None = None,
     *,
-    on_failure: Literal["return", "raise"] = "return",
+    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """Steady state of a scene, refined until its end forces are accurate.
 
@@ -84,12 +85,7 @@ def solve_steady(
     -----------
     tests/coupling/steady/test_solve.py, tests/verification/test_reference_scene.py
     """
-    try:
-        return _solve(scene, settings or SolverSettings())
-    except SolveError as failure:
-        if on_failure == "raise":
-            raise
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    return end_solve(lambda: _solve(scene, settings or SolverSettings()), on_failure)
 
 
 def find_net_equilibrium(
