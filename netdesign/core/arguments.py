@@ -124,6 +124,12 @@ def locate_all(*arrays: np.ndarray[Any, Any] | None) -> list[int]:
     return [locate(one) for one in arrays]
 
 
+def point_to(argument: ctypes.Structure, **arrays: np.ndarray[Any, Any]) -> None:
+    """Set fields of a structure to the addresses of contiguous arrays."""
+    for name, array in arrays.items():
+        setattr(argument, name, locate(array))
+
+
 def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
     """Numbers as the core takes them: of this shape, contiguous.
 

@@ -22,7 +22,7 @@ from netdesign.core.arguments import (
     MeshArgument,
     SceneArgument,
     locate,
-    locate_all,
+    point_to,
     to_floats,
 )
 from netdesign.core.library import SINGULAR, find_core, require_sound
@@ -54,10 +54,6 @@ from netdesign.snow.mesh import MeshTemplate, follow_net
 from netdesign.snow.placed_mesh import EDGE_SHAPE, EDGE_WEIGHTS, PlacedMesh
 from netdesign.snow.shared_mesh import find_once
 from netdesign.words.message import say
-
-# Fields of ``SceneArgument``: which of the net's nodes are beside a node; its parts.
-_FRAME = ("below", "rise", "heights", "ends")
-_NET = ("shares", "part", "firsts", "rises")
 
 _Arrays = tuple[np.ndarray[Any, Any], ...]
 
@@ -348,15 +344,13 @@ def prepare_rounds(
     law, first, density, kept = _describe_laws(snow, layered)
     argument.law, argument.first = law, first
     argument.is_uniform = int(density.size == 1)
-    arrays = (
-        np.ascontiguousarray(template.nodes, dtype=np.float64),
-        np.ascontiguousarray(follow_net(template), dtype=np.float64),
-        density,
-        np.array(problem.head, dtype=np.float64),
-    )
-    names = ("reference", "follow", "density", "head")
-    for name, place in zip(names, locate_all(*arrays), strict=True):
-        setattr(argument, name, place)
+    arrays = {
+        "reference": np.ascontiguousarray(template.nodes, dtype=np.float64),
+        "follow": np.ascontiguousarray(follow_net(template), dtype=np.float64),
+        "density": density,
+        "head": np.array(problem.head, dtype=np.float64),
+    }
+    point_to(argument, **arrays)
     lifts = may_lift(template)
     argument.rules = describe_rules(snow, locate(lifts))
     argument.gravity[:] = snow.gravity
@@ -375,7 +369,7 @@ def prepare_rounds(
         still=still,
         argument=argument,
         places=form.places,
-        kept=(*form.kept, *kept, *arrays, lifts),
+        kept=(*form.kept, *kept, *arrays.values(), lifts),
     )
 
 
@@ -418,32 +412,29 @@ def _describe_form(
     placement = describe_placement(described, template.orientation)
     argument = SceneArgument(place=placement, mesh=mesh, plan=described.plan)
     argument.n_vertices = template.n_vertices
-    for name, place in zip(_FRAME, locate_all(*frame), strict=True):
-        setattr(argument, name, place)
-    for name, place in zip(_NET, locate_all(*net), strict=True):
-        setattr(argument, name, place)
-    argument.end_share, argument.edge_weights = locate_all(end, EDGE_WEIGHTS)
+    point_to(argument, **frame, **net._asdict())
+    point_to(argument, end_share=end, edge_weights=EDGE_WEIGHTS)
     argument.n_elements, argument.n_parts = net.shares.size, net.rises.size
     argument.tolerance = CLOSED
     return _Form(
         argument=argument,
         places=_lay_out(template, net.shares.size, net.rises.size, slides=slides),
-        kept=(*described.kept, *frame, *net, end, template.orientation),
+        kept=(*described.kept, *frame.values(), *net, end, template.orientation),
     )
 
 
-def _describe_frame(template: MeshTemplate) -> _Arrays:
+def _describe_frame(template: MeshTemplate) -> dict[str, np.ndarray[Any, Any]]:
     """Places of nodes between those of the net, as ``Scene`` of round.c has them."""
     heights, of_net = template.nodes[1], template.net_fractions
     below = np.searchsorted(of_net, heights, side="right") - 1
     below = np.clip(below, 0, of_net.size - 1)
     rise = np.where(below < of_net.size - 1, heights - of_net[below], 0.0)
-    return (
-        np.ascontiguousarray(below, dtype=np.int32),
-        np.maximum(rise, 0.0),
-        np.ascontiguousarray(of_net, dtype=np.float64),
-        np.ascontiguousarray(template.edges, dtype=np.int32),
-    )
+    return {
+        "below": np.ascontiguousarray(below, dtype=np.int32),
+        "rise": np.maximum(rise, 0.0),
+        "heights": np.ascontiguousarray(of_net, dtype=np.float64),
+        "ends": np.ascontiguousarray(template.edges, dtype=np.int32),
+    }
 
 
 def _lay_out(
