@@ -252,7 +252,7 @@ def test_a_citation_that_leads_nowhere_is_found():
 
 
 def test_a_constant_that_is_none_is_found():
-    assert find_values("_PATIENCE", "snow") == [12]
+    assert find_values("PATIENCE", "snow") == [12]
     assert find_values("interface._ROUNDING", "snow") == [1e-9]
     assert find_values("SolverSettings.balance_tolerance", "coupling") == [1e-8]
     assert find_values("_NO_SUCH_THING", "snow") == []

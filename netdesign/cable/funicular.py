@@ -10,14 +10,11 @@ once. Theory: cable/THEORY.md, eqs (C1) to (C5).
 
 from __future__ import annotations
 
-import ctypes
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from netdesign.core.arguments import locate, to_floats
-from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.newton import minimise_convex
 from netdesign.outcome import Outcome
@@ -25,7 +22,6 @@ from netdesign.outcome import Outcome
 # Gap at the head, over the length, that counts as closed.
 CLOSED = 1e-12
 _GAUSS = 1.0 / np.sqrt(3.0)
-_UNIT = np.eye(2)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -91,77 +87,24 @@ def solve_funicular(
     -----------
     tests/verification/test_elastic_cable.py
     """
-    core = find_core()
-    if core is not None:
-        return _hang_compiled(core, forces, lengths, stiffness, head, start, tolerance)
-    bend = -0.75 * forces[:, 1::2]  # half the change of tension over an element
-    offset = tension_offsets(forces, bend)
     total = float(lengths.sum())
-
-    half = lengths / (2.0 * total)
-    weights = np.concatenate([half, half])  # of all Gauss points
-    flat = offset.reshape(2, -1)
+    cable = build_alike(forces, lengths / total, stiffness)
 
     def gap_at_head(pull: Floats) -> tuple[Floats, Floats]:
-        """Gradient of the complementary energy (C4), and its Hessian.
-
-        With the tension vectors v: sums of (1 / |v| + 1 / ES) v, and of
-        (1 / |v| + 1 / ES) I - v v^T / |v|^3.
-        """
-        vector = pull[:, None] + flat
-        size = np.hypot(*vector)
-        share = weights / size
-        give = share + weights / stiffness
-        along = (vector * (share / size**2)) @ vector.T
-        return vector @ give - head / total, give.sum() * _UNIT - along
+        """Gradient of the complementary energy (C4), and its Hessian."""
+        ends, slopes = reach_ends(cable, pull[:, None])
+        return ends[:, 0] - head / total, slopes[..., 0]
 
     minimum = minimise_convex(gap_at_head, start, tolerance=tolerance)
     converged = minimum.outcome is Outcome.CONVERGED
-    vector = minimum.point[:, None, None] + offset
-    size = np.hypot(*vector)
-    middle = (vector[:, 0] + vector[:, 1]) / 2.0
+    pull = minimum.point
     return Funicular(
         outcome=Outcome.CONVERGED if converged else Outcome.NO_EQUILIBRIUM,
-        curve=integrate_curve(vector * (1.0 / size + 1.0 / stiffness), lengths),
-        pull=minimum.point,
-        tension=size,
-        foot_pull=middle[:, 0] - 2.0 / 3.0 * bend[:, 0] + forces[:, 0],
-        head_pull=forces[:, -1] - middle[:, -1] - 2.0 / 3.0 * bend[:, -1],
-    )
-
-
-def _hang_compiled(
-    core: ctypes.PyDLL,
-    forces: Floats,
-    lengths: Floats,
-    stiffness: float,
-    head: Floats,
-    start: Floats,
-    tolerance: float,
-) -> Funicular:
-    """The same by the compiled core."""
-    count = lengths.size
-    arrays = (
-        to_floats(forces, (2, 2 * count + 1)),
-        to_floats(lengths, (count,)),
-        to_floats(head, (2,)),
-    )
-    pull, ends = to_floats(start, (2,)).copy(), np.empty((2, 2))
-    curve, tension = np.empty((2, 2 * count + 1)), np.empty((2, count))
-    given = [ctypes.c_void_p(locate(one)) for one in arrays]
-    found = [ctypes.c_void_p(locate(one)) for one in (pull, curve, tension, ends)]
-    real = ctypes.c_double
-    code = core.nd_hang(
-        count, *given[:2], real(stiffness), given[2], real(tolerance), *found
-    )
-    is_open = require_sound(code) != 0
-    return Funicular(
-        outcome=Outcome.NO_EQUILIBRIUM if is_open else Outcome.CONVERGED,
-        curve=curve,
+        curve=draw_curves(cable, np.array([total]), pull[:, None])[0],
         pull=pull,
-        tension=tension,
-        foot_pull=ends[0],
-        head_pull=ends[1],
+        tension=np.hypot(*(pull[:, None] + cable.offsets)).reshape(2, -1),
+        foot_pull=pull + cable.to_foot,
+        head_pull=cable.load - pull - cable.to_foot,
     )
 
 

@@ -59,14 +59,11 @@ class IncrementalStep:
         The cable at the end; as before the increment if not converged.
     slide_signs : ndarray, shape (n,)
         1 net slides towards the foot, -1 towards the head, 0 sticks.
-    rounds : int
-        Sets of sliding nodes that were tried.
     """
 
     outcome: Outcome
     state: CableState
     slide_signs: Signs
-    rounds: int
 
 
 def build_cable_state(
@@ -148,12 +145,12 @@ def advance_increment(
     increment = _linearise(state, final_lengths, turning_angles, friction, stiffness)
     signs = np.zeros(turning_angles.size, dtype=np.int8)
     fewest, patience = signs.size + 1, _PATIENCE
-    for rounds in range(1, max_rounds + 1):
+    for _ in range(max_rounds):
         tensions = _solve_tensions(increment, signs)
         revised = _revise_signs(increment, tensions, signs)
         changing: Nodes = np.flatnonzero(revised != signs)
         if changing.size == 0:
-            return _end(state, increment, tensions, signs, rounds)
+            return _end(state, increment, tensions, signs)
         helps = changing.size < fewest
         patience = _PATIENCE if helps else patience - 1
         fewest = min(fewest, changing.size)
@@ -161,7 +158,9 @@ def advance_increment(
             changing = _choose_worst(_excess(increment, tensions), signs, changing)
         signs = signs.copy()
         signs[changing] = revised[changing]
-    return _fail(Outcome.MAX_ITERATIONS, state, signs, max_rounds)
+    return IncrementalStep(
+        outcome=Outcome.MAX_ITERATIONS, state=state, slide_signs=signs
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -248,31 +247,19 @@ def _lengthening(increment: _Increment, tensions: Floats) -> Floats:
 
 
 def _end(
-    before: CableState,
-    increment: _Increment,
-    tensions: Floats,
-    signs: Signs,
-    rounds: int,
+    before: CableState, increment: _Increment, tensions: Floats, signs: Signs
 ) -> IncrementalStep:
     unstressed = increment.unstressed + _lengthening(increment, tensions)
     if not (tensions.min() >= 0.0 and unstressed.min() > 0.0):
-        return _fail(Outcome.OUT_OF_VALIDITY, before, signs, rounds)
+        return IncrementalStep(
+            outcome=Outcome.OUT_OF_VALIDITY, state=before, slide_signs=signs
+        )
     state = CableState(
         final_lengths=increment.final,
         unstressed_lengths=unstressed,
         tensions=tensions,
     )
-    return IncrementalStep(
-        outcome=Outcome.CONVERGED, state=state, slide_signs=signs, rounds=rounds
-    )
-
-
-def _fail(
-    outcome: Outcome, before: CableState, signs: Signs, rounds: int
-) -> IncrementalStep:
-    return IncrementalStep(
-        outcome=outcome, state=before, slide_signs=signs, rounds=rounds
-    )
+    return IncrementalStep(outcome=Outcome.CONVERGED, state=state, slide_signs=signs)
 
 
 def _require_matching(state: CableState, final: Floats, angles: Floats) -> None:

@@ -5,14 +5,11 @@ Theory: cable/THEORY.md, eqs (C5a) and (C5b).
 
 from __future__ import annotations
 
-import ctypes
 from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.cable.funicular import tension_offsets
-from netdesign.core.arguments import locate_all, to_array, to_floats
-from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats, Ints
 
 _MOST_STEPS, _MOST_HALVINGS = 30, 20
@@ -87,10 +84,6 @@ def find_part_lengths(
     -----------
     tests/cable/test_parted.py
     """
-    core = find_core()
-    if core is not None:
-        numbers = (head_x, length, stiffness)
-        return _find_compiled(core, parts, forces, numbers, start)
     offsets = tension_offsets(forces, -0.75 * forces[:, 1::2])
 
     def evaluate(pull: Floats) -> _Lengths:
@@ -115,30 +108,6 @@ def find_part_lengths(
             step = step / 2.0
         pull, now = pull + step, then
     return None
-
-
-def _find_compiled(
-    core: ctypes.PyDLL,
-    parts: CableParts,
-    forces: Floats,
-    numbers: tuple[float, float, float],
-    start: Floats,
-) -> Floats | None:
-    """The same by the compiled core."""
-    count, n_parts = parts.shares.size, parts.rises.size
-    arrays = (
-        to_floats(forces, (2, 2 * count + 1)),
-        to_floats(parts.shares, (count,)),
-        to_array(parts.firsts, np.int64, (n_parts,)),
-        to_floats(parts.rises, (n_parts,)),
-    )
-    pull, lengths = to_floats(start, (2,)).copy(), np.empty(n_parts)
-    code = core.nd_part(
-        *(count, n_parts, *(ctypes.c_void_p(one) for one in locate_all(*arrays))),
-        *map(ctypes.c_double, numbers),
-        *(ctypes.c_void_p(one) for one in locate_all(pull, lengths)),
-    )
-    return lengths if require_sound(code) == 0 else None
 
 
 def _evaluate(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.cable.sliding import NetState, SlidingStep, solve_sliding
+from netdesign.cable.sliding import SlidingStep, solve_sliding
 from netdesign.cable.tension import (
     compute_ratio_bounds,
     compute_segment_lengths,
@@ -116,12 +116,9 @@ def keep_lengths(lengths: Floats, tensions: Floats) -> SlidingStep:
     """
     return SlidingStep(
         outcome=Outcome.CONVERGED,
-        state=NetState.TIGHT if tensions.all() else NetState.PARTLY_SLACK,
         lengths=lengths,
         tensions=tensions,
         slides=np.zeros(lengths.size - 1),
-        residual=0.0,
-        iterations=0,
     )
 
 

@@ -10,7 +10,6 @@ Theory: cable/THEORY.md, eqs (C13) to (C17).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 from itertools import pairwise
 
 import numpy as np
@@ -23,16 +22,10 @@ from netdesign.words.message import say
 _ACCEPTED_CLIMB = 0.5
 _SHORTEST_STEP = 1e-12
 _TO_BOUNDARY = 0.9  # part of the way to T = 0 that one step may go
-_TIGHTEST_START = 0.1  # least elongation of a start, over that of uniform strain
+# Breach of (C14), a difference of logarithms of tensions, that counts as none; what
+# rounding makes of the smallest elongation is added.
+_TOLERANCE = 1e-10
 _ROUNDING = float(np.finfo(float).eps)
-
-
-class NetState(StrEnum):
-    """State of the net: all of it carries, some of it, or none."""
-
-    TIGHT = "tight"
-    PARTLY_SLACK = "partly_slack"
-    SLACK = "slack"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -43,27 +36,18 @@ class SlidingStep:
     ----------
     outcome : Outcome
         Converged, or why not.
-    state : NetState
-        Slack: the net is longer than its polygon, all tensions are 0.
     lengths : ndarray, shape (n + 1,)
         Unstressed lengths lo_i; their sum is that of before [m].
     tensions : ndarray, shape (n + 1,)
-        T_i, at least 0 [N/m].
+        T_i, at least 0; all 0 of a net that is longer than its polygon [N/m].
     slides : ndarray, shape (n,)
         S_i - S_old_i; exactly 0 where the net sticks [m].
-    residual : float
-        Largest breach of (C14) over the nodes of tight parts [-].
-    iterations : int
-        Newton steps, of the part of the net that took most.
     """
 
     outcome: Outcome
-    state: NetState
     lengths: Floats
     tensions: Floats
     slides: Floats
-    residual: float
-    iterations: int
 
     @property
     def slide_signs(self) -> Signs:
@@ -77,8 +61,6 @@ def solve_sliding(
     bounds: Floats,
     *,
     stiffness: float,
-    start: Floats | None = None,
-    tolerance: float = 1e-10,
     max_iterations: int = 60,
 ) -> SlidingStep:
     """Slide the net through its nodes as far as friction asks, (C13) and (C14).
@@ -93,12 +75,6 @@ def solve_sliding(
         kappa_i of ``compute_ratio_bounds``; infinite where nothing can slide [-].
     stiffness : float
         ES [N/m].
-    start : ndarray, shape (n + 1,), optional
-        Guess of the unstressed lengths; its scale does not matter. Default is
-        uniform strain, the answer without friction [m].
-    tolerance : float
-        Breach of (C14), a difference of logarithms of tensions, that counts as none
-        [-]. What rounding makes of the smallest elongation is added.
     max_iterations : int
         Newton steps allowed; 3 to 7 are taken whatever the friction and the mesh.
 
@@ -116,8 +92,7 @@ def solve_sliding(
     -----------
     tests/verification/test_sliding_cable.py
     """
-    guess = final_lengths if start is None else start
-    _require_matching(final_lengths, old_lengths, bounds, guess)
+    _require_matching(final_lengths, old_lengths, bounds)
     cuts = np.flatnonzero(np.isinf(bounds)) + 1
     parts = []
     for first, end in pairwise([0, *cuts.tolist(), final_lengths.size]):
@@ -126,7 +101,7 @@ def solve_sliding(
             old=old_lengths[first:end],
             bounds=bounds[first : end - 1],
         )
-        parts.append(_solve_part(problem, guess[first:end], tolerance, max_iterations))
+        parts.append(_solve_part(problem, max_iterations))
     return _join_parts(parts, final_lengths, stiffness)
 
 
@@ -157,31 +132,26 @@ class _Part:
     """End of the solve of one part."""
 
     outcome: Outcome
-    is_slack: bool
     lengths: Floats
     slides: Floats
-    residual: float = 0.0
-    iterations: int = 0
 
 
-def _solve_part(
-    problem: _Problem, guess: Floats, tolerance: float, max_iterations: int
-) -> _Part:
+def _solve_part(problem: _Problem, max_iterations: int) -> _Part:
     if problem.elongation <= 0.0:
         return _slacken(problem)
-    point = _place_start(problem, guess)
+    point = _start_uniform(problem)
     for iteration in range(max_iterations + 1):
         log_tensions = _log_tensions(problem, point)
-        residual = _find_breach(problem, point, log_tensions)
-        if residual <= tolerance + _find_rounding(problem, point):
-            return _end(Outcome.CONVERGED, problem, point, residual, iteration)
+        breach = _find_breach(problem, point, log_tensions)
+        if breach <= _TOLERANCE + _find_rounding(problem, point):
+            return _end(Outcome.CONVERGED, problem, point)
         if iteration == max_iterations:
             break
         following = _take_step(problem, point, log_tensions)
         if following is None:
-            return _end(Outcome.DIVERGED, problem, point, residual, iteration)
+            return _end(Outcome.DIVERGED, problem, point)
         point = following
-    return _end(Outcome.MAX_ITERATIONS, problem, point, residual, max_iterations)
+    return _end(Outcome.MAX_ITERATIONS, problem, point)
 
 
 def _slacken(problem: _Problem) -> _Part:
@@ -192,21 +162,15 @@ def _slacken(problem: _Problem) -> _Part:
     lengths = np.maximum(problem.old + lack - drawn * surplus, problem.final)
     return _Part(
         outcome=Outcome.CONVERGED,
-        is_slack=True,
         lengths=lengths,
         slides=np.cumsum(lengths - problem.old)[:-1],
     )
 
 
-def _place_start(problem: _Problem, guess: Floats) -> _Point:
-    """The guess, drawn towards uniform strain until every segment is tight."""
-    total = problem.old.sum()
-    uniform = problem.final * (problem.elongation / problem.final.sum())
-    elongations = problem.final - guess * (total / guess.sum())
-    least = float((elongations / uniform).min())
-    if least < _TIGHTEST_START:
-        blend = (_TIGHTEST_START - least) / (1.0 - least)
-        elongations = elongations + blend * (uniform - elongations)
+def _start_uniform(problem: _Problem) -> _Point:
+    """The same strain in all segments, the answer without friction."""
+    shrunk = problem.old.sum() / problem.final.sum()
+    elongations = problem.final - problem.final * shrunk
     slides = np.cumsum(problem.final - elongations - problem.old)[:-1]
     return _Point(elongations=elongations, slides=slides)
 
@@ -344,51 +308,37 @@ def _walk(
     return root, slope
 
 
-def _end(
-    outcome: Outcome, problem: _Problem, point: _Point, residual: float, iterations: int
-) -> _Part:
+def _end(outcome: Outcome, problem: _Problem, point: _Point) -> _Part:
     """Lengths of the last iterate; to the digit the old ones where nothing slid."""
     moved = np.diff(point.slides, prepend=0.0, append=0.0) != 0.0
     return _Part(
         outcome=outcome,
-        is_slack=False,
         lengths=np.where(moved, problem.final - point.elongations, problem.old),
         slides=point.slides,
-        residual=residual,
-        iterations=iterations,
     )
 
 
 def _join_parts(parts: list[_Part], final: Floats, stiffness: float) -> SlidingStep:
     failed = [p.outcome for p in parts if p.outcome is not Outcome.CONVERGED]
-    slack = [part.is_slack for part in parts]
-    state = NetState.PARTLY_SLACK if any(slack) else NetState.TIGHT
     between = [piece for part in parts for piece in ([0.0], part.slides)][1:]
     lengths = np.concatenate([part.lengths for part in parts])
     return SlidingStep(
         outcome=failed[0] if failed else Outcome.CONVERGED,
-        state=NetState.SLACK if all(slack) else state,
         lengths=lengths,
         tensions=compute_tensions(final, lengths, stiffness),
         slides=np.concatenate(between),
-        residual=max(part.residual for part in parts),
-        iterations=max(part.iterations for part in parts),
     )
 
 
-def _require_matching(
-    final: Floats, old: Floats, bounds: Floats, guess: Floats
-) -> None:
+def _require_matching(final: Floats, old: Floats, bounds: Floats) -> None:
     require_lengths("final length", final)
     require_lengths("old unstressed length", old)
-    require_lengths("start length", guess)
-    if not (guess.shape == old.shape == final.shape == (bounds.size + 1,)):
+    if not (old.shape == final.shape == (bounds.size + 1,)):
         raise ModelError(
             say(
                 "cable.sliding_sizes",
                 final=final.size,
                 old=old.size,
-                start=guess.size,
                 bounds=bounds.size,
             )
         )

@@ -23,7 +23,7 @@ from netdesign.cable.response import (
     pull_nodes,
     respond,
 )
-from netdesign.cable.sliding import NetState, SlidingStep
+from netdesign.cable.sliding import SlidingStep
 from netdesign.numerics.arrays import Floats, Mask, Signs
 from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
@@ -199,7 +199,7 @@ def settle_net(
         slides, signs = loose.sliding.slides, loose.sliding.slide_signs
         net = _place_net(given, net.place, slides)
     chord = float(np.hypot(*head))
-    for iteration in range(1, _MOST_ITERATIONS + 1):
+    for _ in range(_MOST_ITERATIONS):
         linear = _linearise(given, net)
         wanted, signs = _choose(net, linear, slides, signs)
         way = linear.way[:, 0] + linear.way[:, 1:] @ (wanted - slides)
@@ -208,7 +208,12 @@ def settle_net(
         if part == 1.0:
             slides = wanted
             if moved <= _LAST_WAY * chord and net.tensions.min() >= 0.0:
-                sliding = _finish(net, slides, iteration)
+                sliding = SlidingStep(
+                    outcome=Outcome.CONVERGED,
+                    lengths=net.lengths,
+                    tensions=net.tensions,
+                    slides=slides,
+                )
                 end = NetGuess(place=net.place, slides=slides, slide_signs=signs)
                 return pull_nodes(net.points, sliding), end
         else:
@@ -379,23 +384,3 @@ def _go(
         if left.all() or part < _SHORTEST_PART:
             return part, there
         part /= 2.0
-
-
-def _finish(net: _Net, slides: Floats, iterations: int) -> SlidingStep:
-    slack = net.tensions == 0.0
-    some = NetState.PARTLY_SLACK if slack.any() else NetState.TIGHT
-    below, above = net.tensions[:-1], net.tensions[1:]
-    spare = np.array([above - net.share * below, below - net.share * above])
-    side = np.where(slides < 0.0, 1, 0)
-    held = np.maximum(-spare.min(axis=0), 0.0)
-    sliding = np.abs(np.take_along_axis(spare, side[None], axis=0)[0])
-    breach = np.where(slides != 0.0, sliding, held)
-    return SlidingStep(
-        outcome=Outcome.CONVERGED,
-        state=NetState.SLACK if slack.all() else some,
-        lengths=net.lengths,
-        tensions=net.tensions,
-        slides=slides,
-        residual=float((breach / np.maximum(np.maximum(below, above), 1e-300)).max()),
-        iterations=iterations,
-    )

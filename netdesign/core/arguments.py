@@ -46,27 +46,6 @@ class RulesArgument(ctypes.Structure):
     ]
 
 
-class StepArgument(ctypes.Structure):
-    """``Step`` of element.h: where a step starts, and where its results go."""
-
-    _fields_ = [
-        *((name, _POINTER) for name in ("stress", "shear")),
-        *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
-        *((name, _POINTER) for name in ("unknowns", "reaction", "new_stress")),
-        *((name, _POINTER) for name in ("new_shear", "root")),
-    ]
-
-
-class StateArgument(ctypes.Structure):
-    """``State`` of round.h: an iterate of the flow, start and end."""
-
-    _fields_ = [
-        ("numbers", _POINTER),
-        *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
-        ("slides", _INT),
-    ]
-
-
 class EffortArgument(ctypes.Structure):
     """``Effort`` of round.h: what is asked of a flow, and what it took."""
 
@@ -145,22 +124,21 @@ def locate_all(*arrays: np.ndarray[Any, Any] | None) -> list[int]:
     return [locate(one) for one in arrays]
 
 
-def to_array(
-    values: object, kind: type[np.generic], shape: tuple[int, ...]
-) -> np.ndarray[Any, Any]:
-    """Values as the core takes them: of this type and shape, contiguous.
+def point_to(argument: ctypes.Structure, **arrays: np.ndarray[Any, Any]) -> None:
+    """Set fields of a structure to the addresses of contiguous arrays."""
+    for name, array in arrays.items():
+        setattr(argument, name, locate(array))
+
+
+def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
+    """Numbers as the core takes them: of this shape, contiguous.
 
     Raises
     ------
     ValueError
         If the shape is another.
     """
-    array = np.ascontiguousarray(values, dtype=kind)
+    array = np.ascontiguousarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"shape {array.shape}, expected {shape}")
     return array
-
-
-def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
-    """Numbers as the core takes them, as ``to_array``."""
-    return to_array(values, np.float64, shape)

@@ -138,16 +138,16 @@ static void fill_results(const Cable *cable, const double *pull, double *curve,
 
 /* Curve (2, 2 n + 1), tensions (2, n) and pulls at foot and head (4,) of a cable of n
  * elements; ``pull`` (2,) is where to start, and the end. OPEN without equilibrium. */
-EXPORT int32_t nd_hang(int32_t n, const double *forces, const double *lengths,
-                       double stiffness, const double *head, double tolerance,
-                       double *pull, double *curve, double *tension, double *ends) {
+int hang_cable(int32_t n, const double *forces, const double *lengths, double stiffness,
+               const double *head, double tolerance, double *pull, double *curve,
+               double *tension, double *ends) {
     if (n < 1) return BAD_INPUT;
     Cable cable = {.n = n, .forces = forces, .lengths = lengths, .stiffness = stiffness,
                    .head = head, .offsets = malloc(4 * (size_t)n * sizeof(double))};
     if (!cable.offsets) return NO_MEMORY;
     for (int32_t e = 0; e < n; e++) cable.total += lengths[e];
     fill_offsets(&cable);
-    int32_t fault = close_gap(&cable, tolerance, pull);
+    int fault = close_gap(&cable, tolerance, pull);
     fill_results(&cable, pull, curve, tension, ends);
     free(cable.offsets);
     return fault;
@@ -231,10 +231,9 @@ static int close_parts(const Parted *to, double *pull, double *lengths) {
 
 /* Lengths (n_parts,) of the parts of a cable of n elements in equilibrium; ``pull`` (2,)
  * is where to start, and the end. OPEN if none is found in which every part rises. */
-EXPORT int32_t nd_part(int32_t n, int32_t n_parts, const double *forces,
-                       const double *shares, const int64_t *firsts, const double *rises,
-                       double head_x, double length, double stiffness, double *pull,
-                       double *lengths) {
+int part_cable(int32_t n, int32_t n_parts, const double *forces, const double *shares,
+               const int64_t *firsts, const double *rises, double head_x, double length,
+               double stiffness, double *pull, double *lengths) {
     if (n < 1 || n_parts < 1) return BAD_INPUT;
     for (int32_t part = 0; part < n_parts; part++)
         if (firsts[part] < 0 || firsts[part] >= n) return BAD_INPUT;
@@ -244,7 +243,7 @@ EXPORT int32_t nd_part(int32_t n, int32_t n_parts, const double *forces,
     to.cable.offsets = malloc(4 * (size_t)n * sizeof(double));
     if (!to.cable.offsets) return NO_MEMORY;
     fill_offsets(&to.cable);
-    int32_t fault = close_parts(&to, pull, lengths);
+    int fault = close_parts(&to, pull, lengths);
     free(to.cable.offsets);
     return fault;
 }

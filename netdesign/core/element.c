@@ -26,7 +26,7 @@ static void find_scalars(double exponent, double floor, double size, double *vis
 
 /* Tangent at a point, (N9) and (N10). */
 static void linearise_point(const Law *law, double bulk, double fluidity,
-                            const double *s, int keeps, double *moduli, double *rest) {
+                            const double *s, double *moduli, double *rest) {
     double viscosity, reduction, share, coupling = bulk - 2.0 / 3.0;
     find_scalars(law->exponent, law->floor, squared_invariant(s, bulk), &viscosity,
                  &reduction, &share);
@@ -37,15 +37,15 @@ static void linearise_point(const Law *law, double bulk, double fluidity,
     moduli[3] = v * (2.0 + coupling - q * (s[1] * s[1]));
     moduli[4] = -v * (q * (s[1] * s[2]));
     moduli[5] = v * (1.0 - q * (s[2] * s[2]));
-    for (int i = 0; i < PLANE; i++) rest[i] = keeps ? s[i] : s[i] * (1.0 - share);
+    for (int i = 0; i < PLANE; i++) rest[i] = s[i] * (1.0 - share);
 }
 
-/* Laws about the stresses of a step; ``keeps`` leaves the stresses as they are. */
+/* Laws about the stresses of a step. */
 void linearise(const Mesh *mesh, const Law *law, const Step *step,
-               const uint8_t *bears, int keeps, const Tangents *to) {
+               const uint8_t *bears, const Tangents *to) {
     for (int32_t i = 0; i < POINTS * mesh->n_triangles; i++)
         linearise_point(law, law->bulk[i * law->stride], law->fluidity[i * law->stride],
-                        step->stress + PLANE * i, keeps, to->moduli + MODULI * i,
+                        step->stress + PLANE * i, to->moduli + MODULI * i,
                         to->intercept + PLANE * i);
     for (int32_t i = 0; step->shear && i < EDGE_POINTS * mesh->n_edges; i++) {
         double viscosity, reduction, share, shear = step->shear[i];
@@ -53,7 +53,7 @@ void linearise(const Mesh *mesh, const Law *law, const Step *step,
         find_scalars(law->slip_exponent, law->floor, shear * shear, &viscosity,
                      &reduction, &share);
         to->base_moduli[i] = carries * (viscosity * share / law->slip);
-        to->base_intercept[i] = keeps ? shear : carries * (shear * (1.0 - share));
+        to->base_intercept[i] = carries * (shear * (1.0 - share));
     }
 }
 

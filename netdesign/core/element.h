@@ -67,7 +67,7 @@ typedef struct {
 
 double squared_invariant(const double *stress, double bulk);
 void linearise(const Mesh *mesh, const Law *law, const Step *step,
-               const uint8_t *bears, int keeps, const Tangents *to);
+               const uint8_t *bears, const Tangents *to);
 void fill_blocks(const Mesh *mesh, const Tangents *of, int slides, double *blocks);
 void add_forces(const Mesh *mesh, const double *stress, const double *shear,
                 double *forces);
@@ -79,10 +79,10 @@ void update_contact(const Mesh *mesh, const Rules *rules, const Contact *from,
 void change_some(const Mesh *mesh, const Contact *now, const Contact *wanted,
                  uint8_t *marks, int only_first);
 int is_same(const Mesh *mesh, const Contact *one, const Contact *other);
-EXPORT int32_t nd_residual(const Mesh *mesh, const double *stress, const double *shear,
-                           double *forces);
+void find_residual(const Mesh *mesh, const double *stress, const double *shear,
+                   double *forces);
 int open_room(const Mesh *mesh, const int32_t *plan, Room *room);
 int take_step(const Mesh *mesh, const Law *law, const Rules *rules, const Step *step,
-              const int32_t *plan, int keeps, const Room *room);
+              const int32_t *plan, const Room *room);
 
 #endif

@@ -104,7 +104,7 @@ static void copy_contact(const Mesh *mesh, const Contact *from, const Contact *t
 /* A step under the wanted contact. */
 static int go_on(Loop *loop, const Law *law, const State *state) {
     memcpy(loop->kept, loop->step.reaction, loop->n_kept * sizeof *loop->kept);
-    int fault = take_step(loop->mesh, law, loop->rules, &loop->step, loop->plan, 0,
+    int fault = take_step(loop->mesh, law, loop->rules, &loop->step, loop->plan,
                           &loop->room);
     if (!fault) copy_contact(loop->mesh, &loop->wanted, &state->contact);
     return fault;
@@ -119,14 +119,14 @@ static void want(Loop *loop, const State *state) {
 static int iterate(Loop *loop, const State *state, Effort *effort) {
     for (int32_t i = 0; i < effort->most_steps; i++) {
         int fault = go_on(loop, loop->law, state);
-        if (fault) return fault == SINGULAR ? NOT_FINITE : fault;
+        if (fault) return fault;
         effort->steps++;
         effort->change = estimate_left(loop, effort);
         if (!isfinite(effort->change)) return NOT_FINITE;
         want(loop, state);
         if (effort->change < effort->tolerance
             && is_same(loop->mesh, &state->contact, &loop->wanted))
-            return CONVERGED;
+            return FINE;
         if (i >= effort->patience)
             change_some(loop->mesh, &state->contact, &loop->wanted, loop->marks,
                         i >= 2 * effort->patience);
@@ -150,14 +150,13 @@ static int start(Loop *loop, const Law *first, const State *state, Effort *effor
     return FINE;
 }
 
-/* Flow from a state, which its last iterate replaces: CONVERGED, GAVE_UP or
- * NOT_FINITE. A step by the law ``first`` comes before the others, unless it is NULL;
- * SINGULAR where that fails. */
-EXPORT int32_t nd_flow(const Mesh *mesh, const Law *law, const Law *first,
-                       const Rules *rules, const int32_t *plan, const State *state,
-                       Effort *effort) {
+/* Flow from a state, which its last iterate replaces; GAVE_UP or NOT_FINITE where it does
+ * not come to rest. A step by the law ``first`` comes before the others, unless it is
+ * NULL. */
+int solve_flow(const Mesh *mesh, const Law *law, const Law *first, const Rules *rules,
+               const int32_t *plan, const State *state, Effort *effort) {
     Loop loop = {.mesh = mesh, .law = law, .rules = rules, .plan = plan};
-    int32_t fault = open_room(mesh, plan, &loop.room);
+    int fault = open_room(mesh, plan, &loop.room);
     if (fault) return fault;
     fault = open_loop(&loop, state);
     effort->steps = 0;
@@ -166,5 +165,5 @@ EXPORT int32_t nd_flow(const Mesh *mesh, const Law *law, const Law *first,
     if (!fault) fault = iterate(&loop, state, effort);
     free(loop.memory);
     free(loop.room.memory);
-    return fault;
+    return fault == SINGULAR ? NOT_FINITE : fault;
 }

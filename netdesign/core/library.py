@@ -24,10 +24,7 @@ from netdesign.words.message import Message, say
 
 _LOG = logging.getLogger(__name__)
 
-_FUNCTIONS = (
-    *("nd_plan", "nd_step", "nd_flow", "nd_residual"),
-    *("nd_place", "nd_hang", "nd_part", "nd_round", "nd_panel"),
-)
+_FUNCTIONS = (*("nd_plan", "nd_round", "nd_hang", "nd_root", "nd_panel"),)
 
 # What functions give back, as in core.h.
 _NO_MEMORY, SINGULAR, TOO_LARGE = -1, -3, -4

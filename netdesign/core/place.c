@@ -60,7 +60,7 @@ static void place_net(const Placement *to) {
 }
 
 /* Gradients, weights, load, axes and normals of placed nodes. */
-EXPORT int32_t nd_place(const Placement *to) {
+void place_mesh(const Placement *to) {
     for (int32_t i = 0; i < to->n_nodes; i++) {
         to->load[i] = 0.0;
         to->axes[i] = 1.0;
@@ -73,5 +73,4 @@ EXPORT int32_t nd_place(const Placement *to) {
         to->axes[to->net[i]] = to->normal[i];
         to->axes[to->n_nodes + to->net[i]] = to->normal[to->n_net + i];
     }
-    return FINE;
 }

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { ENDED_BADLY = 1, CORNER_SHARE = 4 };
+enum { CORNER_SHARE = 4 };
 
 /* A scene on one mesh; what changes from round to round stands in the results. */
 typedef struct {
@@ -158,11 +158,10 @@ static void fill_load(const Scene *scene, const Found *found) {
     }
 }
 
-/* The mesh along a curve; gives whether no triangle of it is turned over. */
-static int place(Scene *scene, const double *curve, const Found *found) {
+/* Lets scene and mesh have the arrays of the results. */
+static void point(Scene *scene, const Found *found) {
     Placement *to = &scene->place;
     Mesh *mesh = &scene->mesh;
-    place_nodes(scene, curve, found->nodes);
     to->nodes = found->nodes;
     mesh->gradients = to->gradients = found->gradients;
     mesh->weights = to->weights = found->weights;
@@ -171,7 +170,14 @@ static int place(Scene *scene, const double *curve, const Found *found) {
     mesh->load = found->load;
     to->load = found->unit_load;
     to->normal = found->normal;
-    nd_place(to);
+}
+
+/* The mesh along a curve; gives whether no triangle of it is turned over. */
+static int place(Scene *scene, const double *curve, const Found *found) {
+    const Mesh *mesh = &scene->mesh;
+    point(scene, found);
+    place_nodes(scene, curve, found->nodes);
+    place_mesh(&scene->place);
     for (int32_t e = 0; e < mesh->n_edges; e++) {
         double start = found->nodes[mesh->ground[2 * e]];
         double half = fabs(found->nodes[mesh->ground[2 * e + 2]] - start) / 2.0;
@@ -216,15 +222,16 @@ static void fill_lengths(const Scene *scene, const Hung *net) {
 }
 
 static int part(const Scene *scene, const Hung *net, double *pull) {
-    return nd_part(scene->n_elements, scene->n_parts, net->forces, scene->shares,
-                   scene->firsts, scene->rises, scene->head[0], scene->length,
-                   scene->stiffness, pull, net->parts);
+    int fault = part_cable(scene->n_elements, scene->n_parts, net->forces, scene->shares,
+                           scene->firsts, scene->rises, scene->head[0], scene->length,
+                           scene->stiffness, pull, net->parts);
+    return fault == OPEN ? UNPARTED : fault;
 }
 
 static int stretch(const Scene *scene, const Hung *net, double *pull) {
-    return nd_hang(scene->n_elements, net->forces, net->lengths, scene->stiffness,
-                   scene->head, scene->tolerance, pull, net->curve, net->tension,
-                   net->ends);
+    return hang_cable(scene->n_elements, net->forces, net->lengths, scene->stiffness,
+                      scene->head, scene->tolerance, pull, net->curve, net->tension,
+                      net->ends);
 }
 
 /* The net under its forces. */
@@ -233,7 +240,7 @@ static int hang(const Scene *scene, const Hung *net) {
     if (scene->n_parts > 1) {
         double pull[2] = {net->pull[0], net->pull[1]};
         int fault = part(scene, net, pull);
-        if (fault == OPEN) { /* once more from the pull of the lengths as they were */
+        if (fault == UNPARTED) { /* once more from the pull of the lengths as they were */
             pull[0] = net->pull[0];
             pull[1] = net->pull[1];
             fault = stretch(scene, net, pull);
@@ -300,7 +307,7 @@ static int settle(const Scene *scene, const Found *found) {
     const double *stress = found->state.numbers + 4 * mesh->n_nodes;
     const double *shear = stress + PLANE * POINTS * mesh->n_triangles;
     const Hung *from = &found->net, *to = &found->settled;
-    nd_residual(mesh, stress, found->state.slides ? shear : NULL, found->residual);
+    find_residual(mesh, stress, found->state.slides ? shear : NULL, found->residual);
     share_forces(scene, found->residual, to->forces);
     find_ground_forces(scene, found);
     memcpy(to->parts, from->parts, (size_t)scene->n_parts * sizeof *to->parts);
@@ -311,25 +318,59 @@ static int settle(const Scene *scene, const Found *found) {
 /* A round along a curve (2, n_net) above the ground. Its results are laid out in
  * ``results`` (size,), in which the state of the flow, the parts' lengths and the pull stand as
  * it starts; ``is_known`` tells whether the state does. A net that moves less than
- * ``still`` is settled. ENDED_BADLY where a step of the round fails: whoever asks finds
- * out which. */
-EXPORT int32_t nd_round(Scene *scene, const double *curve, double still, int32_t slides,
-                        int32_t is_known, int64_t size, double *results) {
+ * ``still`` is settled, if it can be. OFF_MESH and so on where a step of the round
+ * fails. */
+EXPORT int32_t nd_round(Scene *scene, const double *curve, double still, int32_t is_known,
+                        int32_t slides, int64_t size, double *results) {
     Found found;
     if (lay_out(scene, results, slides, &found) != (size_t)size) return BAD_INPUT;
     found.unbalanced[0] = -1.0;
     for (int32_t i = 1; i < scene->mesh.n_net; i++)
-        if (!(curve[scene->mesh.n_net + i] > 0.0)) return ENDED_BADLY;
-    if (!place(scene, curve, &found)) return ENDED_BADLY;
+        if (!(curve[scene->mesh.n_net + i] > 0.0)) return OFF_MESH;
+    if (!place(scene, curve, &found)) return OFF_MESH;
     if (!is_known) rest(&scene->mesh, &found.state);
-    int32_t fault = nd_flow(&scene->mesh, &scene->law, is_known ? NULL : &scene->first,
-                            &scene->rules, scene->plan, &found.state, &scene->effort);
+    int fault = solve_flow(&scene->mesh, &scene->law, is_known ? NULL : &scene->first,
+                           &scene->rules, scene->plan, &found.state, &scene->effort);
     if (!fault) {
         share_forces(scene, found.state.numbers + 2 * scene->mesh.n_nodes,
                      found.net.forces);
         fault = hang(scene, &found.net);
     }
     if (!fault) found.way[0] = find_way(scene, curve, &found.net);
-    if (!fault && found.way[0] < still) fault = settle(scene, &found);
-    return fault == SINGULAR || fault > 0 ? ENDED_BADLY : fault;
+    if (fault || !(found.way[0] < still)) return fault;
+    fault = settle(scene, &found);
+    if (fault > 0) found.unbalanced[0] = -1.0;
+    return fault < 0 ? fault : FINE;
+}
+
+/* The net under forces on its nodes in the snow, ``at_net`` (2, n_net), by the parts'
+ * lengths and the pull in ``results``. */
+EXPORT int32_t nd_hang(const Scene *scene, const double *at_net, int32_t slides,
+                       int64_t size, double *results) {
+    Found found;
+    if (lay_out(scene, results, slides, &found) != (size_t)size) return BAD_INPUT;
+    int32_t count = 2 * scene->n_elements + 1, n_net = scene->mesh.n_net;
+    for (int axis = 0; axis < 2; axis++)
+        for (int32_t i = 0; i < count; i++)
+            found.net.forces[axis * count + i] = i < n_net ? at_net[axis * n_net + i] : 0.0;
+    return hang(scene, &found.net);
+}
+
+/* Forces at the net's nodes that their unit velocities give, root (2 n_net, 2 n_net),
+ * about the state of a round. */
+EXPORT int32_t nd_root(Scene *scene, int32_t slides, int64_t size, double *results,
+                       double *root) {
+    Found found;
+    if (lay_out(scene, results, slides, &found) != (size_t)size) return BAD_INPUT;
+    point(scene, &found);
+    const double *stress = found.state.numbers + 4 * scene->mesh.n_nodes;
+    const double *shear = stress + PLANE * POINTS * scene->mesh.n_triangles;
+    Step step = {.stress = stress, .shear = slides ? shear : NULL,
+                 .contact = found.state.contact, .root = root};
+    Room room;
+    int fault = open_room(&scene->mesh, scene->plan, &room);
+    if (fault) return fault;
+    fault = take_step(&scene->mesh, &scene->law, &scene->rules, &step, scene->plan, &room);
+    free(room.memory);
+    return fault;
 }

@@ -33,19 +33,19 @@ typedef struct {
     double change; /* that the last one left */
 } Effort;
 
-enum { CONVERGED = 0, GAVE_UP = 1, NOT_FINITE = 2 }; /* how a flow ends */
-enum { OPEN = 1 };                                   /* a net without equilibrium */
+/* What keeps a round from its end, as in coupling/steady/compiled.py: no mesh along the
+ * curve; a flow that does not end, or not with numbers; a net without equilibrium, or
+ * whose parts in layers and above the snow are not found. */
+enum { OFF_MESH = 1, GAVE_UP, NOT_FINITE, OPEN, UNPARTED };
 
-EXPORT int32_t nd_place(const Placement *to);
-EXPORT int32_t nd_flow(const Mesh *mesh, const Law *law, const Law *first,
-                       const Rules *rules, const int32_t *plan, const State *state,
-                       Effort *effort);
-EXPORT int32_t nd_hang(int32_t n, const double *forces, const double *lengths,
-                       double stiffness, const double *head, double tolerance,
-                       double *pull, double *curve, double *tension, double *ends);
-EXPORT int32_t nd_part(int32_t n, int32_t n_parts, const double *forces,
-                       const double *shares, const int64_t *firsts, const double *rises,
-                       double head_x, double length, double stiffness, double *pull,
-                       double *lengths);
+void place_mesh(const Placement *to);
+int solve_flow(const Mesh *mesh, const Law *law, const Law *first, const Rules *rules,
+               const int32_t *plan, const State *state, Effort *effort);
+int hang_cable(int32_t n, const double *forces, const double *lengths, double stiffness,
+               const double *head, double tolerance, double *pull, double *curve,
+               double *tension, double *ends);
+int part_cable(int32_t n, int32_t n_parts, const double *forces, const double *shares,
+               const int64_t *firsts, const double *rises, double head_x, double length,
+               double stiffness, double *pull, double *lengths);
 
 #endif

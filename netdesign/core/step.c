@@ -1,4 +1,4 @@
-/* One Newton step of the flow of snow, eq. (N10), or a correction, eq. (N17). */
+/* One Newton step of the flow of snow, eq. (N10). */
 #include "element.h"
 
 #include <math.h>
@@ -46,10 +46,10 @@ int open_room(const Mesh *mesh, const int32_t *plan, Room *room) {
 }
 
 /* Blocks, and the forces that are missing to balance, of the laws about a state. */
-static void set_up(const Mesh *mesh, const Law *law, const Step *step, int keeps,
+static void set_up(const Mesh *mesh, const Law *law, const Step *step,
                    const Room *room) {
     int slides = step->shear != NULL;
-    linearise(mesh, law, step, room->bears, keeps, &room->tangents);
+    linearise(mesh, law, step, room->bears, &room->tangents);
     fill_blocks(mesh, &room->tangents, slides, room->blocks);
     memset(room->load, 0, 2 * (size_t)mesh->n_nodes * sizeof *room->load);
     add_forces(mesh, room->tangents.intercept,
@@ -58,16 +58,16 @@ static void set_up(const Mesh *mesh, const Law *law, const Step *step, int keeps
         room->load[i] = mesh->load[i] - room->load[i];
 }
 
-/* Newton step; with ``keeps`` a correction of the stresses as they are. With room for the
- * root only that is found. Nothing is written where it fails. */
+/* Newton step; with room for the root only that is found. Nothing is written where it
+ * fails. */
 int take_step(const Mesh *mesh, const Law *law, const Rules *rules, const Step *step,
-              const int32_t *plan, int keeps, const Room *room) {
+              const int32_t *plan, const Room *room) {
     size_t count = 2 * (size_t)mesh->n_nodes;
     Factor to = {.plan = plan, .is_free = room->is_free, .factor = room->factor,
                  .load = room->load, .root = step->root ? step->root : room->root};
     int rubs = list_support(mesh, rules, &step->contact, room->is_free, room->shares,
                             room->bears);
-    set_up(mesh, law, step, keeps, room);
+    set_up(mesh, law, step, room);
     int fault = factor_fronts(&to, room->blocks, room->stack, room->work);
     if (fault || step->root) return fault; /* the root alone was asked for */
     fault = solve_root(&to, mesh->net, rubs ? room->shares : NULL, room->work);
@@ -80,22 +80,10 @@ int take_step(const Mesh *mesh, const Law *law, const Rules *rules, const Step *
     return FINE;
 }
 
-/* One step, as ``take_step``. */
-EXPORT int32_t nd_step(const Mesh *mesh, const Law *law, const Rules *rules,
-                       const Step *step, const int32_t *plan, int32_t keeps) {
-    Room room;
-    int32_t fault = open_room(mesh, plan, &room);
-    if (fault) return fault;
-    fault = take_step(mesh, law, rules, step, plan, keeps, &room);
-    free(room.memory);
-    return fault;
-}
-
 /* Internal less external nodal forces (2 n_nodes,) of stresses, and of shear on the
  * ground if it slides. */
-EXPORT int32_t nd_residual(const Mesh *mesh, const double *stress, const double *shear,
-                           double *forces) {
+void find_residual(const Mesh *mesh, const double *stress, const double *shear,
+                   double *forces) {
     for (int32_t i = 0; i < 2 * mesh->n_nodes; i++) forces[i] = -mesh->load[i];
     add_forces(mesh, stress, shear, forces);
-    return FINE;
 }

@@ -321,9 +321,6 @@ class SolverSettings:
         Meshes from coarse to fine, at least two.
     step : callable, optional
         Takes the Newton steps of the snow; default is the fast kernel.
-    shares_start : bool
-        The first mesh starts from that of the same scene with snow that sticks to its
-        net, solved once for scenes in turn that differ in friction only. Steady state.
     """
 
     accuracy: float = 0.01
@@ -335,7 +332,6 @@ class SolverSettings:
     patience: float = 1.0
     levels: tuple[MeshSize, ...] = field(default=MESH_LEVELS)
     step: Step | None = None
-    shares_start: bool = False
 
     def __post_init__(self) -> None:
         """Refuse settings that would make every result look converged."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from netdesign.coupling.moments import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.outcome import Fault, Outcome
+from netdesign.outcome import Fault, Outcome, SolveError
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.words.message import Message, say
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 # What a reader must know of a net that was to hold the snow on both sides.
 RELEASED = say("balance.released")
 Method = Literal["steady", "transient", "staggered"]
+OnFailure = Literal["return", "raise"]
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -308,6 +311,31 @@ class FailedSolution:
     outcome: Outcome
     reason: Message
     fault: Fault | None = None
+
+
+def end_solve(
+    solve: Callable[[], Found], on_failure: OnFailure = "return"
+) -> Found | FailedSolution:
+    """Result of a solve, or how it failed.
+
+    Parameters
+    ----------
+    solve : callable
+        Gives the result.
+    on_failure : str
+        ``return`` a FailedSolution, or ``raise`` the SolveError.
+
+    Raises
+    ------
+    SolveError
+        If ``on_failure`` says so.
+    """
+    try:
+        return solve()
+    except SolveError as failure:
+        if on_failure == "raise":
+            raise
+        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
 
 
 def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:

@@ -7,8 +7,7 @@ Theory: envelope/THEORY.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass
 from itertools import islice
 
 from netdesign.envelope.cases import Cases, FirstCases
@@ -24,13 +23,10 @@ from netdesign.envelope.rows import (
 )
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
-from netdesign.search.known_search import KnownSearch, Repetition
 from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import Batch, Ends
 from netdesign.words.message import say
-
-_WORTH_SHARING = 3  # cases alike but for friction; two take longer than one by one
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,27 +51,20 @@ class RowSearch:
     tests/envelope/test_search.py
     """
 
-    def __init__(
-        self,
-        task: RowTask,
-        known: KnownSearch | None = None,
-        keep: Callable[[KnownSearch], None] = lambda _: None,
-    ) -> None:
-        """Begin a search.
-
-        Parameters
-        ----------
-        task : RowTask
-            What is searched.
-        known : KnownSearch, optional
-            Of the same task, in an earlier run; repeated instead of searching.
-        keep : callable, optional
-            Takes a search that was not known.
-        """
+    def __init__(self, task: RowTask) -> None:
+        """Begin a search with nothing known of the row's cases."""
         self.task = task
         self._result: RowEnvelope | None = None
-        self._keep = keep
-        self._begin(self._search_anew() if known is None else Repetition(known))
+        self._search = MaximaSearch(len(task.ranges.axes), task.search)
+        self._reader = ResultReader(
+            layout=task.layout, has_panel=bool(task.panels), has_end=task.has_end
+        )
+        self._skip = FrictionSkip(task.ranges.axes)
+        self._results: list[CaseResult] = []
+        self._maxima: Maxima | None = None  # known once only confirmations are open
+        self._cases: Cases | FirstCases = FirstCases(
+            task, self._search.ask(), self._skip, self._reader.find_near
+        )
         self._advance()
 
     @property
@@ -105,24 +94,6 @@ class RowSearch:
         self._cases.tell(answers)
         self._advance()
 
-    def _search_anew(self) -> MaximaSearch:
-        return MaximaSearch(len(self.task.ranges.axes), self.task.search)
-
-    def _begin(self, search: MaximaSearch | Repetition) -> None:
-        """Begin with nothing known of the row's cases."""
-        self._search = search
-        self._reader = ResultReader(
-            layout=self.task.layout,
-            has_panel=bool(self.task.panels),
-            has_end=self.task.has_end,
-        )
-        self._skip = FrictionSkip(self.task.ranges.axes)
-        self._results: list[CaseResult] = []
-        self._maxima: Maxima | None = None  # known once only confirmations are open
-        self._cases: Cases | FirstCases = FirstCases(
-            self.task, search.ask(), self._skip, self._reader.find_near
-        )
-
     def _advance(self) -> None:
         """Go on until something has to be solved, or the envelope is known."""
         while self._result is None and not self._cases.ask():
@@ -141,16 +112,11 @@ class RowSearch:
         search.tell(values, reader.watch(), doubts)
         if points := search.ask():
             self._cases = Cases(self.task, points, self._skip)
-        elif search.result is None:  # no longer what was known
-            self._begin(self._search_anew())
-        else:
+        elif search.result is not None:
             self._confirm(search.result)
 
     def _confirm(self, found: Maxima) -> None:
-        """Keep what was found, and ask for the governing cases once more."""
-        is_new = isinstance(self._search, MaximaSearch)
-        if is_new and not any(one.fault for one in self._results):
-            self._keep(KnownSearch(maxima=found, watched=self._reader.watch()))
+        """Ask for the governing cases once more."""
         self._maxima = self._reader.bound_members(found)
         points = [found.points[place] for place in self._list_confirmed(found)]
         apart = FrictionSkip(())  # each is solved
@@ -207,8 +173,7 @@ def search_rows(
     tasks : sequence of RowTask
         One a row.
     runner : Runner
-        Where cases are solved and kept, and what was found from them; rows with the
-        same net and snow share cases.
+        Where cases are solved and kept; rows with the same net and snow share cases.
     on_wave : callable, optional
         Called after each wave.
 
@@ -217,12 +182,7 @@ def search_rows(
     list of RowEnvelope
         In the order of the tasks; equal tasks share one.
     """
-    searches = {
-        task: RowSearch(
-            task, runner.find_search(task), partial(runner.keep_search, task)
-        )
-        for task in dict.fromkeys(tasks)
-    }
+    searches = {task: RowSearch(task) for task in dict.fromkeys(tasks)}
     while asked := _ask_rows(searches.values()):
         ends = iter(runner.solve_batches([one for _, its in asked for one in its]))
         for search, batches in asked:
@@ -253,8 +213,6 @@ def run_grid(
     """Solve a tensor grid with so many samples of each axis."""
     points = list_grid([counts[name] or 2 for name in task.ranges.axes])
     skip = FrictionSkip(task.ranges.axes)
-    if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
-        task = replace(task, settings=replace(task.settings, shares_start=True))
     cases = Cases(task, points, skip)
     while batches := cases.ask():
         cases.tell(runner.solve_batches(batches))

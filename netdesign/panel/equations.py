@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.cable.funicular import reach_ends
-from netdesign.core.arguments import PanelArgument, locate_all, to_floats
+from netdesign.core.arguments import PanelArgument, point_to, to_floats
 from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Panel
 from netdesign.panel.ropes import (
@@ -148,25 +148,22 @@ def describe_panel(
     """
     strips, strip = problem.lengths.size, problem.strip
     points, places = strip.alike.weights.size, ROPE_WEIGHTS.size
-    arrays = (
-        to_floats(strip.alike.offsets, (2, points)),
-        to_floats(strip.alike.weights, (points,)),
-        to_floats(problem.lengths, (strips,)),
-        to_floats(problem.deflection, (2, strips, strips - 1)),
-        to_floats(problem.shear, (2, places, strips - 1)),
-        ROPE_WEIGHTS,
-    )
-    offsets, weights, *others = locate_all(*arrays)
-    argument = PanelArgument(strips, points, places, offsets, weights)
+    arrays = {
+        "offsets": to_floats(strip.alike.offsets, (2, points)),
+        "weights": to_floats(strip.alike.weights, (points,)),
+        "lengths": to_floats(problem.lengths, (strips,)),
+        "deflection": to_floats(problem.deflection, (2, strips, strips - 1)),
+        "shear": to_floats(problem.shear, (2, places, strips - 1)),
+        "rope_weights": ROPE_WEIGHTS,
+    }
+    argument = PanelArgument(strips, points, places)
+    point_to(argument, **arrays)
     argument.stiffness, argument.load_size = strip.alike.stiffness, problem.load_size
     argument.load[:], argument.head[:] = strip.load, strip.head
     argument.to_foot[:] = strip.alike.to_foot
-    names = ("lengths", "deflection", "shear", "rope_weights")
-    for name, place in zip(names, others, strict=True):
-        setattr(argument, name, place)
     argument.rope_stiffness[:] = problem.stiffness
     argument.excess[:] = problem.excess
-    return argument, arrays
+    return argument, tuple(arrays.values())
 
 
 def guess_point(problem: PanelProblem) -> Floats:

@@ -1,4 +1,4 @@
-"""Forces of a row of panels on its supports, inside the row and at its end.
+"""Forces of a row of panels on the support at its end.
 
 Theory: panel/THEORY.md, section 4; structure/THEORY.md, (S1) to (S6).
 """
@@ -45,31 +45,6 @@ class EndForces:
         """Size of the force on the foot anchor [N]."""
         return math.hypot(*self.foot)
 
-    @property
-    def foot_off_fall_line(self) -> float:
-        """Angle of that force to the fall line, seen from above the slope [rad]."""
-        return math.atan2(self.foot[2], self.foot[0])
-
-
-def compute_interior_forces(
-    panel: PanelSolution, points: SupportPoints
-) -> AnchorForces | FailedSupport:
-    """Forces of a support between two equal panels.
-
-    Parameters
-    ----------
-    panel : PanelSolution
-        Each of the two.
-    points : SupportPoints
-        Geometry of the support [m].
-
-    Returns
-    -------
-    AnchorForces or FailedSupport
-        Per anchor [N]. The anchor in mid-panel is not among them: ``mid_foot``.
-    """
-    return _resolve(panel, points, panel.panel.post_spacing)
-
 
 def compute_end_forces(
     panel: PanelSolution, points: SupportPoints, guy_angle: float
@@ -100,7 +75,13 @@ def compute_end_forces(
     tests/verification/test_panel.py
     """
     require_within("end guy angle", guy_angle, 0.0, LARGEST_GUY_ANGLE, "rad")
-    support = _resolve(panel, points, panel.panel.post_spacing / 2.0)
+    spacing = panel.panel.post_spacing
+    support = compute_anchor_forces(
+        points,
+        foot_pull_per_m=(panel.foot[0] / spacing, panel.foot[1] / spacing),
+        head_pull_per_m=(panel.head[0] / spacing, panel.head[1] / spacing),
+        post_spacing=spacing / 2.0,
+    )
     if isinstance(support, FailedSupport):
         return support
     along = panel.upper.along
@@ -110,17 +91,4 @@ def compute_end_forces(
         head_along=along,
         guy_tension=along / math.cos(guy_angle),
         post_compression=support.head.post_compression + along * math.tan(guy_angle),
-    )
-
-
-def _resolve(
-    panel: PanelSolution, points: SupportPoints, width: float
-) -> AnchorForces | FailedSupport:
-    """Forces in the section from this width of the panel."""
-    spacing = panel.panel.post_spacing
-    return compute_anchor_forces(
-        points,
-        foot_pull_per_m=(panel.foot[0] / spacing, panel.foot[1] / spacing),
-        head_pull_per_m=(panel.head[0] / spacing, panel.head[1] / spacing),
-        post_spacing=width,
     )

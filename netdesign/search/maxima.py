@@ -315,7 +315,8 @@ class MaximaSearch:
             return []  # too few cases for a model
         places = np.array([self.points[k] for k in solved])
         values = np.array([self.values[k] for k in solved])
-        doubts = fill_doubts([self.doubts[k] for k in solved], values.shape[1])
+        nothing = (0.0,) * values.shape[1]
+        doubts = np.array([self.doubts[k] or nothing for k in solved])
         if watched is None:
             watched = dict.fromkeys(range(values.shape[1]), Watched())
         self._model, self._bounds = self._bound(places, values, doubts, watched)
@@ -379,11 +380,6 @@ class MaximaSearch:
             log=tuple(self.log),
             surrogate=self._model,
         )
-
-
-def fill_doubts(doubts: Sequence[Values | None], quantities: int) -> Floats:
-    """Errors of values, shape (n, quantities): 0 where there is no doubt."""
-    return np.array([one or (0.0,) * quantities for one in doubts])
 
 
 def _measure_errors(

@@ -48,8 +48,6 @@ class Surrogate:
         Error of each case predicted from all others, in the quantity's unit.
     scores : ndarray, shape (n, quantities)
         Size of those errors over what the model expected of them.
-    noise : ndarray, shape (quantities,) or ()
-        Errors up to this size were no evidence, in the quantity's unit.
     far_shares : ndarray, shape (n,)
         Share of each score that counts far away.
     doubts : ndarray, shape (n, quantities)
@@ -59,7 +57,6 @@ class Surrogate:
     places: Floats
     held_out: Floats
     scores: Floats
-    noise: Floats
     far_shares: Floats
     doubts: Floats
     _inverse: Floats
@@ -172,7 +169,6 @@ def fit_surrogate(
         places=places,
         held_out=weights / diagonal,
         scores=np.maximum(np.abs(weights) / diagonal - noise, 0.0) * np.sqrt(diagonal),
-        noise=np.asarray(noise, dtype=np.float64),
         far_shares=_share_far(distances, places.shape[1]),
         doubts=np.zeros_like(values) if doubts is None else doubts,
         _inverse=inverse,

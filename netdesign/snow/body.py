@@ -15,7 +15,12 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome, SolveError
-from netdesign.snow.creep_law import DENSEST_SNOW, CreepLaw, compute_factors
+from netdesign.snow.creep_law import (
+    DENSEST_SNOW,
+    CreepLaw,
+    compute_factors,
+    compute_shear_factor,
+)
 from netdesign.snow.law import FlowProblem, Material, sample_material
 from netdesign.snow.mesh import NET_FOLLOWED, MeshTemplate, place_nodes
 from netdesign.words.message import say
@@ -393,8 +398,7 @@ def build_material(
         return sample_material(problem, body.topology.template)
     density = np.maximum(body.density, settling.least_density)
     shear, bulk = compute_factors(settling.creep_law, settling.mean_density * density)
-    start = np.array([settling.mean_density])
-    reference, _ = compute_factors(settling.creep_law, start)
+    reference = compute_shear_factor(settling.creep_law, settling.mean_density)
     power = (problem.exponent + 1.0) / 2.0
     return Material(
         bulk_ratio=(shear / bulk)[:, None],

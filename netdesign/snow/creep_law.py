@@ -194,23 +194,11 @@ def compute_factors(law: CreepLaw, densities: Floats) -> tuple[Floats, Floats]:
     ModelError
         If a density is not above 0.
     """
-    least = float(np.min(densities))
-    _require_snow(law, min(least, DENSEST_SNOW))
-    density = np.clip(densities, law.clamp, DENSEST_SNOW)
-    is_firn = density < law.branch
-    n = law.exponent
-    power = 2 * n / (n + 1)
-    void = (1 - density) ** (1 / n)
-    shear = np.where(
-        is_firn,
-        np.exp(law.shear_fit[0] - law.shear_fit[1] * density),
-        (1 + 2 * (1 - density) / 3) / density**power,
-    )
-    bulk = np.where(
-        is_firn,
-        np.exp(law.bulk_fit[0] - law.bulk_fit[1] * density),
-        0.75 * (void / (n * (1 - void))) ** power,
-    )
+    each = np.minimum(densities, DENSEST_SNOW).ravel().tolist()
+    factors = [
+        (compute_shear_factor(law, one), compute_bulk_factor(law, one)) for one in each
+    ]
+    shear, bulk = np.array(factors).T.reshape(2, *densities.shape)
     return shear, bulk
 
 

@@ -25,23 +25,6 @@ _POINTS = ((1.0 / 6.0, 1.0 / 6.0), (2.0 / 3.0, 1.0 / 6.0), (1.0 / 6.0, 2.0 / 3.0
 Element = Literal["velocity", "mixed"]
 
 
-def point_heights(template: MeshTemplate) -> Floats:
-    """Reference heights of the quadrature points.
-
-    Parameters
-    ----------
-    template : MeshTemplate
-        Reference mesh.
-
-    Returns
-    -------
-    ndarray, shape (n_triangles, n_points)
-        [thickness].
-    """
-    shape, _, _ = reference_element()
-    return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
-
-
 def interpolate_reference(template: MeshTemplate) -> Floats:
     """Reference coordinates of the quadrature points.
 
@@ -165,31 +148,15 @@ def list_dofs(template: MeshTemplate, element: Element) -> Ints:
     Returns
     -------
     ndarray of int, shape (n_triangles, C)
-        Velocities first.
-    """
-    dofs = list_velocity_dofs(template)
-    if element == "mixed":
-        first = 2 * template.nodes.shape[1]
-        dofs = np.hstack([dofs, first + template.triangles[:3].T])
-    dofs.setflags(write=False)
-    return dofs
-
-
-def list_velocity_dofs(template: MeshTemplate) -> Ints:
-    """Velocity components of each triangle.
-
-    Parameters
-    ----------
-    template : MeshTemplate
-        Reference mesh.
-
-    Returns
-    -------
-    ndarray of int, shape (n_triangles, 12)
-        X and Y of each node in turn.
+        X and Y of each node in turn, then the pressures.
     """
     first = 2 * template.triangles.T
-    return np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
+    dofs = np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
+    if element == "mixed":
+        pressures = 2 * template.nodes.shape[1] + template.triangles[:3].T
+        dofs = np.hstack([dofs, pressures])
+    dofs.setflags(write=False)
+    return dofs
 
 
 def add_pressure_rows(strain: Floats) -> Floats:

@@ -12,12 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.core.arguments import EffortArgument
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-from netdesign.snow.compiled import CompiledFlow
 from netdesign.snow.contact import FlowState, change_some, rest, update_contact
-from netdesign.snow.flow_step import Step, compile_flow, take_step
+from netdesign.snow.flow_step import Step, take_step
 from netdesign.snow.law import (
     FlowProblem,
     Material,
@@ -29,14 +27,12 @@ from netdesign.snow.placed_mesh import PlacedMesh
 
 # Error that a Newton step leaves, (N16): a share of the step where contacts still
 # change, else a multiple of its square (measured on random scenes: 95 % stay below).
-_LINEAR_PART, _SQUARE_FACTOR = 0.05, 50.0
+LINEAR_PART, SQUARE_FACTOR = 0.05, 50.0
 # After so many steps only some contacts change, after twice as many one at a time.
-_PATIENCE = 12
-# How the compiled core says that a flow ended, as in flow.c.
-_OUTCOMES = (Outcome.CONVERGED, Outcome.MAX_ITERATIONS, Outcome.NONFINITE)
+PATIENCE = 12
 # Weight of an error of the stress that the forces on the net do not feel: it sits in
 # the few small triangles at the net's ends.
-_FIELD_WEIGHT = 0.05
+FIELD_WEIGHT = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -86,7 +82,7 @@ def solve_flow(
     max_iterations : int
         Newton steps allowed.
     step : callable, optional
-        Takes the steps; default is the compiled core, or the fast kernel.
+        Takes the steps; default is the fast kernel.
 
     Returns
     -------
@@ -98,9 +94,6 @@ def solve_flow(
     -----------
     tests/snow/test_flow.py, tests/verification/test_slab.py
     """
-    core = None if step else compile_flow(problem, mesh)
-    if core is not None:
-        return _solve_compiled(core, problem, mesh, start, tolerance, max_iterations)
     take = step or take_step
     material = sample_material(problem, mesh.template)
     state = _solve_linear_creep(problem, mesh, take) if start is None else start
@@ -125,52 +118,11 @@ def solve_flow(
         if change < tolerance and contact.equals(state.contact):
             outcome = Outcome.CONVERGED
             break
-        if iteration >= _PATIENCE:
+        if iteration >= PATIENCE:
             contact = change_some(
-                state.contact, contact, only_first=iteration >= 2 * _PATIENCE
+                state.contact, contact, only_first=iteration >= 2 * PATIENCE
             )
     return FlowResult(outcome=outcome, state=state, linear_solves=solves, change=change)
-
-
-def _solve_compiled(
-    core: CompiledFlow,
-    problem: FlowProblem,
-    mesh: PlacedMesh,
-    start: FlowState | None,
-    tolerance: float,
-    max_iterations: int,
-) -> FlowResult:
-    """The same by the compiled core."""
-    linear = make_linear(problem) if start is None else None
-    state = rest(problem, mesh) if start is None else start
-    effort = ask_effort(tolerance, max_iterations)
-    found = core.solve(state, linear, effort)
-    return FlowResult(
-        outcome=_OUTCOMES[found.ending],
-        state=found.state,
-        linear_solves=found.linear_solves,
-        change=found.change,
-    )
-
-
-def ask_effort(tolerance: float, max_iterations: int) -> EffortArgument:
-    """Effort that the core is asked for.
-
-    Parameters
-    ----------
-    tolerance : float
-        Relative error that the last step may leave [-].
-    max_iterations : int
-        Newton steps allowed.
-    """
-    return EffortArgument(
-        tolerance=tolerance,
-        linear_part=_LINEAR_PART,
-        square_factor=_SQUARE_FACTOR,
-        field_weight=_FIELD_WEIGHT,
-        most_steps=max_iterations,
-        patience=_PATIENCE,
-    )
 
 
 def compute_weight(problem: FlowProblem, mesh: PlacedMesh) -> Floats:
@@ -209,12 +161,12 @@ def _estimate_left(
         return force
     size = _stress_norm(problem, material, mesh, state.stress)
     field = _stress_norm(problem, material, mesh, state.stress - before.stress) / size
-    return float(np.maximum(force, _FIELD_WEIGHT * _left(field)))
+    return float(np.maximum(force, FIELD_WEIGHT * _left(field)))
 
 
 def _left(change: float) -> float:
     """Relative error that a step of this relative size leaves."""
-    return float(np.minimum(change, _LINEAR_PART * change + _SQUARE_FACTOR * change**2))
+    return float(np.minimum(change, LINEAR_PART * change + SQUARE_FACTOR * change**2))
 
 
 def _sum_along_net(mesh: PlacedMesh, reaction: Floats) -> Floats:

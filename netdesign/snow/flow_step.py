@@ -1,37 +1,30 @@
 """One step of the flow: laws linearised about a state, and the state that follows.
 
-In NumPy, or by the compiled core where there is one (``compiled.py``). Theory:
-snow/THEORY.md, sections 2 and 5.
+Theory: snow/THEORY.md, sections 2 and 5.
 """
 
 from __future__ import annotations
 
-import ctypes
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache, reduce
-from operator import add
 from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.core.library import find_core
-from netdesign.numerics.arrays import Floats, Mask
-from netdesign.snow.compiled import CompiledFlow, prepare_flow
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.contact import (
     Contact,
     FlowState,
     free_unknowns,
     friction_shares,
-    net_components,
 )
 from netdesign.snow.kernel import (
     assemble_base_force,
+    assemble_base_stiffness,
     assemble_body_force,
     assemble_end_load,
+    assemble_stiffness,
     assemble_stress,
-    build_base_stiffness,
-    build_stiffness,
     compute_base_velocity,
     compute_strain,
 )
@@ -45,45 +38,20 @@ from netdesign.snow.law import (
     sample_material,
     total_stress,
 )
-from netdesign.snow.linear import Blocks, solve_blocks
+from netdesign.snow.linear import Matrix, SingularError, solve_matrix
 from netdesign.snow.placed_mesh import PlacedMesh
 
 
 class _Linear(NamedTuple):
-    """Laws linearised about a state, and the blocks of their matrix."""
+    """Laws linearised about a state, and their matrix."""
 
     creep: Tangent
     base: Tangent | None  # None where the ground does not slide by a law
-    blocks: list[Blocks]
+    matrix: Matrix
 
 
 # A Newton step to the next state.
 Step = Callable[[FlowProblem, Material, PlacedMesh, FlowState, Contact], FlowState]
-
-
-def compile_flow(problem: FlowProblem, mesh: PlacedMesh) -> CompiledFlow | None:
-    """The compiled core on a mesh; None where NumPy has to do.
-
-    Parameters
-    ----------
-    problem : FlowProblem
-        Creep, ground and friction.
-    mesh : PlacedMesh
-        Mesh against the net's curve.
-    """
-    library = find_core()
-    if library is None or mesh.folded is not None or problem.element != "velocity":
-        return None
-    return _compile(library, problem, mesh)
-
-
-@lru_cache(maxsize=2)  # a round asks for the same one again
-def _compile(
-    library: ctypes.PyDLL, problem: FlowProblem, mesh: PlacedMesh
-) -> CompiledFlow | None:
-    material = sample_material(problem, mesh.template)
-    load = _gravity_load(problem, material, mesh)
-    return prepare_flow(library, problem, material, mesh, load)
 
 
 def take_step(
@@ -93,7 +61,7 @@ def take_step(
     state: FlowState,
     contact: Contact,
 ) -> FlowState:
-    """Newton's step from a state under a contact, (N10), in NumPy.
+    """Newton's step from a state under a contact, (N10).
 
     Parameters
     ----------
@@ -109,13 +77,13 @@ def take_step(
     SingularError
         If nothing holds the snow.
     """
-    creep, base, blocks = _linearise(problem, material, mesh, state, contact)
+    creep, base, matrix = _linearise(problem, material, mesh, state, contact)
     force = assemble_stress(mesh, creep.intercept) - _gravity_load(
         problem, material, mesh
     )
     if base is not None:
         force += assemble_base_force(mesh, base.intercept)
-    unknowns = _solve_step(problem, mesh, contact, blocks, force)
+    unknowns = _solve_step(problem, mesh, contact, matrix, force)
     base_shear = None
     if base is not None:
         base_shear = base.intercept + base.modulus * compute_base_velocity(
@@ -123,17 +91,15 @@ def take_step(
         )
     return FlowState(
         unknowns=unknowns,
-        reaction=force + sum(block.multiply(unknowns) for block in blocks),
+        reaction=force + matrix @ unknowns,
         stress=advance_stress(problem, creep, compute_strain(mesh, unknowns)),
         base_shear=base_shear,
         contact=contact,
     )
 
 
-def linearise_reaction(
-    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
-) -> Floats:
-    """Change of the snow's forces on the net where its normal velocity is prescribed.
+def condense_to_net(problem: FlowProblem, mesh: PlacedMesh, state: FlowState) -> Floats:
+    """Forces at the net's nodes that their velocities give, no other force on the snow.
 
     Parameters
     ----------
@@ -142,7 +108,44 @@ def linearise_reaction(
     mesh : PlacedMesh
         Mesh of the state.
     state : FlowState
-        About which the flow is linearised; its contact does not change.
+        About which the flow is linearised.
+
+    Returns
+    -------
+    ndarray, shape (2 n_net, 2 n_net)
+        Symmetric, in node axes: both components of each node in turn.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    material = sample_material(problem, mesh.template)
+    matrix = _linearise(problem, material, mesh, state, state.contact).matrix
+    net = _list_net(mesh)
+    free = free_unknowns(problem, mesh, state.contact)
+    free[net] = False
+    moved = np.zeros((mesh.n_dofs, net.size))
+    moved[net, np.arange(net.size)] = 1.0
+    moved += solve_matrix(mesh.template, matrix, matrix @ moved, free)
+    return np.asarray(matrix[net] @ moved)
+
+
+def linearise_reaction(
+    problem: FlowProblem, mesh: PlacedMesh, contact: Contact, root: Floats
+) -> Floats:
+    """Change of the snow's forces on the net where its normal velocity is prescribed.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    contact : Contact
+        Of the snow; it does not change.
+    root : ndarray, shape (2 n_net, 2 n_net)
+        As ``condense_to_net`` gives it.
 
     Returns
     -------
@@ -155,33 +158,42 @@ def linearise_reaction(
     SingularError
         If nothing holds the snow.
     """
-    core = compile_flow(problem, mesh)
-    if core is None:
-        first, second = _respond(problem, mesh, state)
-    else:
-        first, second = core.respond(
-            state,
-            free_unknowns(problem, mesh, state.contact),
-            friction_shares(problem, mesh, state.contact),
-        )
+    net = _list_net(mesh)
+    held = np.flatnonzero(~contact.is_open)
+    moved = np.zeros((net.size, contact.sign.size))
+    moved[2 + 2 * held, held] = 1.0
+    shares = friction_shares(problem, mesh, contact)
+    moved += _solve_root(
+        root,
+        root @ moved,
+        free_unknowns(problem, mesh, contact)[net],
+        None if shares is None else shares[net],
+    )
+    first, second = (root @ moved).reshape(-1, 2, contact.sign.size).transpose(1, 0, 2)
     cosine, sine = mesh.axes[:, mesh.template.net, None]
     return -np.array([cosine * first - sine * second, sine * first + cosine * second])
 
 
-def _respond(
-    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
-) -> tuple[Floats, Floats]:
-    """Forces along both axes of the net's nodes, (n_net, n_net - 1), in NumPy."""
-    material = sample_material(problem, mesh.template)
-    blocks = _linearise(problem, material, mesh, state, state.contact).blocks
-    matrix = reduce(add, (block.to_matrix(mesh.n_dofs) for block in blocks))
-    normal, _ = net_components(mesh)
-    held = np.flatnonzero(~state.contact.is_open)
-    unknowns = np.zeros((mesh.n_dofs, normal.size))
-    unknowns[normal[held], held] = 1.0
-    unknowns += _solve_step(problem, mesh, state.contact, blocks, matrix @ unknowns)
+def _list_net(mesh: PlacedMesh) -> Ints:
+    """Unknowns of the net's nodes, (2 n_net,)."""
     net = 2 * mesh.template.net
-    return matrix[net] @ unknowns, matrix[net + 1] @ unknowns
+    return np.column_stack([net, net + 1]).ravel()
+
+
+def _solve_root(
+    root: Floats, forces: Floats, free: Mask, shares: Floats | None
+) -> Floats:
+    """Unknowns of the net that balance forces (2 n_net, m); 0 where held."""
+    load, matrix = -forces, root.copy()
+    if shares is not None:
+        load[1::2] += shares[1::2, None] * load[::2]
+        matrix[1::2] += shares[1::2, None] * matrix[::2]
+    solved = np.zeros_like(load)
+    try:
+        solved[free] = np.linalg.solve(matrix[np.ix_(free, free)], load[free])
+    except np.linalg.LinAlgError as error:
+        raise SingularError(str(error)) from None
+    return solved
 
 
 def remove_rounding(
@@ -207,13 +219,10 @@ def remove_rounding(
     SingularError
         If nothing holds the snow.
     """
-    core = compile_flow(problem, mesh)
-    if core is not None:
-        return core.correct(state)
     material = sample_material(problem, mesh.template)
     linear = _linearise(problem, material, mesh, state, state.contact)
     residual = compute_residual(problem, mesh, state)
-    change = _solve_step(problem, mesh, state.contact, linear.blocks, residual)
+    change = _solve_step(problem, mesh, state.contact, linear.matrix, residual)
     still = linear.creep._replace(intercept=np.zeros_like(state.stress))
     base_shear = state.base_shear
     if linear.base is not None and base_shear is not None:
@@ -222,7 +231,7 @@ def remove_rounding(
     return replace(
         state,
         unknowns=state.unknowns + change,
-        reaction=residual + sum(block.multiply(change) for block in linear.blocks),
+        reaction=residual + linear.matrix @ change,
         stress=state.stress
         + advance_stress(problem, still, compute_strain(mesh, change)),
         base_shear=base_shear,
@@ -248,9 +257,6 @@ def compute_residual(
     ndarray, shape (n_dofs,)
         In node axes [rho g d^2].
     """
-    core = compile_flow(problem, mesh)
-    if core is not None:
-        return core.balance(state.stress, state.base_shear)
     material = sample_material(problem, mesh.template)
     force = assemble_stress(mesh, total_stress(problem, state.stress))
     force -= _gravity_load(problem, material, mesh)
@@ -263,13 +269,13 @@ def _solve_step(
     problem: FlowProblem,
     mesh: PlacedMesh,
     contact: Contact,
-    blocks: Sequence[Blocks],
+    matrix: Matrix,
     force: Floats,
 ) -> Floats:
     """Unknowns that balance forces (n_dofs,) or (n_dofs, m) under a contact."""
-    return solve_blocks(
+    return solve_matrix(
         mesh.template,
-        blocks,
+        matrix,
         force,
         free_unknowns(problem, mesh, contact),
         friction_shares(problem, mesh, contact),
@@ -285,12 +291,11 @@ def _linearise(
 ) -> _Linear:
     """Creep and sliding about a state, under a contact."""
     creep = linearise_creep(problem, material, state.stress)
-    blocks = [build_stiffness(mesh, creep.modulus)]
-    base = None
+    matrix, base = assemble_stiffness(mesh, creep.modulus), None
     if state.base_shear is not None:
         base = _linearise_base(problem, state.base_shear, contact)
-        blocks.append(build_base_stiffness(mesh, base.modulus))
-    return _Linear(creep=creep, base=base, blocks=blocks)
+        matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
+    return _Linear(creep=creep, base=base, matrix=matrix)
 
 
 def _linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tangent:

@@ -9,19 +9,14 @@ then, in the mixed element, one pressure per vertex. Plane tensors are stored as
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, gather
 from netdesign.snow.element import reference_element
-from netdesign.snow.linear import Blocks
+from netdesign.snow.linear import Matrix, sum_blocks
 from netdesign.snow.mesh import MeshTemplate, edge_triples
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.snow.shared_mesh import find_once
-
-if TYPE_CHECKING:
-    import scipy.sparse as sparse
 
 
 def interpolate(mesh: PlacedMesh, nodal: Floats) -> Floats:
@@ -85,24 +80,7 @@ def assemble_stress(mesh: PlacedMesh, stress: Floats) -> Floats:
     return gather(mesh.dofs, weighted @ operator, mesh.n_dofs)
 
 
-def build_stiffness(mesh: PlacedMesh, moduli: Floats) -> Blocks:
-    """Element blocks of moduli.
-
-    Parameters
-    ----------
-    mesh : PlacedMesh
-        Mesh against the net's curve.
-    moduli : ndarray, shape (n_triangles, n_points, R, R)
-        Stress over strain rate [-].
-    """
-    n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
-    flat = (n_triangles, n_points * n_rows, n_columns)
-    stresses = (moduli * mesh.weights[..., None, None]) @ mesh.operator
-    values = mesh.operator.reshape(flat).transpose(0, 2, 1) @ stresses.reshape(flat)
-    return Blocks(mesh.dofs, values, n_paired=12)
-
-
-def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
+def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> Matrix:
     """Matrix of moduli.
 
     Parameters
@@ -117,7 +95,11 @@ def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
     sparse matrix, shape (n_dofs, n_dofs)
         In node axes.
     """
-    return build_stiffness(mesh, moduli).to_matrix(mesh.n_dofs)
+    n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
+    flat = (n_triangles, n_points * n_rows, n_columns)
+    stresses = (moduli * mesh.weights[..., None, None]) @ mesh.operator
+    values = mesh.operator.reshape(flat).transpose(0, 2, 1) @ stresses.reshape(flat)
+    return sum_blocks(mesh.dofs, values, mesh.n_dofs)
 
 
 def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
@@ -207,8 +189,8 @@ def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
     return gather(base.dofs, forces, mesh.n_dofs)
 
 
-def build_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Blocks:
-    """Edge blocks of a base modulus.
+def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Matrix:
+    """Matrix of a base modulus.
 
     Parameters
     ----------
@@ -216,11 +198,16 @@ def build_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Blocks:
         Mesh against the net's curve.
     modulus : ndarray, shape (n_edges, n_points)
         Shear stress over velocity [-].
+
+    Returns
+    -------
+    sparse matrix, shape (n_dofs, n_dofs)
+        In node axes.
     """
     base = mesh.base
     weighted = base.weights * modulus
     values = np.einsum("eq,qi,qj->eij", weighted, base.shape, base.shape)
-    return Blocks(base.dofs, values, n_paired=0)
+    return sum_blocks(base.dofs, values, mesh.n_dofs)
 
 
 def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:

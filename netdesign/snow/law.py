@@ -13,8 +13,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Ints
-from netdesign.snow.element import Element, point_heights
+from netdesign.numerics.arrays import Floats
+from netdesign.snow.element import Element, interpolate_reference
 from netdesign.snow.ground import GroundKind
 from netdesign.snow.mesh import MeshTemplate
 
@@ -119,23 +119,6 @@ class Material(NamedTuple):
         coupling = np.asarray(self.bulk_ratio) - 2.0 / 3.0
         return np.asarray(_SHEAR + coupling[..., None, None] * _VOLUME)
 
-    def sample_fluidity_ratio(self, triangles: Ints) -> Floats:
-        """Fluidity ratio of some triangles.
-
-        Parameters
-        ----------
-        triangles : ndarray of int, shape (n,)
-            Their numbers.
-
-        Returns
-        -------
-        ndarray, shape (n, 1)
-            [-]; points of one triangle have the same.
-        """
-        if np.ndim(self.fluidity_ratio) == 0:
-            return np.full((triangles.size, 1), self.fluidity_ratio)
-        return np.asarray(np.asarray(self.fluidity_ratio)[triangles, :1])
-
 
 class Tangent(NamedTuple):
     """A law linearised about a stress: intercept + modulus times strain rate.
@@ -173,7 +156,7 @@ def sample_material(problem: FlowProblem, template: MeshTemplate | None) -> Mate
         return Material(layer.bulk_ratio, layer.fluidity_ratio, layer.density)
     assert template is not None  # layers lie at heights
     tops = np.array([layer.top for layer in problem.layers[:-1]])
-    index = np.searchsorted(tops, point_heights(template))
+    index = np.searchsorted(tops, interpolate_reference(template)[1])
     fields = ("bulk_ratio", "fluidity_ratio", "density")
     sampled = Material(
         *(

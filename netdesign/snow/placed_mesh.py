@@ -13,9 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.core.library import find_core
 from netdesign.numerics.arrays import Floats, Ints, gather
-from netdesign.snow.compiled_mesh import Placed, place_compiled
 from netdesign.snow.element import (
     Element,
     add_pressure_rows,
@@ -214,21 +212,6 @@ def build_placed_mesh(
     element : str
         ``velocity`` or ``mixed``.
     """
-    core = find_core()
-    if core is None:
-        placed = _place(template, nodes)
-    else:
-        placed = place_compiled(core, template, nodes, EDGE_TANGENT)
-    return PlacedMesh(
-        template=template,
-        nodes=nodes,
-        folded=None,
-        dofs=list_dofs(template, element),
-        **placed._asdict(),
-    )
-
-
-def _place(template: MeshTemplate, nodes: Floats) -> Placed:
     gradients, area_element = map_gradients(template, nodes)
     shape, _, point_weights = reference_element()
     weights = area_element * point_weights
@@ -236,9 +219,13 @@ def _place(template: MeshTemplate, nodes: Floats) -> Placed:
     axes = np.zeros_like(nodes)
     axes[0] = 1.0
     axes[:, template.net[1:]] = net_normal[:, 1:]
-    return Placed(
+    return PlacedMesh(
+        template=template,
+        nodes=nodes,
         weights=weights,
         gradients=gradients,
+        folded=None,
+        dofs=list_dofs(template, element),
         load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
         net_normal=net_normal,
         axes=axes,

@@ -6,21 +6,19 @@ vertices, so that what the snow does to the net acts at vertices only.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Ints, gather
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.element import (
     Element,
     add_pressure_rows,
     build_strain_operator,
-    list_velocity_dofs,
-    map_gradients,
-    reference_element,
 )
 from netdesign.snow.mesh import MeshTemplate
-from netdesign.snow.placed_mesh import PlacedMesh
+from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 
 # Places in a triangle of each midpoint and of the two vertices beside it.
 _MIDPOINTS = ((3, 0, 1), (4, 1, 2), (5, 0, 2))
@@ -49,29 +47,18 @@ def build_straight_mesh(
         Unit vector, first axis of the net's top vertex [-]; default is X.
     """
     nodes = np.concatenate([vertices, vertices[:, template.edges].mean(axis=1)], axis=1)
-    gradients, area_element = map_gradients(template, nodes)
-    shape, _, point_weights = reference_element()
-    weights = area_element * point_weights
+    mesh = build_placed_mesh(template, nodes, element)
     axes = np.zeros_like(nodes)
     axes[0] = 1.0
-    operator = build_strain_operator(template, gradients, axes)
+    operator = build_strain_operator(template, mesh.gradients, axes)
     _fold_midpoints(template, operator)
     if top_axis is not None:
         axes[:, template.net[-1]] = top_axis
         _turn_node(template, operator, int(template.net[-1]), top_axis)
-    dofs = list_velocity_dofs(template)
-    if element == "mixed":
-        operator = add_pressure_rows(operator)
-        dofs = np.hstack([dofs, 2 * nodes.shape[1] + template.triangles[:3].T])
-    return PlacedMesh(
-        template=template,
-        nodes=nodes,
-        weights=weights,
-        gradients=gradients,
-        folded=operator,
-        dofs=dofs,
-        load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
-        net_normal=np.zeros((2, template.net.size)),
+    return replace(
+        mesh,
+        folded=add_pressure_rows(operator) if mesh.is_mixed else operator,
+        net_normal=np.zeros_like(mesh.net_normal),
         axes=axes,
     )
 

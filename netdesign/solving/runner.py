@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TypeVar
 
 from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Fault
-from netdesign.search.known_search import KnownSearch
 from netdesign.solving.state import CaseEnd, is_stuck
-from netdesign.solving.store import FORGOTTEN, CaseStore, name_case, name_search
+from netdesign.solving.store import FORGOTTEN, CaseStore, name_case
 from netdesign.solving.workers import Batch, Ends, Job, OwnProcess, Workers
 from netdesign.words.message import Message, say
 
@@ -121,13 +119,6 @@ class Runner:
         if fault is not None:
             self.faults.setdefault(fault, set()).update([row_id] if row_id else [])
 
-    def find_search(self, task: object) -> KnownSearch | None:
-        """Known search of a task; None if there is none."""
-        with suppress(TypeError):  # a task without a name is searched every time
-            name = name_search(task)
-            return self.ask_store(lambda store: store.find_search(name), None)
-        return None
-
     def find_row(self, name: str) -> list[str] | None:
         """Texts of a known net row of that name; None if there is none."""
         return self.ask_store(lambda store: store.find_row(name), None)
@@ -135,12 +126,6 @@ class Runner:
     def keep_row(self, name: str, texts: Sequence[str]) -> None:
         """Keep the texts of a judged net row for later runs."""
         self.ask_store(lambda store: store.keep_row(name, texts), None)
-
-    def keep_search(self, task: object, known: KnownSearch) -> None:
-        """Keep a finished search for later runs."""
-        with suppress(TypeError):
-            name = name_search(task)
-            self.ask_store(lambda store: store.keep_search(name, known), None)
 
     def ask_store(
         self, ask: Callable[[CaseStore], _Answer], without: _Answer

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Method, Solution, WallSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.wall import Wall
 
-if TYPE_CHECKING:
-    from netdesign.coupling.history.clock import Clock
-
 Settings = SolverSettings | TransientSettings | StaggeredSettings
 
 
 def solve_scene(
-    scene: Scene, settings: Settings | None = None, clock: Clock | None = None
+    scene: Scene, settings: Settings | None = None
 ) -> Solution | WallSolution | FailedSolution:
     """Snow against the scene's net or wall; the settings choose the method.
 
@@ -27,14 +22,12 @@ def solve_scene(
         Snow, ground and net or wall.
     settings : SolverSettings, TransientSettings or StaggeredSettings, optional
         Of the steady state (default), of a history, or of the paper's exchange.
-    clock : Clock, optional
-        Temperature of the snow against time; of histories only.
     """
     # few runs follow histories or push a wall: they alone wait for the imports
     if isinstance(settings, TransientSettings):
         from netdesign.coupling.history.transient import solve_transient
 
-        return solve_transient(scene, settings, clock=clock)
+        return solve_transient(scene, settings)
     if isinstance(settings, StaggeredSettings):
         from netdesign.coupling.history.staggered import solve_staggered
 

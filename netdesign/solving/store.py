@@ -1,9 +1,9 @@
-"""Finished cases, searches and net rows on disk: used by every later run.
+"""Finished cases and net rows on disk: used by every later run.
 
-One SQLite file. A case is known by its scene, its settings and the solver's own code,
-a search by its task and the text of the whole program, a net row by all that decides
-its record, so that another version never answers for this one. Each is one transaction
-in a write-ahead log: a killed run loses what its workers had in hand, nothing else.
+One SQLite file. A case is known by its scene, its settings and the solver's own code, a
+net row by all that decides its record, so that another version never answers for this
+one. Each is one transaction in a write-ahead log: a killed run loses what its workers
+had in hand, nothing else.
 """
 
 from __future__ import annotations
@@ -25,12 +25,11 @@ from typing import Any
 from netdesign.edge.causes import explain
 from netdesign.edge.json_text import MAX_JSON_BYTES
 from netdesign.outcome import NetDesignError, Outcome
-from netdesign.search.known_search import KnownSearch, decode_search, encode_search
-from netdesign.solving.identity import identify_program, identify_solver
+from netdesign.solving.identity import identify_solver
 from netdesign.solving.state import CaseEnd, decode_end, encode_end
 from netdesign.words.message import Message, say
 
-_LAYOUT = 6  # of the tables
+_LAYOUT = 7  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _MOST_BYTES = 2**27  # of all net rows, compressed: 1,000 rows take some 80 MB
@@ -77,18 +76,6 @@ def name_case(scene: object, settings: Hashable) -> str:
 def _write_settings(settings: Hashable) -> str:
     """Text of settings, kept: all cases of a search have the same, and it is long."""
     return write_parts(settings)
-
-
-def name_search(task: object) -> str:
-    """Key of the search of a task, under this version of the program.
-
-    Raises
-    ------
-    TypeError
-        If a part of the task is no plain value, for instance a function.
-    """
-    text = write_parts([identify_program(), task])
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def write_parts(value: object) -> str:
@@ -209,10 +196,6 @@ class CaseStore:
                 "shape BLOB NOT NULL, seal TEXT NOT NULL)"
             )
             base.execute(
-                "CREATE TABLE searches (name TEXT PRIMARY KEY, text TEXT NOT NULL, "
-                "seal TEXT NOT NULL)"
-            )
-            base.execute(
                 "CREATE TABLE rows (number INTEGER PRIMARY KEY, "
                 "name TEXT UNIQUE NOT NULL, packed BLOB NOT NULL, seal TEXT NOT NULL)"
             )
@@ -255,24 +238,6 @@ class CaseStore:
         self._base.execute(
             "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?)",
             (name, numbers, shape, seal_entry(name, numbers, shape)),
-        )
-
-    def find_search(self, name: str) -> KnownSearch | None:
-        """Known search of a name; a damaged one is told and left out."""
-        query = "SELECT text, seal FROM searches WHERE name = ?"
-        for text, seal in self._base.execute(query, (name,)).fetchall():
-            with suppress(ValueError, KeyError, TypeError):
-                if seal_entry(name, text) == seal:
-                    return decode_search(text)
-            self._describe_damaged("store.search_damaged", name)
-        return None
-
-    def keep_search(self, name: str, known: KnownSearch) -> None:
-        """Store one finished search, in a transaction of its own."""
-        text = encode_search(known)
-        self._base.execute(
-            "INSERT OR REPLACE INTO searches VALUES (?, ?, ?)",
-            (name, text, seal_entry(name, text)),
         )
 
     def find_row(self, name: str) -> list[str] | None:

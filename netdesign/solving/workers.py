@@ -189,14 +189,8 @@ class ProcessPool:
             return
         waiting = list(enumerate(batches))[::-1]
         while waiting:
-            suspects = yield from self._feed(waiting)
+            suspects = yield from self.spread(solve_batch, waiting)
             yield from _try_job_by_job(suspects)
-
-    def _feed(
-        self, waiting: list[tuple[int, Batch]]
-    ) -> Generator[Arrival, None, list[tuple[int, Batch]]]:
-        """Hand out batches until all are done or the pool breaks; returns the lost."""
-        return (yield from self.spread(solve_batch, waiting))
 
     def begin(self, work: Callable[..., Found], *given: Any) -> Callable[[], Found]:
         """Call that a worker makes meanwhile; its result is that of what is returned.

@@ -12,6 +12,7 @@ from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.envelope.support_bands import spread_out
 from netdesign.outcome import ModelError, require_within
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
@@ -282,22 +283,14 @@ def _end(day: RowDay, result: CaseResult) -> RowDay:
     if not result.is_converged or result.solution is None:
         reason = result.reason or result.outcome.message
         return replace(day, ending="failed", reason=reason)
-    pulls = {"foot": result.solution.foot, "head": result.solution.head}
-    bands = {
-        name: Band(
-            low=max(0.0, pull.size - pull.error),
-            value=pull.size,
-            high=pull.size + pull.error,
-        )
-        for name, pull in pulls.items()
-    }
+    foot, head = result.solution.foot, result.solution.head
     forces = dict(result.member_forces)
     forces.pop(NetPart.MESH, None)  # the net's own ends are told
     layout_forces = {} if "rope" in forces else forces
     return replace(
         day,
         ending="solved",
-        foot=bands["foot"],
-        head=bands["head"],
+        foot=spread_out(foot.size, foot.error),
+        head=spread_out(head.size, head.error),
         member_forces=layout_forces,
     )

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from netdesign.cable import sliding
-from netdesign.cable.sliding import NetState, SlidingStep, solve_sliding
+from netdesign.cable.sliding import SlidingStep, solve_sliding
 from netdesign.cable.tension import (
     compute_ratio_bounds,
     compute_segment_lengths,
@@ -73,28 +73,13 @@ def largest_breach(case: Case, step: SlidingStep) -> float:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_optimality_of_random_nets(seed):
     case = random_case(seed)
-    step = case.solve()
+    step = case.solve(max_iterations=10)
     assert step.outcome is Outcome.CONVERGED
-    assert step.state is NetState.TIGHT
     # last digit of a length over the elongation, and the tolerance of the solve
     rounding = 2.0**-50 * (case.final / (case.final - step.lengths)).max()
     assert largest_breach(case, step) <= 1e-10 + rounding
     assert step.tensions.min() > 0.0
     assert step.lengths.sum() == pytest.approx(case.old.sum(), rel=1e-14)
-    assert step.iterations <= 10
-
-
-@pytest.mark.parametrize("seed", SEEDS[:60])
-def test_result_does_not_depend_on_the_start(seed):
-    case = random_case(seed)
-    rng = np.random.default_rng(1000 + seed)
-    step = case.solve()
-    for start in (case.old, rng.uniform(0.1, 1.0, case.old.size), case.final**2):
-        other = case.solve(start=start)
-        assert other.outcome is Outcome.CONVERGED
-        np.testing.assert_array_equal(other.slide_signs, step.slide_signs)
-        np.testing.assert_allclose(other.tensions, step.tensions, rtol=1e-6)
-        np.testing.assert_allclose(other.lengths, step.lengths, rtol=1e-9)
 
 
 def compute_function(case: Case, lengths) -> float:
@@ -139,7 +124,7 @@ def test_without_friction_tension_is_uniform():
     frictionless = Case(
         final=case.final, old=case.old, bounds=np.zeros_like(case.bounds)
     )
-    step = frictionless.solve(start=case.old)
+    step = frictionless.solve()
     strain = case.final.sum() / case.old.sum() - 1.0
     np.testing.assert_allclose(step.tensions, STIFFNESS * strain, rtol=1e-8)
 
@@ -208,7 +193,6 @@ def test_net_longer_than_its_polygon_is_slack(surplus):
     old = np.array([1.5, 1.0, 1.0]) * surplus  # middle one tight at first
     step = solve_sliding(final, old, np.full(2, 0.2), stiffness=STIFFNESS)
     assert step.outcome is Outcome.CONVERGED
-    assert step.state is NetState.SLACK
     np.testing.assert_array_equal(step.tensions, 0.0)
     assert (step.lengths >= final).all()
     assert step.lengths.sum() == pytest.approx(old.sum(), rel=1e-14)
@@ -219,7 +203,7 @@ def test_slack_net_that_fits_keeps_its_lengths():
     old = np.array([1.5, 2.5, 1.0])
     final = np.array([1.0, 2.5, 0.5])
     step = solve_sliding(final, old, np.full(2, 0.2), stiffness=STIFFNESS)
-    assert step.state is NetState.SLACK
+    assert not step.tensions.any()
     np.testing.assert_array_equal(step.lengths, old)
     assert not step.slide_signs.any()
 
@@ -228,7 +212,6 @@ def test_slack_segment_beside_tight_ones_is_drawn_tight():
     final = np.array([1.02, 1.0, 1.02])
     old = np.array([1.0, 1.01, 1.0])  # slack in the middle, tight on the whole
     step = solve_sliding(final, old, np.full(2, 0.2), stiffness=STIFFNESS)
-    assert step.state is NetState.TIGHT
     assert step.slide_signs.tolist() == [1, -1]  # both neighbours draw it in
     assert step.tensions[1] == pytest.approx(step.tensions[0] / math.exp(0.2), rel=1e-8)
 
@@ -238,7 +221,6 @@ def test_slack_part_behind_a_node_that_cannot_slide():
     old = np.array([1.03, 0.98, 1.0, 1.0])
     bounds = np.array([0.2, math.inf, 0.2])
     step = solve_sliding(final, old, bounds, stiffness=STIFFNESS)
-    assert step.state is NetState.PARTLY_SLACK
     np.testing.assert_array_equal(step.tensions[:2], 0.0)
     assert (step.tensions[2:] > 0.0).all()
 
@@ -255,10 +237,8 @@ def test_no_stall_at_any_friction_angle(n):
         friction = math.tan(math.radians(degrees))
         bounds = compute_ratio_bounds(compute_turning_angles(points), friction)
         case = Case(final=final, old=old, bounds=bounds)
-        for start in (None, old):
-            step = case.solve(start=start)
-            assert step.outcome is Outcome.CONVERGED
-            assert step.iterations <= 10
+        step = case.solve(max_iterations=10)
+        assert step.outcome is Outcome.CONVERGED
     assert {0} < set(step.slide_signs)  # at 45 deg, where most nodes stick
 
 
@@ -267,31 +247,21 @@ STEPS_HALVED = [848, 1334, 1531]
 
 @pytest.mark.parametrize("seed", [*range(100), *STEPS_HALVED])
 def test_far_beyond_any_net(seed):
-    """Grading 1e-6, strains of tens, ratios to exp(37), any start: still solved."""
+    """Grading 1e-6, strains of tens, ratios to exp(37): still solved."""
     rng = np.random.default_rng(seed)
     n = int(rng.integers(1, 200))
     final = 10.0 ** rng.uniform(-6.0, 0.0, n + 1)
     old = final * np.exp(rng.normal(0.0, 3.0, n + 1))
     old *= final.sum() / old.sum() / (1.0 + 10.0 ** rng.uniform(-8.0, 1.0))
     bounds = np.minimum(np.exp(rng.normal(-1.0, 3.0, n)), 37.0)
-    start = np.exp(rng.normal(0.0, 3.0, n + 1))
-    step = solve_sliding(final, old, bounds, stiffness=1.0, start=start)
+    step = solve_sliding(final, old, bounds, stiffness=1.0)
     assert step.outcome is Outcome.CONVERGED
     assert step.tensions.min() >= 0.0
-
-
-def test_impossible_start_is_refused():
-    case = random_case(4)
-    with pytest.raises(ModelError, match="start length 0"):
-        case.solve(start=np.zeros_like(case.old))
-    with pytest.raises(ModelError, match=r"start lengths.*must be"):
-        case.solve(start=np.ones(1))
 
 
 def test_iteration_limit_is_an_outcome():
     step = random_case(4).solve(max_iterations=1)
     assert step.outcome is Outcome.MAX_ITERATIONS
-    assert step.residual > 1e-10
     assert step.tensions.min() >= 0.0
 
 

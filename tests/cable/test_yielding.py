@@ -1,6 +1,7 @@
 """Net on nodes that yield: friction, forces and positions agree with each other."""
 
 import math
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -8,7 +9,6 @@ from scipy.optimize import brentq
 
 from netdesign.cable import yielding
 from netdesign.cable.response import measure_arcs, respond
-from netdesign.cable.sliding import NetState
 from netdesign.cable.tension import compute_ratio_bounds, compute_turning_angles
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.outcome import Outcome, SolveError
@@ -104,19 +104,20 @@ def test_forces_positions_and_friction_agree(friction, softness):
         assert response.sliding.tensions.min() > 0.0
         assert response.sliding.lengths.sum() == pytest.approx(lengths.sum(), rel=1e-14)
         assert breach(end.place, response, lengths, friction) < 1e-7
-        assert response.sliding.residual < 1e-7
 
 
-def test_few_iterations_whatever_glides():
+def test_few_iterations_whatever_glides(monkeypatch):
     """cable/THEORY.md, eq. (C26): the set of gliding nodes is not iterated upon."""
-    counts = []
-    for seed in range(30):
-        place = bulge(13)
-        nodes = yielding_nodes(place, 1e-3, seed)
-        response, _ = settle(nodes, place, lengths_of(place), 0.3)
-        counts.append(response.sliding.iterations)
-    assert np.median(counts) <= 8
-    assert max(counts) <= 20
+    solved = {8: 0, 20: 0}
+    for most in solved:
+        monkeypatch.setattr(yielding, "_MOST_ITERATIONS", most)
+        for seed in range(30):
+            place = bulge(13)
+            with suppress(SolveError):
+                settle(yielding_nodes(place, 1e-3, seed), place, lengths_of(place), 0.3)
+                solved[most] += 1
+    assert solved[8] >= 15
+    assert solved[20] == 30
 
 
 def test_guess_of_what_glides_does_not_matter():
@@ -185,7 +186,7 @@ def test_net_that_stays_too_long_does_nothing():
     place = bulge(7)
     nodes = yielding_nodes(place, 1e-4)
     response, end = settle(nodes, place, 1.05 * lengths_of(place), 0.3)
-    assert response.sliding.state is NetState.SLACK
+    assert not response.sliding.tensions.any()
     assert not response.forces.any()
     np.testing.assert_allclose(end.place, nodes.place(0.0 * place), atol=1e-13)
 

@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady.compiled import prepare_rounds
+from netdesign.coupling.steady.net import SteadyProblem, cut_net
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError
 from netdesign.snow.contact import Contact, FlowState, may_lift, start_contact
@@ -71,6 +73,38 @@ def draw_contact(rng, problem, mesh):
         is_open=is_open,
         is_lifted=is_lifted,
     )
+
+
+class FlowInCore:
+    """Flow on a drawn mesh that the compiled core takes in a round, some net beside it.
+
+    Attributes
+    ----------
+    state : FlowState
+        After the last step.
+    change : float
+        Error that it left.
+    root : ndarray
+        Forces on the net per velocity of its nodes, about that state.
+    """
+
+    def __init__(self, problem, mesh, state, *, tolerance, max_iterations):
+        curve = mesh.nodes[:, mesh.template.net]
+        net = SteadyProblem(
+            snow=problem,
+            template=mesh.template,
+            head=curve[:, -1],
+            length=1.2 * np.hypot(*curve[:, -1]),
+            slack=0.2,
+            stiffness=1e3,
+        )
+        settings = SolverSettings(max_iterations=max_iterations)
+        core = prepare_rounds(net, settings, still=0.0)
+        parts = cut_net(mesh.template, 1.0).rises
+        results = core._lay_out(np.ones(2), parts)
+        core.play(curve, state, tolerance, results)
+        self.state, self.change = core.view_state(results), core.argument.effort.change
+        self.root = core._condense(results)
 
 
 def assert_alike(found, expected, close=CLOSE):

@@ -24,11 +24,7 @@ from netdesign.panel.equations import build_problem, guess_point
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solve import _solve_compiled, solve_panel
 from netdesign.panel.strips import take_strip
-from netdesign.snow.flow import solve_flow
-from netdesign.snow.flow_step import remove_rounding
 from netdesign.snow.linear import SingularError
-from netdesign.snow.mesh import place_nodes
-from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.shared_mesh import share_template
 
 
@@ -40,24 +36,11 @@ def spoil(values, rng):
     return spoilt
 
 
-def try_spoilt(scene, rng):
-    """Steps from spoilt stresses, on a spoilt mesh, under spoilt loads."""
-    problem = scene.steady_flow_problem
-    if problem.element != "velocity":
-        return
+def try_spoilt_plan(scene, rng):
+    """The order of nodes of triangles one of whose numbers is spoilt."""
     template = share_template(
         scene.modelled_aspect, SolverSettings().levels[0], scene.layer_tops
     )
-    height = template.net_fractions
-    nodes = place_nodes(template, np.array([0.3 * height, height]))
-    for spoilt_nodes in (nodes, spoil(nodes, rng)):
-        mesh = build_placed_mesh(template, spoilt_nodes)
-        with suppress(SingularError):  # what counts is the sanitizer
-            solve_flow(problem, mesh, tolerance=1e-3, max_iterations=3)
-            state = solve_flow(problem, mesh, tolerance=1e-3, max_iterations=0).state
-            state = replace(state, stress=spoil(state.stress, rng))
-            solve_flow(problem, mesh, state, tolerance=1e-3, max_iterations=30)
-            remove_rounding(problem, mesh, state)
     triangles = np.ascontiguousarray(template.triangles.T, dtype=np.int32)
     triangles.flat[rng.integers(triangles.size)] = rng.integers(-(2**31), 2**31)
     net = np.ascontiguousarray(template.net, dtype=np.int32)
@@ -66,20 +49,23 @@ def try_spoilt(scene, rng):
 
 
 def try_spoilt_rounds(scene, rng):
-    """Rounds along spoilt curves, and from spoilt states."""
-    size = SolverSettings().levels[0]
-    problem = _build_problem(scene, scene.net, size)
-    rounds = prepare_rounds(problem, 10)
+    """Rounds along spoilt curves, from spoilt states, and nets under spoilt forces."""
+    problem = _build_problem(scene, scene.net, SolverSettings().levels[0])
+    rounds = prepare_rounds(problem, SolverSettings(max_iterations=30), 1e9)
     if rounds is None:
         return
-    net = start_net(problem)
+    net = start_net(problem, rounds.hang)
     curve = find_contact_curve(problem, net)
     for spoilt in (curve, spoil(curve, rng)):
-        found = rounds.take(spoilt, None, net, 1e-3, 1e9)
-        if found is not None:
-            rounds.take(curve, found.state, found.net, 1e-3, 1e9)
+        with suppress(SolveError, SingularError):  # what counts is the sanitizer
+            found = rounds.take(spoilt, None, net, 1e-3)
+            found.condense()
+            rounds.take(curve, found.state, found.net, 1e-3)
             state = replace(found.state, stress=spoil(found.state.stress, rng))
-            rounds.take(curve, state, found.net, 1e-3, 1e9)
+            rounds.take(curve, state, found.net, 1e-3)
+    with suppress(SolveError):
+        on_net = net.forces[:, : problem.template.net.size]
+        rounds.hang(spoil(on_net, rng), net.cable.pull, net.parts)
 
 
 def try_spoilt_panel(solution, rng):
@@ -114,7 +100,7 @@ def main():
                 scene = build_tables(draw_scene(9, number))
                 found = solve_steady(scene, SolverSettings(accuracy=0.05))
                 rng = np.random.default_rng([9, number])
-                try_spoilt(scene, rng)
+                try_spoilt_plan(scene, rng)
                 if isinstance(scene.net, Net):
                     with suppress(SolveError):
                         try_spoilt_rounds(scene, rng)

@@ -6,31 +6,28 @@ import numpy as np
 import pytest
 
 from netdesign.core.library import find_core
-from netdesign.snow import flow, flow_step
+from netdesign.coupling.steady import compiled
+from netdesign.snow import flow
 from netdesign.snow.contact import net_components
 from netdesign.snow.flow import solve_flow
-from netdesign.snow.flow_step import (
-    compute_residual,
-    linearise_reaction,
-    remove_rounding,
-)
-from tests.core.drawn import CLOSE, NUMBERS, assert_alike, draw_case
+from netdesign.snow.flow_step import compute_residual, condense_to_net
+from tests.core.drawn import CLOSE, NUMBERS, FlowInCore, assert_alike, draw_case
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
 
 
-def step(problem, mesh, state):
+def step(take, problem, mesh, state):
     """A state after a Newton's step, the error that it leaves, and what follows."""
-    one = solve_flow(problem, mesh, state, tolerance=1e9, max_iterations=1)
-    two = solve_flow(problem, mesh, state, tolerance=1e-99, max_iterations=2)
+    one = take(problem, mesh, state, tolerance=1e9, max_iterations=1)
+    two = take(problem, mesh, state, tolerance=1e-99, max_iterations=2)
     return one.state, one.change, two.state.contact
 
 
 @pytest.mark.parametrize("number", NUMBERS)
-def test_a_step_is_that_of_numpy(number, in_numpy):
+def test_a_step_is_that_of_numpy(number):
     problem, mesh, state = draw_case(number)
-    found, left, wanted = step(problem, mesh, state)
-    expected, known, follows = in_numpy(step, problem, mesh, state)
+    found, left, wanted = step(FlowInCore, problem, mesh, state)
+    expected, known, follows = step(solve_flow, problem, mesh, state)
     # what a step in NumPy leaves out of balance is what either may be off by
     unbalanced = np.abs(expected.reaction - compute_residual(problem, mesh, expected))
     slack = max(CLOSE, 100 * unbalanced.max() / np.abs(expected.reaction).max())
@@ -51,26 +48,13 @@ def test_a_step_is_that_of_numpy(number, in_numpy):
 
 
 @pytest.mark.parametrize("number", NUMBERS[:12])
-def test_a_correction_is_that_of_numpy(number, in_numpy):
+def test_the_derivative_of_a_round_is_that_of_numpy(number):
     problem, mesh, state = draw_case(number)
-    assert_alike(
-        remove_rounding(problem, mesh, state).stress,
-        in_numpy(remove_rounding, problem, mesh, state).stress,
-        1e-8,
-    )
+    found = FlowInCore(problem, mesh, state, tolerance=1e9, max_iterations=1)
+    assert_alike(found.root, condense_to_net(problem, mesh, found.state), 1e-8)
 
 
-@pytest.mark.parametrize("number", NUMBERS[:12])
-def test_the_derivative_of_a_round_is_that_of_numpy(number, in_numpy):
-    problem, mesh, state = draw_case(number)
-    assert_alike(
-        linearise_reaction(problem, mesh, state),
-        in_numpy(linearise_reaction, problem, mesh, state),
-        1e-8,
-    )
-
-
-def take_back(problem, mesh, state):
+def take_back(take, problem, mesh, state):
     """State after steps of which only some changes of contact are taken."""
     problem = replace(
         problem, friction=0.2, net_contact="two-sided", ground_contact="one-sided"
@@ -82,32 +66,18 @@ def take_back(problem, mesh, state):
         is_pressed=np.ones_like(state.contact.is_pressed),
     )
     start = replace(state, contact=held)
-    return solve_flow(problem, mesh, start, tolerance=1e-99, max_iterations=4).state
+    return take(problem, mesh, start, tolerance=1e-99, max_iterations=4).state
 
 
 @pytest.mark.parametrize("number", NUMBERS[:12])
 @pytest.mark.parametrize("patience", [0, 1])
-def test_changes_that_are_taken_back_are_those_of_numpy(
-    number, patience, in_numpy, monkeypatch
-):
+def test_changes_that_are_taken_back_are_those_of_numpy(number, patience, monkeypatch):
     """Half of each row of changes at step ``patience``, later one at a time."""
-    monkeypatch.setattr(flow, "_PATIENCE", patience)
+    monkeypatch.setattr(flow, "PATIENCE", patience)
+    monkeypatch.setattr(compiled, "PATIENCE", patience)
     case = draw_case(number)
-    found, expected = take_back(*case), in_numpy(take_back, *case)
+    found, expected = take_back(FlowInCore, *case), take_back(solve_flow, *case)
     assert_alike(found.reaction, expected.reaction, 1e-7)
     for name in ("sign", "is_open", "is_lifted"):
         one, other = getattr(found.contact, name), getattr(expected.contact, name)
         np.testing.assert_array_equal(one, other)
-
-
-def solve(problem, mesh, state):
-    return solve_flow(problem, mesh, state, tolerance=0.1)
-
-
-def test_a_mesh_that_is_too_large_for_the_core_is_solved_in_numpy(
-    in_numpy, monkeypatch
-):
-    case = draw_case(0)
-    expected = in_numpy(solve, *case)
-    monkeypatch.setattr(flow_step, "prepare_flow", lambda *_: None)
-    np.testing.assert_array_equal(solve(*case).state.stress, expected.state.stress)

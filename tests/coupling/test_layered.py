@@ -82,10 +82,11 @@ def work(monkeypatch):
         return flow
 
     def count_in_core(self, *given):
-        found = take(self, *given)
-        triangles = self.problem.template.triangles.shape[1]
-        spent.append(self.argument.effort.steps * triangles)
-        return found
+        try:
+            return take(self, *given)
+        finally:
+            triangles = self.problem.template.triangles.shape[1]
+            spent.append(self.argument.effort.steps * triangles)
 
     monkeypatch.setattr(round, "solve_flow", count)
     monkeypatch.setattr(CompiledRounds, "take", count_in_core)
@@ -374,9 +375,9 @@ def test_a_derivative_is_found_on_coarse_meshes_alone_where_pulls_follow_calmly(
     sizes = []
     linearise = correction.linearise_round
 
-    def note(snow, mesh, *given):
-        sizes.append(mesh.template.triangles.shape[1])
-        return linearise(snow, mesh, *given)
+    def note(problem, taken):
+        sizes.append(problem.template.triangles.shape[1])
+        return linearise(problem, taken)
 
     monkeypatch.setattr(correction, "linearise_round", note)
     found = solve_steady(stiff_scene(), SolverSettings(accuracy=0.005))

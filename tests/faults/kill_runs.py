@@ -27,14 +27,12 @@ from netdesign.solving import runner, store, workers
 OUTPUTS = ("study.json", "report.html", "report.xlsx")
 NOW, BEFORE = "1700000000", "1600000000"  # of the run, and of the outputs it finds
 # Where a kill may fall: the solve of a case, its way to the store and that of a
-# search or of a net row, each report, and each step of the way to disk.
+# net row, each report, and each step of the way to disk.
 STEPS = (
     (runner, "name_case"),
     (workers, "solve_job"),
     (store.CaseStore, "keep"),
     (store.CaseStore, "find"),
-    (store.CaseStore, "keep_search"),
-    (store.CaseStore, "find_search"),
     (store.CaseStore, "keep_row"),
     (store.CaseStore, "find_row"),
     (files, "_render"),

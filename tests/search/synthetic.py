@@ -5,12 +5,11 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import fields, replace
 
 import numpy as np
 
 from netdesign.search.maxima import Maxima, MaximaSearch, SearchSettings, Values
-from netdesign.search.surrogate import Point, Surrogate
+from netdesign.search.surrogate import Point
 
 Response = Callable[[np.ndarray], np.ndarray]
 
@@ -94,11 +93,3 @@ def peak(seed: int, width: float) -> Response:
         + slope @ u
         + height * np.exp(-np.sum((u - top) ** 2, axis=1) / (2.0 * sigma**2))
     )
-
-
-def assert_same(one: Maxima, other: Maxima):
-    """Bit by bit, the model included; NaN predictions of the first design are equal."""
-    assert repr(replace(one, surrogate=None)) == repr(replace(other, surrogate=None))
-    for field in fields(Surrogate):
-        left, right = (getattr(m.surrogate, field.name) for m in (one, other))
-        assert np.array_equal(left, right), field.name

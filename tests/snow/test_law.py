@@ -231,12 +231,3 @@ def test_ground_slips_by_the_fluidity_of_the_snow_on_it(
     np.testing.assert_allclose(
         tangent.intercept + tangent.modulus * velocity, shear, rtol=1e-12
     )
-
-
-def test_fluidity_of_triangles_is_a_number_or_their_own():
-    numbers = np.array([2, 0, 2])
-    plain = Material(1.8, 0.7, 1.0).sample_fluidity_ratio(numbers)
-    np.testing.assert_array_equal(plain, [[0.7]] * 3)
-    each = np.outer([1.0, 2.0, 3.0], np.ones(3))
-    found = Material(1.8, each, 1.0).sample_fluidity_ratio(numbers)
-    np.testing.assert_array_equal(found, [[3.0], [1.0], [3.0]])

@@ -5,10 +5,9 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow import linear
 from netdesign.snow.element import list_dofs
-from netdesign.snow.kernel import build_base_stiffness, build_stiffness
-from netdesign.snow.linear import Blocks, SingularError, solve_blocks
+from netdesign.snow.kernel import assemble_base_stiffness, assemble_stiffness
+from netdesign.snow.linear import SingularError, find_order, solve_matrix, sum_blocks
 from netdesign.snow.mesh import build_template
 
 MU = 0.6
@@ -16,7 +15,7 @@ MU = 0.6
 
 @pytest.fixture
 def problem(a_mesh):
-    """Blocks, forces, free unknowns and friction of five slipping nodes."""
+    """Matrix, forces, free unknowns and friction of five slipping nodes."""
     mesh = a_mesh(inclination_deg=30.0, sag=0.05)
     rng = np.random.default_rng(3)
     roots = rng.normal(size=(*mesh.weights.shape, 3, 3))
@@ -28,15 +27,14 @@ def problem(a_mesh):
     free[slipping] = True
     friction = np.zeros(mesh.n_dofs)
     friction[slipping] = [-MU, -MU, MU, -MU, MU]
-    return mesh, [build_stiffness(mesh, moduli)], rng.normal(size=mesh.n_dofs), (
+    return mesh, assemble_stiffness(mesh, moduli), rng.normal(size=mesh.n_dofs), (
         free, friction,
     )  # fmt: skip
 
 
-def solve_dense(mesh, blocks, force, free, friction):
+def solve_dense(matrix, force, free, friction):
     """Rows as (N14) has them: each tangential one with its share of the normal one."""
-    matrix = sum(block.to_matrix(mesh.n_dofs) for block in blocks).toarray()
-    right = -force.copy()
+    matrix, right = matrix.toarray(), -force
     for tangential in np.flatnonzero(friction):
         matrix[tangential] += friction[tangential] * matrix[tangential - 1]
         right[tangential] += friction[tangential] * right[tangential - 1]
@@ -50,39 +48,22 @@ def solve_dense(mesh, blocks, force, free, friction):
 @pytest.mark.parametrize("slips", [True, False], ids=["slips", "sticks"])
 @pytest.mark.parametrize("columns", [1, 3])
 def test_it_is_the_dense_solution(problem, slips, columns, ground):
-    mesh, blocks, force, (free, friction) = problem
+    mesh, matrix, force, (free, friction) = problem
     if ground == "slides":
         free[2 * mesh.template.ground[1:]] = True
         modulus = np.full(mesh.base.weights.shape, 0.3)
-        blocks = [*blocks, build_base_stiffness(mesh, modulus)]
+        matrix = matrix + assemble_base_stiffness(mesh, modulus)
     forces = np.stack([force * (k + 1.0) for k in range(columns)], axis=1)
-    found = solve_blocks(
+    found = solve_matrix(
         mesh.template,
-        blocks,
+        matrix,
         force if columns == 1 else forces,
         free,
         friction if slips else None,
     )
-    truth = solve_dense(mesh, blocks, force, free, friction if slips else 0 * friction)
+    truth = solve_dense(matrix, force, free, friction if slips else 0 * friction)
     wanted = truth if columns == 1 else np.stack([truth * k for k in (1, 2, 3)], axis=1)
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * np.abs(truth).max())
-
-
-def test_a_pattern_sums_the_blocks_in_its_order(problem):
-    mesh, blocks, _, (free, _) = problem
-    pattern = linear._find_pattern(mesh.template, False, False)
-    for share in (1.0, 0.31):
-        parts = [b._replace(values=share * b.values) for b in blocks]
-        summed = linear._sum_up(pattern, parts, free)
-        wanted = sum(part.to_matrix(mesh.n_dofs).toarray() for part in parts)
-        wanted[~free] = wanted[:, ~free] = 0.0
-        found = summed.toarray()[np.ix_(pattern.place, pattern.place)]
-        held = found[~free, ~free]
-        assert (held == held[0]).all()
-        assert held[0] >= np.abs(wanted).max() / 12  # never the smallest pivot
-        found[~free, ~free] = 0.0
-        np.testing.assert_allclose(found, wanted, rtol=1e-13, atol=1e-13)
-        assert summed.has_sorted_indices
 
 
 def count_fill_in(matrix):
@@ -90,24 +71,21 @@ def count_fill_in(matrix):
     return factors.L.nnz
 
 
-@pytest.mark.parametrize("pressures", [False, True])
+@pytest.mark.parametrize("is_mixed", [False, True])
 @pytest.mark.parametrize("level", [0, 1, 2])
-def test_order_of_least_degrees_fills_in_less_than_the_nodes_own(level, pressures):
+def test_order_of_least_degrees_fills_in_less_than_the_nodes_own(level, is_mixed):
     """A permutation, whose factor has less than that of the unknowns as numbered."""
     template = build_template(5.0, MESH_LEVELS[level])
-    pattern = linear._find_pattern(template, pressures, False)
-    size = 2 * template.nodes.shape[1] + pressures * template.n_vertices
-    assert np.array_equal(np.sort(pattern.place), np.arange(size))
-    dofs = list_dofs(template, "mixed" if pressures else "velocity")
-    count = dofs.shape[1]
-    values = np.where(np.eye(count, dtype=bool), 15.0, 1.0) * np.ones((len(dofs), 1, 1))
-    parts = [Blocks(dofs=dofs, values=values, n_paired=12)]
-    matrix = linear._sum_up(pattern, parts, np.ones(size, dtype=bool))
-    assert count_fill_in(matrix) < 0.5 * count_fill_in(parts[0].to_matrix(size).tocsc())
+    order = find_order(template, is_mixed)
+    size = 2 * template.nodes.shape[1] + is_mixed * template.n_vertices
+    assert np.array_equal(np.sort(order), np.arange(size))
+    dofs = list_dofs(template, "mixed" if is_mixed else "velocity")
+    values = np.where(np.eye(dofs.shape[1], dtype=bool), 15.0, 1.0)
+    matrix = sum_blocks(dofs, np.tile(values, (len(dofs), 1, 1)), size).tocsc()
+    assert count_fill_in(matrix[order][:, order]) < 0.5 * count_fill_in(matrix)
 
 
 def test_what_nothing_holds_is_singular(problem):
-    mesh, blocks, force, (free, _) = problem
-    loose = blocks[0]._replace(values=np.zeros_like(blocks[0].values))
+    mesh, matrix, force, (free, _) = problem
     with pytest.raises(SingularError):
-        solve_blocks(mesh.template, [loose], force, free)
+        solve_matrix(mesh.template, 0.0 * matrix, force, free)

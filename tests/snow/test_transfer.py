@@ -7,7 +7,7 @@ from scipy.spatial import cKDTree
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import transfer
 from netdesign.snow.contact import Contact, FlowState, start_contact
-from netdesign.snow.element import point_heights
+from netdesign.snow.element import interpolate_reference
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.shared_mesh import share_template
@@ -25,7 +25,7 @@ def straight_mesh(level):
 
 def number_layers(mesh):
     shape = mesh.weights.shape
-    found = np.searchsorted(TOPS, point_heights(mesh.template))
+    found = np.searchsorted(TOPS, interpolate_reference(mesh.template)[1])
     return np.broadcast_to(found, shape)
 
 

@@ -19,7 +19,7 @@ KEPT = (tokenize.NAME, tokenize.NUMBER, tokenize.STRING, tokenize.OP)
 LAST = "    return value + KELVIN_AT_0_C"  # line of units.py
 
 # Of the package outside: they word, carry or keep what was found, and decide no number.
-DECIDE_NOTHING = ("edge", "errors", "fault", "search.known_search", "words")
+DECIDE_NOTHING = ("edge", "errors", "fault", "words")
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from netdesign.solving import identity as module
-from netdesign.solving.identity import identify_installation
+from netdesign.solving.identity import identify_installation, identify_program
 
 
 @pytest.fixture
@@ -58,6 +58,19 @@ def test_every_library_counts_also_those_that_others_need(
     before = identify_installation()
     place.rename(place.with_name("markupsafe-3.0.1.dist-info"))
     assert identify_installation() != before
+
+
+def test_the_text_of_every_module_counts(tmp_path):
+    """A copy of the package with one more sign in any part is another program."""
+    names = set()
+    parts = ("search/maxima.py", "structure/head.py", "units.py")
+    for place in parts:
+        root = tmp_path / place
+        for path in parts:
+            (root / path).parent.mkdir(parents=True, exist_ok=True)
+            (root / path).write_text("#" if path == place else "")
+        names.add(identify_program(root))
+    assert len(names) == 3
 
 
 def test_another_program_or_python_is_another_installation(resources, monkeypatch):

@@ -14,7 +14,6 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import Project
-from netdesign.snow.snowpack import Layer
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
@@ -22,7 +21,6 @@ from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.words.message import say
 from tests.read_check import compare_support
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 from tests.solving.made_up_workers import Recording
@@ -143,35 +141,6 @@ def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_
     finally:
         pool.close()
     assert write_document(judge(standard, found)) == expected
-
-
-def test_layered_snow_is_part_of_what_a_search_is_known_by(tmp_path):
-    """Two rows that differ in one layer only, and a second run of both."""
-    thickness = ROWS[0].snow_thickness
-    derived = say("derivation.bar", diameter=28.0, strength=500.0)
-    computed = [replace(one, derivation=derived) for one in ROWS[0].resistances]
-    rows = [
-        replace(
-            ROWS[0],
-            resistances=tuple(computed),
-            layers=(
-                Layer(thickness=0.5 * thickness, density=350.0),
-                Layer(thickness=0.5 * thickness, density=density),
-            ),
-        )
-        for density in (250.0, 250.5)
-    ]
-    searched = []
-
-    class Recording(CaseStore):
-        def keep_search(self, name, known):
-            searched.append(name)
-            super().keep_search(name, known)
-
-    for row in (*rows, *rows):
-        with Recording(tmp_path / "cases.sqlite", pytest.fail) as store:
-            search_site(build_site(row, ranges=RANGES), RUN, Runner(store=store))
-    assert len(searched) == len(set(searched)) == 2
 
 
 def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelopes):

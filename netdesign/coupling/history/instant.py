@@ -119,11 +119,10 @@ def advance(
         If the step does not converge; a shorter one may.
     """
     equations = assemble_step(problem, state, step)
-    unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
-    iterate = SnowIterate(unknowns, state.stress, state.base_shear)
-    points = list_net_points(problem, state.body.vertices[:, state.carried])
+    iterate = _begin(equations, state)
+    points = list_net_points(problem, state.net_nodes)
     forces = hold_net(points, state.lengths, stiffness=problem.stiffness).forces
-    guess = NetGuess.at_rest(equations.place_net(unknowns), state.slide_signs)
+    guess = NetGuess.at_rest(equations.place_net(iterate.unknowns), state.slide_signs)
     top_changes = 0
     for iteration in range(1, max_iterations + 1):
         last = iterate.stress
@@ -180,8 +179,7 @@ def advance_under(
         If the step does not converge.
     """
     equations = assemble_step(problem, replace(state, step=0.0), step)
-    unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
-    iterate = SnowIterate(unknowns, state.stress, state.base_shear)
+    iterate = _begin(equations, state)
     for iteration in range(1, max_iterations + 1):
         last = iterate.stress
         solution = solve_linear(equations, iterate, response.forces, per_force=False)
@@ -190,6 +188,12 @@ def advance_under(
         if change < tolerance:
             return _finish(equations, state, iterate, response, iteration)
     raise SolveError(Outcome.MAX_ITERATIONS, say("history.step_under_forces"))
+
+
+def _begin(equations: StepEquations, state: TransientState) -> SnowIterate:
+    """The snow as it moved in the last step."""
+    unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
+    return SnowIterate(unknowns, state.stress, state.base_shear)
 
 
 def _iterate(

@@ -9,8 +9,8 @@ import numpy as np
 
 from netdesign.cable.tension import compute_node_forces
 from netdesign.coupling.balance import check_balance, negative_share
-from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.instant import Instant
+from netdesign.coupling.history.settings import Start
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.moments import (
     History,
@@ -46,8 +46,8 @@ class Run:
         Why the run ended before its horizon; None if it did not.
     linear_solves, rejected : int
         Solves taken; steps that were repeated.
-    is_guessed : bool
-        The net's first shape was a guess.
+    start : str
+        ``steady``, ``sagged`` or ``straight``.
     """
 
     problem: TransientProblem
@@ -59,12 +59,13 @@ class Run:
     ended: Message | None
     linear_solves: int
     rejected: int
-    is_guessed: bool
+    start: Start
 
     @property
     def counted(self) -> Sequence[HistoryPoint]:
         """Moments whose pulls are those of the scene's snow on its net."""
-        return select_counted(self.moments, self.plateau, is_guessed=self.is_guessed)
+        is_guessed = self.start != "steady"
+        return select_counted(self.moments, self.plateau, is_guessed=is_guessed)
 
 
 def record_moment(
@@ -144,9 +145,7 @@ def _net_normals(points: Floats) -> Floats:
     return np.asarray(np.array([along[1], -along[0]]) / np.hypot(*along))
 
 
-def scale_history(
-    run: Run, scene: Scene, clock: Clock, *, start: str, densifies: bool
-) -> History:
+def scale_history(run: Run, scene: Scene) -> History:
     """History of a run in SI units.
 
     Parameters
@@ -155,22 +154,15 @@ def scale_history(
         Dimensionless.
     scene : Scene
         Its scales.
-    clock : Clock
-        Of its temperatures.
-    start : str
-        ``steady``, ``straight`` or ``sagged``.
-    densifies : bool
-        The creep law followed the density.
     """
     plateau = run.plateau
     if plateau.time is not None:
-        time = clock.to_time(plateau.time * scene.time_scale)
-        plateau = replace(plateau, time=time)
+        plateau = replace(plateau, time=plateau.time * scene.time_scale)
     return History(
-        moments=tuple(_scale_moment(moment, scene, clock) for moment in run.moments),
+        moments=tuple(_scale_moment(moment, scene) for moment in run.moments),
         plateau=plateau,
-        start=start,
-        densifies=densifies,
+        start=run.start,
+        densifies=run.problem.settling.densifies,
         fallen_share=run.fallen,
         ended=run.ended,
     )
@@ -181,7 +173,6 @@ def build_solution(
     runs: Sequence[Run],
     foot: EndPull,
     head: EndPull,
-    history: History,
     method: Method,
     balance_tolerance: float,
     friction_tolerance: float | None = None,
@@ -196,8 +187,6 @@ def build_solution(
         Of all meshes; the finest is the last.
     foot, head : EndPull
         Largest pulls with their errors.
-    history : History
-        Of the finest run.
     method : str
         ``transient`` or ``staggered``.
     balance_tolerance : float
@@ -243,7 +232,7 @@ def build_solution(
             elements=template.triangles.shape[1],
             degrees_of_freedom=2 * template.nodes.shape[1],
         ),
-        history=history,
+        history=scale_history(run, scene),
     )
 
 
@@ -264,11 +253,11 @@ def _find_slides(run: Run) -> Mask:
     return slides
 
 
-def _scale_moment(moment: HistoryPoint, scene: Scene, clock: Clock) -> HistoryPoint:
+def _scale_moment(moment: HistoryPoint, scene: Scene) -> HistoryPoint:
     force, thickness = scene.force_scale, scene.snowpack.thickness
     return replace(
         moment,
-        time=clock.to_time(moment.time * scene.time_scale),
+        time=moment.time * scene.time_scale,
         foot=moment.foot * force,
         head=moment.head * force,
         tension_min=moment.tension_min * force,

@@ -9,7 +9,6 @@ section 7.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 
@@ -25,7 +24,6 @@ from netdesign.cable.response import (
     pull_nodes,
 )
 from netdesign.cable.tension import compute_turning_angles
-from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.instant import Instant, advance_under
 from netdesign.coupling.history.net_start import build_start, find_start
 from netdesign.coupling.history.run import (
@@ -33,7 +31,6 @@ from netdesign.coupling.history.run import (
     build_solution,
     measure_run,
     record_moment,
-    scale_history,
 )
 from netdesign.coupling.history.settings import (
     StaggeredSettings,
@@ -42,11 +39,18 @@ from netdesign.coupling.history.state import (
     TransientProblem,
     TransientState,
     build_problem,
+    list_net_points,
 )
 from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    EndPull,
+    FailedSolution,
+    OnFailure,
+    Solution,
+    end_solve,
+)
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.body import move_body
@@ -66,7 +70,7 @@ def solve_staggered(
     scene: Scene,
     settings: StaggeredSettings | None = None,
     *,
-    on_failure: Literal["return", "raise"] = "return",
+    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """The paper's exchange, with a step and with half of it.
 
@@ -93,31 +97,30 @@ def solve_staggered(
     -----------
     tests/coupling/history/test_staggered.py, ``netdesign verify``
     """
-    try:
-        return _solve(scene, settings or StaggeredSettings())
-    except SolveError as failure:
-        reason = say("staggered.advice", reason=failure.reason)
-        if on_failure == "raise":
-            raise SolveError(failure.outcome, reason) from None
-        return FailedSolution(outcome=failure.outcome, reason=reason)
+    return end_solve(lambda: _solve(scene, settings or StaggeredSettings()), on_failure)
 
 
 def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
+    """Solution, or its failure with what to try."""
+    try:
+        return _halve(scene, settings)
+    except SolveError as failure:
+        advice = say("staggered.advice", reason=failure.reason)
+        raise SolveError(failure.outcome, advice) from None
+
+
+def _halve(scene: Scene, settings: StaggeredSettings) -> Solution:
     half = replace(settings, step_share=settings.step_share / 2.0)
     runs = [run_exchange(scene, settings), run_exchange(scene, half)]
     foot, head = (
         EndPull.of_estimate(one, scene.force_scale)
         for one in _ERROR.estimate([measure_run(run) for run in runs])
     )
-    history = scale_history(
-        runs[-1], scene, Clock(), start=settings.start, densifies=True
-    )
     return build_solution(
         scene,
         runs,
         foot,
         head,
-        history,
         "staggered",
         _BALANCE_TOLERANCE,
         _FRICTION_TOLERANCE,
@@ -176,7 +179,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
         ended=None,
         linear_solves=solves,
         rejected=0,
-        is_guessed=settings.start != "steady",
+        start=settings.start,
     )
 
 
@@ -187,20 +190,15 @@ def _longest_step(problem: TransientProblem, aspect: float) -> float:
 
 
 def _start_cable(problem: TransientProblem, state: TransientState) -> CableState:
-    arcs = measure_arcs(_net_points(problem, state))
+    arcs = measure_arcs(list_net_points(problem, state.net_nodes))
     return build_cable_state(arcs, np.minimum(state.lengths, arcs), problem.stiffness)
-
-
-def _net_points(problem: TransientProblem, state: TransientState) -> Floats:
-    nodes = state.body.vertices[:, state.carried]
-    return np.column_stack([np.zeros(2), nodes, problem.head])
 
 
 def _respond(
     problem: TransientProblem, state: TransientState, cable: CableState
 ) -> NetResponse:
     """The net as it is, its forces taken as they are."""
-    points = _net_points(problem, state)
+    points = list_net_points(problem, state.net_nodes)
     return pull_nodes(points, keep_lengths(cable.unstressed_lengths, cable.tensions))
 
 
@@ -225,7 +223,7 @@ def _follow(
         stress=instant.stress,
         base_shear=instant.base_shear,
     )
-    points = _net_points(problem, moved)
+    points = list_net_points(problem, moved.net_nodes)
     increment = advance_increment(
         cable,
         measure_arcs(points),

@@ -105,6 +105,11 @@ class TransientState:
         net = self.body.topology.net
         return net[1:] if self.top == "on-net" else net[1:-1]
 
+    @property
+    def net_nodes(self) -> Floats:
+        """Positions (2, n) of the vertices that are nodes of the net [thickness]."""
+        return self.body.vertices[:, self.carried]
+
 
 def list_net_points(problem: TransientProblem, nodes: Floats) -> Floats:
     """Foot, nodes and head of the net.

@@ -5,7 +5,6 @@ Theory: coupling/THEORY.md, section 6.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -18,9 +17,9 @@ from netdesign.snow.body import SnowBody, build_material
 from netdesign.snow.element import reference_element
 from netdesign.snow.kernel import (
     assemble_base_force,
+    assemble_base_stiffness,
+    assemble_stiffness,
     assemble_stress,
-    build_base_stiffness,
-    build_stiffness,
     compute_base_velocity,
     compute_strain,
 )
@@ -34,7 +33,7 @@ from netdesign.snow.law import (
     squared_invariant,
     total_stress,
 )
-from netdesign.snow.linear import Blocks, SingularError, solve_blocks
+from netdesign.snow.linear import Matrix, SingularError, solve_matrix
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
 from netdesign.words.message import say
@@ -249,11 +248,12 @@ def assemble_step(
         )
     moved = replace(body, vertices=vertices)
     material = build_material(problem.settling, snow, moved)
+    fluidity = np.broadcast_to(material.fluidity_ratio, mesh.weights.shape)
     return StepEquations(
         problem=problem,
         mesh=mesh,
         material=material,
-        bottom_fluidity_ratio=material.sample_fluidity_ratio(body.topology.bottom),
+        bottom_fluidity_ratio=fluidity[body.topology.bottom, :1],
         weight=_nodal_weight(problem, mesh, body),
         free=_free_places(problem, mesh, state),
         net_dofs=np.concatenate([2 * state.carried, 2 * state.carried + 1]),
@@ -287,14 +287,14 @@ def solve_linear(
     SolveError
         If nothing holds the snow.
     """
-    linear, blocks, force = _linearise(equations, iterate)
+    linear, matrix, force = _linearise(equations, iterate)
     dofs = equations.net_dofs
     rhs = np.zeros((force.size, 1 + (dofs.size if per_force else 0)))
     rhs[:, 0] = force
     rhs[dofs, 0] -= forces.ravel()
     if per_force:
         rhs[dofs, 1 + np.arange(dofs.size)] = -1.0
-    solutions = _solve(equations, blocks, rhs)
+    solutions = _solve(equations, matrix, rhs)
     return LinearSolution(linear, solutions[:, 0], solutions[:, 1:])
 
 
@@ -381,22 +381,22 @@ def measure_change(
 
 def _linearise(
     equations: StepEquations, iterate: SnowIterate
-) -> tuple[_Linear, list[Blocks], Floats]:
+) -> tuple[_Linear, Matrix, Floats]:
     mesh, snow, stress = equations.mesh, equations.problem.snow, iterate.stress
     if stress is None:  # the first iterate is linear creep
         snow = replace(snow, exponent=1.0)
         stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
     tangent = linearise_creep(snow, equations.material, stress)
     strain = compute_strain(mesh, iterate.unknowns)
-    blocks = [build_stiffness(mesh, tangent.modulus)]
+    matrix = assemble_stiffness(mesh, tangent.modulus)
     force = assemble_stress(mesh, hold_stress(tangent, strain)) - equations.weight
     base, shear = _linearise_base(equations, iterate), None
     if base is not None:
         base_velocity = compute_base_velocity(mesh, iterate.unknowns)
         shear = base.intercept + base.modulus * base_velocity
-        blocks.append(build_base_stiffness(mesh, base.modulus))
+        matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
         force += assemble_base_force(mesh, shear)
-    return _Linear(tangent, strain, base, shear), blocks, force
+    return _Linear(tangent, strain, base, shear), matrix, force
 
 
 def _linearise_base(equations: StepEquations, iterate: SnowIterate) -> Tangent | None:
@@ -414,7 +414,7 @@ def _linearise_base(equations: StepEquations, iterate: SnowIterate) -> Tangent |
     return None
 
 
-def _solve(equations: StepEquations, blocks: Sequence[Blocks], force: Floats) -> Floats:
+def _solve(equations: StepEquations, matrix: Matrix, force: Floats) -> Floats:
     mesh, snow = equations.mesh, equations.problem.snow
     friction = None
     if equations.top_slips and snow.friction > 0.0:
@@ -422,7 +422,7 @@ def _solve(equations: StepEquations, blocks: Sequence[Blocks], force: Floats) ->
         friction = np.zeros(mesh.n_dofs)
         friction[equations.top + 1] = -snow.friction
     try:
-        return solve_blocks(mesh.template, blocks, force, equations.free, friction)
+        return solve_matrix(mesh.template, matrix, force, equations.free, friction)
     except SingularError:
         raise SolveError(Outcome.NONFINITE, say("history.nothing_holds")) from None
 

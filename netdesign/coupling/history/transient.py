@@ -8,12 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
 from netdesign.cable.response import measure_arcs
-from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.follow import follow
 from netdesign.coupling.history.instant import Instant, advance
 from netdesign.coupling.history.net_start import build_start, find_start
@@ -22,7 +20,6 @@ from netdesign.coupling.history.run import (
     build_solution,
     measure_run,
     record_moment,
-    scale_history,
 )
 from netdesign.coupling.history.settings import (
     TransientSettings,
@@ -40,7 +37,13 @@ from netdesign.coupling.moments import (
 )
 from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    EndPull,
+    FailedSolution,
+    OnFailure,
+    Solution,
+    end_solve,
+)
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template
@@ -74,8 +77,7 @@ def solve_transient(
     scene: Scene,
     settings: TransientSettings | None = None,
     *,
-    clock: Clock | None = None,
-    on_failure: Literal["return", "raise"] = "return",
+    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """History of a scene on two meshes or more.
 
@@ -85,8 +87,6 @@ def solve_transient(
         Snow, ground and net.
     settings : TransientSettings, optional
         Start, horizon, accuracy.
-    clock : Clock, optional
-        Temperature of the snow against time; default is the scene's fluidity.
     on_failure : str
         ``return`` a FailedSolution, or ``raise`` a SolveError.
 
@@ -107,14 +107,9 @@ def solve_transient(
     -----------
     tests/coupling/history/test_transient.py, ``netdesign verify``
     """
-    settings = settings or TransientSettings()
-    clock = clock or Clock()
-    try:
-        return _refine(scene, settings, clock)
-    except SolveError as failure:
-        if on_failure == "raise":
-            raise
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    return end_solve(
+        lambda: _refine(scene, settings or TransientSettings()), on_failure
+    )
 
 
 def run_history(
@@ -246,7 +241,7 @@ class _Walk:
             ended=None if self.failure is None else self.failure.reason,
             linear_solves=self.solves,
             rejected=self.rejected,
-            is_guessed=self.settings.start != "steady",
+            start=self.settings.start,
         )
 
     def _advance(self, step: float) -> Instant:
@@ -323,8 +318,8 @@ def _list_pulls(run: Run, time: float) -> list[Floats]:
     return [*measure_run(run), *at_time]
 
 
-def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution:
-    horizon = clock.to_creep_time(settings.horizon) / scene.time_scale
+def _refine(scene: Scene, settings: TransientSettings) -> Solution:
+    horizon = settings.horizon / scene.time_scale
 
     rests: list[float] = []
 
@@ -348,13 +343,6 @@ def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution
         runs,
         foot,
         head,
-        scale_history(
-            runs[-1],
-            scene,
-            clock,
-            start=settings.start,
-            densifies=settings.densifies,
-        ),
         "transient",
         _WHOLE_BALANCE * settings.balance_tolerance,
     )

@@ -1,4 +1,4 @@
-"""A round of flow and net by the compiled core; the same as the steps of ``round.py``.
+"""Rounds of flow and net by the compiled core; the same as the steps of ``round.py``.
 
 One call for the mesh along a curve, the flow on it, and the net under its forces. What
 hangs on the mesh alone is found once for all scenes on it. Theory: core/THEORY.md.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import accumulate
 from typing import Any, NamedTuple
 
@@ -17,40 +17,49 @@ import numpy as np
 
 from netdesign.cable.funicular import CLOSED, Funicular
 from netdesign.core.arguments import (
+    EffortArgument,
     LawArgument,
     MeshArgument,
     SceneArgument,
     locate,
-    locate_all,
+    point_to,
     to_floats,
 )
-from netdesign.core.library import find_core, require_sound
+from netdesign.core.library import SINGULAR, find_core, require_sound
 from netdesign.coupling.interface import SupportForces
+from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, cut_net
-from netdesign.coupling.steady.round import RoundResult
+from netdesign.coupling.steady.round import OffMeshError, RoundResult, explain_flow
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
-from netdesign.snow.compiled import describe_law, describe_rules, describe_template
-from netdesign.snow.compiled_mesh import describe_placement
+from netdesign.outcome import Outcome, SolveError
+from netdesign.snow.compiled import (
+    describe_law,
+    describe_placement,
+    describe_rules,
+    describe_template,
+)
 from netdesign.snow.contact import Contact, FlowState, may_lift
 from netdesign.snow.element import list_dofs
-from netdesign.snow.flow import ask_effort, make_linear
+from netdesign.snow.flow import (
+    FIELD_WEIGHT,
+    LINEAR_PART,
+    PATIENCE,
+    SQUARE_FACTOR,
+    make_linear,
+)
 from netdesign.snow.kernel import share_end_load
 from netdesign.snow.law import FlowProblem, sample_material
+from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshTemplate, follow_net
-from netdesign.snow.placed_mesh import (
-    EDGE_SHAPE,
-    EDGE_TANGENT,
-    EDGE_WEIGHTS,
-    PlacedMesh,
-)
+from netdesign.snow.placed_mesh import EDGE_SHAPE, EDGE_WEIGHTS, PlacedMesh
 from netdesign.snow.shared_mesh import find_once
-
-# Fields of ``SceneArgument``: which of the net's nodes are beside a node; its parts.
-_FRAME = ("below", "rise", "heights", "ends")
-_NET = ("shares", "part", "firsts", "rises")
+from netdesign.words.message import say
 
 _Arrays = tuple[np.ndarray[Any, Any], ...]
+
+# What keeps a round from its end, as in round.h.
+OFF_MESH, GAVE_UP, NOT_FINITE, OPEN, UNPARTED = range(1, 6)
+_FLOWS = {GAVE_UP: Outcome.MAX_ITERATIONS, NOT_FINITE: Outcome.NONFINITE}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -63,8 +72,9 @@ class CompiledRounds:
         The core.
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
-    max_iterations : int
-        Newton steps allowed in a round.
+    still : float
+        A net that moves less in a round also hangs under the forces of the stresses
+        [thickness].
     argument : SceneArgument
         Scene and mesh as the core takes them.
     places : mapping of slice
@@ -75,7 +85,7 @@ class CompiledRounds:
 
     library: ctypes.PyDLL
     problem: SteadyProblem
-    max_iterations: int
+    still: float
     argument: SceneArgument
     places: Mapping[str, slice]
     kept: _Arrays
@@ -86,23 +96,62 @@ class CompiledRounds:
         state: FlowState | None,
         net: NetEquilibrium,
         tolerance: float,
-        still: float,
-    ) -> RoundResult | None:
-        """A round; None where a step of it fails.
+    ) -> RoundResult:
+        """A round, as ``take_round`` takes it.
 
         Parameters
         ----------
         curve : ndarray, shape (2, n_net)
-            Of the net in the snow [thickness].
+            Of the net [thickness].
         state : FlowState or None
             Where the flow starts; None if nothing is known of it.
         net : NetEquilibrium
             As it hung last.
         tolerance : float
             Relative error that the last step of the flow may leave [-].
-        still : float
-            A net that moves less also hangs under the forces of the stresses
-            [thickness].
+
+        Raises
+        ------
+        SolveError
+            If there is no mesh, no flow or no equilibrium of the net.
+        ValueError
+            If an array is not of its shape.
+        """
+        results = self._lay_out(net.cable.pull, net.parts)
+        code = self.play(curve, state, tolerance, results)
+        if code == OFF_MESH:
+            raise OffMeshError(curve)
+        if code in _FLOWS:
+            raise explain_flow(self.problem, _FLOWS[code])
+        _require_hung(code)
+        net = self._view_net(results)
+        return RoundResult(
+            curve=curve,
+            image=net.cable.curve[:, : self.n_net],
+            mesh=self._view_mesh(results),
+            state=self.view_state(results),
+            net=net,
+            linear_solves=self.argument.effort.steps,
+            change=self.argument.effort.change,
+            condense=partial(self._condense, results),
+            from_stresses=self._view_from_stresses(results),
+        )
+
+    def play(
+        self, curve: Floats, state: FlowState | None, tolerance: float, results: Floats
+    ) -> int:
+        """Round whose results go where a net's pull and parts stand; how it ended.
+
+        Parameters
+        ----------
+        curve : ndarray, shape (2, n_net)
+            Of the net [thickness].
+        state : FlowState or None
+            Where the flow starts; None if nothing is known of it.
+        tolerance : float
+            Relative error that the last step of the flow may leave [-].
+        results : ndarray, shape (n,)
+            Of ``_lay_out``.
 
         Raises
         ------
@@ -110,35 +159,67 @@ class CompiledRounds:
             If an array is not of its shape.
         """
         given = to_floats(curve, (2, self.n_net))  # a copy lives as long as the call
-        places = self.places
-        results = np.empty(places["marks"].stop)
         if state is not None:
-            _copy_state(state, self._view_state(results))
-        results[places["parts"]], results[places["pull"]] = net.parts, net.cable.pull
-        self.argument.effort = ask_effort(tolerance, self.max_iterations)
-        code = self.library.nd_round(
-            ctypes.byref(self.argument),
-            ctypes.c_void_p(locate(given)),
-            ctypes.c_double(still),
-            int(places["shear"].stop > places["shear"].start),
-            int(state is not None),
-            ctypes.c_int64(results.size),
-            ctypes.c_void_p(locate(results)),
+            _copy_state(state, self.view_state(results))
+        self.argument.effort.tolerance = tolerance
+        return require_sound(
+            self.library.nd_round(
+                ctypes.byref(self.argument),
+                ctypes.c_void_p(locate(given)),
+                ctypes.c_double(self.still),
+                int(state is not None),
+                *self._point(results),
+            )
         )
-        return None if require_sound(code) else self._read(curve, results)
 
-    def _read(self, curve: Floats, results: Floats) -> RoundResult:
-        net = self._view_net(results)
-        return RoundResult(
-            curve=curve,
-            image=net.cable.curve[:, : self.n_net],
-            mesh=self._view_mesh(results),
-            state=self._view_state(results),
-            net=net,
-            linear_solves=self.argument.effort.steps,
-            change=self.argument.effort.change,
-            from_stresses=self._view_from_stresses(results),
-        )
+    def hang(self, on_net: Floats, pull: Floats, parts: Floats) -> NetEquilibrium:
+        """The net under forces, as ``hang_net``.
+
+        Parameters
+        ----------
+        on_net : ndarray, shape (2, n_net)
+            Forces on the nodes in the snow, foot to head [rho g d^2].
+        pull : ndarray, shape (2,)
+            Guess of the tension near the foot [rho g d^2].
+        parts : ndarray, shape (n_parts,)
+            Guess of the lengths of its parts [thickness].
+
+        Raises
+        ------
+        SolveError
+            If nothing holds the net, or its contact with the snow's surface is not
+            found.
+        ValueError
+            If an array is not of its shape.
+        """
+        given, results = to_floats(on_net, (2, self.n_net)), self._lay_out(pull, parts)
+        forces = ctypes.c_void_p(locate(given))
+        where = self._point(results)
+        code = self.library.nd_hang(ctypes.byref(self.argument), forces, *where)
+        _require_hung(require_sound(code))
+        return self._view_net(results)
+
+    def _condense(self, results: Floats) -> Floats:
+        """Forces on the net per velocity of its nodes, as ``condense_to_net``."""
+        root = np.empty((2 * self.n_net, 2 * self.n_net))
+        place, where = ctypes.c_void_p(locate(root)), self._point(results)
+        code = self.library.nd_root(ctypes.byref(self.argument), *where, place)
+        if code == SINGULAR:
+            raise SingularError("singular")
+        require_sound(code)
+        return root
+
+    def _lay_out(self, pull: Floats, parts: Floats) -> Floats:
+        """Array for the results of a round, in which a net stands."""
+        results = np.empty(self.places["marks"].stop)
+        results[self.places["pull"]], results[self.places["parts"]] = pull, parts
+        return results
+
+    def _point(self, results: Floats) -> tuple[int, ctypes.c_int64, ctypes.c_void_p]:
+        """Results as the core's functions take them, and whether the ground slides."""
+        shear = self.places["shear"]
+        size, place = ctypes.c_int64(results.size), ctypes.c_void_p(locate(results))
+        return int(shear.stop > shear.start), size, place
 
     @property
     def n_net(self) -> int:
@@ -160,7 +241,14 @@ class CompiledRounds:
             axes=results[places["axes"]].reshape(2, -1),
         )
 
-    def _view_state(self, results: Floats) -> FlowState:
+    def view_state(self, results: Floats) -> FlowState:
+        """State of the flow in the results of a round.
+
+        Parameters
+        ----------
+        results : ndarray, shape (n,)
+            Of ``_lay_out``.
+        """
         places, template = self.places, self.problem.template
         shear = results[places["shear"]]
         marks = results[places["marks"]].view(np.bool_)
@@ -222,8 +310,15 @@ def _copy_state(start: FlowState, to: FlowState) -> None:
         getattr(to.contact, name)[:] = getattr(start.contact, name)
 
 
+def _require_hung(code: int) -> None:
+    if code == OPEN:
+        raise SolveError(Outcome.NO_EQUILIBRIUM)
+    if code == UNPARTED:
+        raise SolveError(Outcome.NO_EQUILIBRIUM, say("steady.contact_not_found"))
+
+
 def prepare_rounds(
-    problem: SteadyProblem, max_iterations: int
+    problem: SteadyProblem, settings: SolverSettings, still: float
 ) -> CompiledRounds | None:
     """The core for rounds of a scene on a mesh; None where NumPy has to do.
 
@@ -231,8 +326,11 @@ def prepare_rounds(
     ----------
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
-    max_iterations : int
+    settings : SolverSettings
         Newton steps allowed in a round.
+    still : float
+        A net that moves less in a round also hangs under the forces of the stresses
+        [thickness].
     """
     library, template, snow = find_core(), problem.template, problem.snow
     if library is None or snow.element != "velocity":
@@ -246,27 +344,32 @@ def prepare_rounds(
     law, first, density, kept = _describe_laws(snow, layered)
     argument.law, argument.first = law, first
     argument.is_uniform = int(density.size == 1)
-    arrays = (
-        np.ascontiguousarray(template.nodes, dtype=np.float64),
-        np.ascontiguousarray(follow_net(template), dtype=np.float64),
-        density,
-        np.array(problem.head, dtype=np.float64),
-    )
-    names = ("reference", "follow", "density", "head")
-    for name, place in zip(names, locate_all(*arrays), strict=True):
-        setattr(argument, name, place)
+    arrays = {
+        "reference": np.ascontiguousarray(template.nodes, dtype=np.float64),
+        "follow": np.ascontiguousarray(follow_net(template), dtype=np.float64),
+        "density": density,
+        "head": np.array(problem.head, dtype=np.float64),
+    }
+    point_to(argument, **arrays)
     lifts = may_lift(template)
     argument.rules = describe_rules(snow, locate(lifts))
     argument.gravity[:] = snow.gravity
     argument.end_load = snow.end_load
     argument.length, argument.stiffness = problem.length, problem.stiffness
+    argument.effort = EffortArgument(
+        linear_part=LINEAR_PART,
+        square_factor=SQUARE_FACTOR,
+        field_weight=FIELD_WEIGHT,
+        most_steps=settings.max_iterations,
+        patience=PATIENCE,
+    )
     return CompiledRounds(
         library=library,
         problem=problem,
-        max_iterations=max_iterations,
+        still=still,
         argument=argument,
         places=form.places,
-        kept=(*form.kept, *kept, *arrays, lifts),
+        kept=(*form.kept, *kept, *arrays.values(), lifts),
     )
 
 
@@ -302,52 +405,36 @@ def _describe_form(
     described = describe_template(template, library)
     if described is None:
         return None
-    frame, net = _describe_frame(template), _describe_net(template, top)
+    frame, net = _describe_frame(template), cut_net(template, top)
     end = share_end_load(template)
     mesh = MeshArgument(*described.counts, *described.numbers)
     mesh.edge_shape = locate(EDGE_SHAPE)
-    argument = SceneArgument(place=describe_placement(template, EDGE_TANGENT))
-    # numbers have caches of their own: the form keeps the arrays of one alone
-    argument.place.triangles, argument.place.net = mesh.triangles, mesh.net
-    argument.mesh, argument.plan = mesh, described.plan
+    placement = describe_placement(described, template.orientation)
+    argument = SceneArgument(place=placement, mesh=mesh, plan=described.plan)
     argument.n_vertices = template.n_vertices
-    for name, place in zip(_FRAME, locate_all(*frame), strict=True):
-        setattr(argument, name, place)
-    for name, place in zip(_NET, locate_all(*net), strict=True):
-        setattr(argument, name, place)
-    argument.end_share, argument.edge_weights = locate_all(end, EDGE_WEIGHTS)
-    argument.n_elements, argument.n_parts = net[0].size, net[-1].size
+    point_to(argument, **frame, **net._asdict())
+    point_to(argument, end_share=end, edge_weights=EDGE_WEIGHTS)
+    argument.n_elements, argument.n_parts = net.shares.size, net.rises.size
     argument.tolerance = CLOSED
     return _Form(
         argument=argument,
-        places=_lay_out(template, net[0].size, net[-1].size, slides=slides),
-        kept=(*described.kept, *frame, *net, end, template.orientation),
+        places=_lay_out(template, net.shares.size, net.rises.size, slides=slides),
+        kept=(*described.kept, *frame.values(), *net, end, template.orientation),
     )
 
 
-def _describe_net(template: MeshTemplate, top: float) -> _Arrays:
-    """The net's parts, as ``Scene`` of round.c has them."""
-    parts = cut_net(template, top)
-    return (
-        np.ascontiguousarray(parts.shares, dtype=np.float64),
-        np.ascontiguousarray(parts.part, dtype=np.int64),
-        np.ascontiguousarray(parts.firsts, dtype=np.int64),
-        np.ascontiguousarray(parts.rises, dtype=np.float64),
-    )
-
-
-def _describe_frame(template: MeshTemplate) -> _Arrays:
+def _describe_frame(template: MeshTemplate) -> dict[str, np.ndarray[Any, Any]]:
     """Places of nodes between those of the net, as ``Scene`` of round.c has them."""
     heights, of_net = template.nodes[1], template.net_fractions
     below = np.searchsorted(of_net, heights, side="right") - 1
     below = np.clip(below, 0, of_net.size - 1)
     rise = np.where(below < of_net.size - 1, heights - of_net[below], 0.0)
-    return (
-        np.ascontiguousarray(below, dtype=np.int32),
-        np.maximum(rise, 0.0),
-        np.ascontiguousarray(of_net, dtype=np.float64),
-        np.ascontiguousarray(template.edges, dtype=np.int32),
-    )
+    return {
+        "below": np.ascontiguousarray(below, dtype=np.int32),
+        "rise": np.maximum(rise, 0.0),
+        "heights": np.ascontiguousarray(of_net, dtype=np.float64),
+        "ends": np.ascontiguousarray(template.edges, dtype=np.int32),
+    }
 
 
 def _lay_out(

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from netdesign.cable.funicular import linearise_curve
-from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem
+from netdesign.coupling.steady.net import SteadyProblem
 from netdesign.coupling.steady.round import RoundResult
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.contact import FlowState, net_components
+from netdesign.snow.contact import net_components
 from netdesign.snow.flow_step import linearise_reaction
 from netdesign.snow.linear import SingularError
-from netdesign.snow.placed_mesh import PlacedMesh, turn_normals
+from netdesign.snow.placed_mesh import turn_normals
 
 _MOST_HALVINGS = 3
 _PLAIN_STEP = 0.5  # share of what is missed that is made good without a derivative
@@ -116,7 +116,7 @@ def _interpolate(known: Floats, wanted: Floats) -> Floats:
 
 def _find_tangent(problem: SteadyProblem, taken: RoundResult) -> Floats | None:
     with suppress(SingularError):
-        return linearise_round(problem, taken.mesh, taken.state, taken.net)
+        return linearise_round(problem, taken)
     return None
 
 
@@ -130,30 +130,28 @@ def _find_step(tangent: Floats | None, miss: Floats) -> Floats:
     return _PLAIN_STEP * miss
 
 
-def linearise_round(
-    problem: SteadyProblem, mesh: PlacedMesh, state: FlowState, net: NetEquilibrium
-) -> Floats:
+def linearise_round(problem: SteadyProblem, taken: RoundResult) -> Floats:
     """Derivative of a round, of which only the turning of the net is taken.
 
     Parameters
     ----------
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
-    mesh, state : PlacedMesh, FlowState
-        Snow against the curve that was given.
-    net : NetEquilibrium
-        Under the forces found.
+    taken : RoundResult
+        The round.
 
     Returns
     -------
     ndarray, shape (2, n_net, 2, n_net)
         Component and node of the curve found; of the curve given.
     """
+    mesh, state, net = taken.mesh, taken.state, taken.net
     count = mesh.template.net.size
     _, tangential = net_components(mesh)
     speed = state.unknowns[tangential]
     # velocity along the net turns into one out of the snow: v.n = 0 in a turned n
     across = -speed[:, None, None] * turn_normals(mesh)[1:]
-    loads = np.tensordot(linearise_reaction(problem.snow, mesh, state), across, 1)
+    response = linearise_reaction(problem.snow, mesh, state.contact, taken.condense())
+    loads = np.tensordot(response, across, 1)
     curve = linearise_curve(net.cable, net.forces, net.lengths, problem.stiffness)
     return np.tensordot(curve[:, :count, :, :count], loads, 2)

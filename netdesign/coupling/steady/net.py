@@ -7,7 +7,9 @@ thicknesses d, forces per metre of width in rho g d^2.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -104,13 +106,20 @@ def guess_pressure(problem: FlowProblem, aspect: float) -> float:
     return max(0.05, problem.gravity[0]) * min(aspect, length)
 
 
-def start_net(problem: SteadyProblem) -> NetEquilibrium:
+# The net under forces on its nodes in the snow, from guesses of the pull near its foot
+# and of the lengths of its parts.
+Hang = Callable[[Floats, Floats, Floats], NetEquilibrium]
+
+
+def start_net(problem: SteadyProblem, hang: Hang | None = None) -> NetEquilibrium:
     """The net under a uniform pressure of about the right size.
 
     Parameters
     ----------
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
+    hang : callable, optional
+        By default ``hang_net``.
 
     Raises
     ------
@@ -127,7 +136,8 @@ def start_net(problem: SteadyProblem) -> NetEquilibrium:
     per_height = problem.length / rises.sum()
     shares = pressure * per_height * _share_load(problem.template)
     on_net = outward[:, None] * shares
-    return _hang(problem, on_net, pull, rises * per_height)
+    hang = hang or partial(hang_net, problem)
+    return hang(on_net, pull, rises * per_height)
 
 
 def _share_load(template: MeshTemplate) -> Floats:
@@ -138,28 +148,6 @@ def _share_load(template: MeshTemplate) -> Floats:
     shares[:-1:2] += lengths / 6.0
     shares[2::2] += lengths / 6.0
     return shares
-
-
-def hang_net(
-    problem: SteadyProblem, net: NetEquilibrium, on_net: Floats
-) -> NetEquilibrium:
-    """The net under other forces.
-
-    Parameters
-    ----------
-    problem : SteadyProblem
-        Scene on a mesh, dimensionless.
-    net : NetEquilibrium
-        As it hung last.
-    on_net : ndarray, shape (2, n_net)
-        Forces on the nodes in the snow, foot to head [rho g d^2].
-
-    Raises
-    ------
-    SolveError
-        If nothing holds the net, or its contact with the snow's surface is not found.
-    """
-    return _hang(problem, on_net, net.cable.pull, net.parts)
 
 
 def find_contact_curve(problem: SteadyProblem, net: NetEquilibrium) -> Floats:
@@ -235,10 +223,28 @@ def _cut(problem: SteadyProblem) -> CableParts:
     return cut_net(problem.template, float(problem.head[1]))
 
 
-def _hang(
-    problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
+def hang_net(
+    problem: SteadyProblem, on_net: Floats, pull: Floats, parts: Floats
 ) -> NetEquilibrium:
-    """Net under nodal forces; its parts end where the layers and the snow end."""
+    """The net under nodal forces; its parts end where the layers and the snow end.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    on_net : ndarray, shape (2, n_net)
+        Forces on the nodes in the snow, foot to head [rho g d^2].
+    pull : ndarray, shape (2,)
+        Guess of the tension near the foot [rho g d^2].
+    parts : ndarray, shape (n_parts,)
+        Guess of the lengths of its parts [thickness].
+
+    Raises
+    ------
+    SolveError
+        If nothing holds the net, or its contact with the snow's surface is not found.
+    """
+    forces = on_net
     if problem.has_freeboard:
         forces = np.concatenate([forces, np.zeros((2, 2))], axis=1)
     if parts.size > 1:

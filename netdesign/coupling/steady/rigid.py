@@ -22,6 +22,7 @@ from netdesign.coupling.solution import (
     EndPull,
     FailedSolution,
     WallSolution,
+    end_solve,
     list_skipped,
     triangle_density,
 )
@@ -78,27 +79,27 @@ def solve_rigid(
     -----------
     tests/verification/test_rigid_wall.py
     """
-    chosen = settings or SolverSettings()
-    try:
-        states, (force,) = refine(
-            chosen.levels,
-            lambda size, _: _press(scene, size, chosen),
-            lambda pressed: [pressed.forces.on_net.sum(axis=1)],
-            chosen.accuracy,
-            STEADY_ERROR,
-            lambda pressed: measure_looseness(pressed.state.contact),
-        )
-        end = states[-1]
-        balance = measure_balance(
-            end.problem, end.mesh, end.forces, force.vector, None, scene.force_scale
-        )
-        check_balance(
-            balance,
-            chosen.balance_tolerance,
-            friction_tolerance=chosen.stress_tolerance,
-        )
-    except SolveError as failure:
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    return end_solve(lambda: _solve(scene, settings or SolverSettings()))
+
+
+def _solve(scene: Scene, settings: SolverSettings) -> WallSolution:
+    states, (force,) = refine(
+        settings.levels,
+        lambda size, _: _press(scene, size, settings),
+        lambda pressed: [pressed.forces.on_net.sum(axis=1)],
+        settings.accuracy,
+        STEADY_ERROR,
+        lambda pressed: measure_looseness(pressed.state.contact),
+    )
+    end = states[-1]
+    balance = measure_balance(
+        end.problem, end.mesh, end.forces, force.vector, None, scene.force_scale
+    )
+    check_balance(
+        balance,
+        settings.balance_tolerance,
+        friction_tolerance=settings.stress_tolerance,
+    )
     return _build_solution(scene, states, force, balance)
 
 
@@ -111,11 +112,7 @@ def _build_solution(
     moment = (nodes[1] * end.forces.on_net[0] - nodes[0] * end.forces.on_net[1]).sum()
     return WallSolution(
         scene=scene,
-        force=EndPull(
-            x=float(force.vector[0]) * scale,
-            y=float(force.vector[1]) * scale,
-            error=force.error * scale,
-        ),
+        force=EndPull.of_estimate(force, scale),
         moment_about_foot=float(moment) * scale * thickness,
         wall_nodes=nodes * thickness,
         wall_forces=end.forces.on_net * scale,

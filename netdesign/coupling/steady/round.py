@@ -1,7 +1,6 @@
 """A round: snow that flows along a given curve, and the net that hangs under it.
 
-The compiled core takes it in one call (``compiled.py``); it is taken step by step where
-there is no core, or where that failed.
+The compiled core takes it in one call (``compiled.py``); here it is taken step by step.
 Theory: coupling/THEORY.md, section 2. Dimensionless: lengths in snow thicknesses d,
 forces per metre of width in rho g d^2.
 """
@@ -9,7 +8,9 @@ forces per metre of width in rho g d^2.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -24,7 +25,8 @@ from netdesign.coupling.steady.net import (
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.contact import FlowState
-from netdesign.snow.flow import FlowResult, solve_flow
+from netdesign.snow.flow import solve_flow
+from netdesign.snow.flow_step import condense_to_net
 from netdesign.snow.mesh import place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.words.message import Message, say
@@ -57,6 +59,8 @@ class RoundResult:
     from_stresses : tuple or None
         Forces from the stresses of the snow alone, and the net under them; where the
         core found them for a net that hardly moved.
+    condense : callable
+        Gives the forces on the net per velocity of its nodes, as ``condense_to_net``.
     """
 
     curve: Floats
@@ -66,6 +70,7 @@ class RoundResult:
     net: NetEquilibrium
     linear_solves: int
     change: float
+    condense: Callable[[], Floats]
     from_stresses: tuple[SupportForces, NetEquilibrium] | None = None
 
     @property
@@ -74,31 +79,44 @@ class RoundResult:
         return float(np.abs(self.image - self.curve).max())
 
 
-def take_round(
-    problem: SteadyProblem,
-    settings: SolverSettings,
-    wanted: Floats,
+# A round, as ``take_round``: curve, state, net, tolerance.
+Take = Callable[[Floats, FlowState | None, NetEquilibrium, float], RoundResult]
+
+
+class OffMeshError(SolveError):
+    """The snow has no mesh along a curve."""
+
+    def __init__(self, curve: Floats) -> None:
+        above = float(np.degrees(np.arctan2(curve[1, 1], curve[0, 1])))
+        touches = curve[1, 1:].min() <= 0.0
+        super().__init__(
+            Outcome.OUT_OF_VALIDITY,
+            say("net.would_touch_ground")
+            if touches
+            else say("net.bulges", angle=above),
+        )
+
+
+def take_near(
+    take: Take,
     last: Floats | None,
+    wanted: Floats,
     state: FlowState | None,
     net: NetEquilibrium,
     tolerance: float,
 ) -> RoundResult:
-    """Flow along the wanted curve or near it, and the net under its forces.
+    """Round along the wanted curve, or as near to it from the last one as it can be.
 
     Parameters
     ----------
-    problem : SteadyProblem
-        Scene on a mesh, dimensionless.
-    settings : SolverSettings
-        Newton steps allowed, and who takes them.
-    wanted : ndarray, shape (2, n_net)
-        Curve of the net [thickness].
+    take : callable
+        Takes the round.
     last : ndarray, shape (2, n_net), or None
         Curve of the last round on this mesh [thickness].
-    state : FlowState or None
-        Where the flow starts.
-    net : NetEquilibrium
-        As it hung last.
+    wanted : ndarray, shape (2, n_net)
+        Curve of this one [thickness].
+    state, net : FlowState or None, NetEquilibrium
+        As in ``take_round``.
     tolerance : float
         Relative error that the last step of the flow may leave [-].
 
@@ -107,10 +125,59 @@ def take_round(
     SolveError
         If no curve near enough has a mesh, a flow and a net in equilibrium.
     """
-    curve, mesh = _place_between(problem, last, wanted)
-    flow = flow_along(problem, mesh, state, settings, tolerance)
-    on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
-    found = hang_net(problem, net, on_net)
+    for _ in range(_HALVINGS):
+        try:
+            return take(wanted, state, net, tolerance)
+        except OffMeshError:
+            if last is None:
+                raise
+            wanted = (wanted + last) / 2
+    return take(wanted, state, net, tolerance)
+
+
+def take_round(
+    problem: SteadyProblem,
+    settings: SolverSettings,
+    curve: Floats,
+    state: FlowState | None,
+    net: NetEquilibrium,
+    tolerance: float,
+) -> RoundResult:
+    """Flow along a curve, and the net under its forces.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    settings : SolverSettings
+        Newton steps allowed, and who takes them.
+    curve : ndarray, shape (2, n_net)
+        Of the net [thickness].
+    state : FlowState or None
+        Where the flow starts; None if nothing is known of it.
+    net : NetEquilibrium
+        As it hung last.
+    tolerance : float
+        Relative error that the last step of the flow may leave [-].
+
+    Raises
+    ------
+    SolveError
+        If there is no mesh, no flow or no equilibrium of the net.
+    """
+    snow, mesh = problem.snow, place_along(problem, curve)
+    flow = solve_flow(
+        snow,
+        mesh,
+        state,
+        tolerance=tolerance,
+        max_iterations=settings.max_iterations,
+        step=settings.step,
+    )
+    if flow.outcome is not Outcome.CONVERGED:
+        raise explain_flow(problem, flow.outcome)
+    on_net = share_net_forces(snow, mesh, flow.state.reaction)
+    found = hang_net(problem, on_net, net.cable.pull, net.parts)
     return RoundResult(
         curve=curve,
         image=find_contact_curve(problem, found),
@@ -119,21 +186,8 @@ def take_round(
         net=found,
         linear_solves=flow.linear_solves,
         change=flow.change,
+        condense=partial(condense_to_net, snow, mesh, flow.state),
     )
-
-
-def _place_between(
-    problem: SteadyProblem, last: Floats | None, wanted: Floats
-) -> tuple[Floats, PlacedMesh]:
-    """Mesh on the wanted curve, or as near to it from the last one as it can be."""
-    for _ in range(_HALVINGS):
-        try:
-            return wanted, place_along(problem, wanted)
-        except SolveError:
-            if last is None:
-                raise
-            wanted = (wanted + last) / 2
-    return wanted, place_along(problem, wanted)
 
 
 def place_along(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
@@ -148,65 +202,30 @@ def place_along(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
 
     Raises
     ------
-    SolveError
+    OffMeshError
         If the curve touches the ground, or bulges so that the mesh folds over.
     """
     if curve[1, 1:].min() <= 0.0:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            say("net.would_touch_ground"),
-        )
+        raise OffMeshError(curve)
     nodes = place_nodes(problem.template, curve)
     mesh = build_placed_mesh(problem.template, nodes, problem.snow.element)
     if not mesh.is_valid:
-        above = np.degrees(np.arctan2(curve[1, 1], curve[0, 1]))
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            say("net.bulges", angle=float(above)),
-        )
+        raise OffMeshError(curve)
     return mesh
 
 
-def flow_along(
-    problem: SteadyProblem,
-    mesh: PlacedMesh,
-    start: FlowState | None,
-    settings: SolverSettings,
-    tolerance: float,
-) -> FlowResult:
-    """Converged flow along a net at rest.
+def explain_flow(problem: SteadyProblem, outcome: Outcome) -> SolveError:
+    """Failure of a flow that ended so.
 
     Parameters
     ----------
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
-    mesh : PlacedMesh
-        Along the net.
-    start : FlowState or None
-        Where it starts.
-    settings : SolverSettings
-        Newton steps allowed, and who takes them.
-    tolerance : float
-        Relative error that the last step may leave [-].
-
-    Raises
-    ------
-    SolveError
-        If it does not converge.
+    outcome : Outcome
+        Not converged.
     """
-    flow = solve_flow(
-        problem.snow,
-        mesh,
-        start,
-        tolerance=tolerance,
-        max_iterations=settings.max_iterations,
-        step=settings.step,
-    )
-    if flow.outcome is not Outcome.CONVERGED:
-        raise explain_failure(
-            problem, flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
-        )
-    return flow
+    what = say("snow.flow_failed", outcome=outcome.message)
+    return explain_failure(problem, outcome, what)
 
 
 def explain_failure(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -23,13 +23,20 @@ from netdesign.coupling.steady.correction import (
     correct_round,
 )
 from netdesign.coupling.steady.net import (
+    Hang,
     NetEquilibrium,
     SteadyProblem,
     find_contact_curve,
     locate_nodes,
     start_net,
 )
-from netdesign.coupling.steady.round import RoundResult, explain_failure, take_round
+from netdesign.coupling.steady.round import (
+    RoundResult,
+    Take,
+    explain_failure,
+    take_near,
+    take_round,
+)
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
@@ -117,25 +124,24 @@ def couple(
     SolveError
         If the rounds do not end, or one of them has no solution.
     """
-    state, net = _begin(problem, guess)
-    curve = _start_curve(problem, net, guess)
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
+    core = None if settings.step else prepare_rounds(problem, settings, still)
+    take: Take = core.take if core else partial(take_round, problem, settings)
+    state, net = _begin(problem, guess, core.hang if core else None)
+    curve = _start_curve(problem, net, guess)
     allowed = settings.patience * _allow_solves(problem)
     taken: list[RoundResult] = []
     correction: Correction | None = None
     corrects = guess is not None and guess.tangent is not None
     carried = _carry(problem, guess)
-    core = None if settings.step else prepare_rounds(problem, settings.max_iterations)
     solves = tried = 0
     while tried < settings.max_rounds and solves <= allowed:
         tried += 1
         moved = _measure_movement(taken, guess)
         inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
         try:
-            now = core.take(curve, state, net, inner, still) if core else None
-            if now is None:  # by steps: nearer to the last curve where that helps
-                last = taken[-1].curve if taken else None
-                now = take_round(problem, settings, curve, last, state, net, inner)
+            last = taken[-1].curve if taken else None
+            now = take_near(take, last, curve, state, net, inner)
         except SolveError:
             if correction is None or not correction.may_halve:
                 raise
@@ -228,11 +234,11 @@ def _carry(problem: SteadyProblem, guess: CoupledState | None) -> Floats | None:
 
 
 def _begin(
-    problem: SteadyProblem, guess: CoupledState | None
+    problem: SteadyProblem, guess: CoupledState | None, hang: Hang | None
 ) -> tuple[FlowState | None, NetEquilibrium]:
     """Snow, as far as it is known, and net before the first round."""
     if guess is None:
-        return None, start_net(problem)
+        return None, start_net(problem, hang)
     old, new = guess.problem.template, problem.template
     return transfer_state(guess.last.state, old, new), guess.last.net
 

@@ -9,14 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from typing import Literal
 
 import numpy as np
 
-from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
+from netdesign.cable.net import Net
 from netdesign.coupling.balance import (
     LARGEST_SUCTION,
     SuctionError,
@@ -36,7 +33,9 @@ from netdesign.coupling.solution import (
     Cost,
     EndPull,
     FailedSolution,
+    OnFailure,
     Solution,
+    end_solve,
     list_skipped,
     triangle_density,
 )
@@ -58,7 +57,7 @@ def solve_steady(
     scene: Scene,
     settings: SolverSettings | None = None,
     *,
-    on_failure: Literal["return", "raise"] = "return",
+    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """Steady state of a scene, refined until its end forces are accurate.
 
@@ -86,12 +85,7 @@ def solve_steady(
     -----------
     tests/coupling/steady/test_solve.py, tests/verification/test_reference_scene.py
     """
-    try:
-        return _solve(scene, settings or SolverSettings())
-    except SolveError as failure:
-        if on_failure == "raise":
-            raise
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    return end_solve(lambda: _solve(scene, settings or SolverSettings()), on_failure)
 
 
 def find_net_equilibrium(
@@ -149,16 +143,7 @@ def _widen(freed: Solution, held: Solution | None) -> Solution:
 
 
 def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
-    if start := _find_start(scene, settings):
-        with suppress(SolveError):  # then it is solved as any other
-            return _refine(scene, settings, start)
-    return _refine(scene, settings, None)
-
-
-def _refine(
-    scene: Scene, settings: SolverSettings, start: CoupledState | None
-) -> Solution:
-    states, estimates = _solve_levels(scene, settings, start)
+    states, estimates = _solve_levels(scene, settings)
     solution = _build_solution(scene, states, [one.error for one in estimates])
     try:
         check_balance(
@@ -173,7 +158,7 @@ def _refine(
 
 
 def _solve_levels(
-    scene: Scene, settings: SolverSettings, start: CoupledState | None
+    scene: Scene, settings: SolverSettings
 ) -> tuple[list[CoupledState], list[Estimate]]:
     """Meshes until two agree; those before the one that fails, if they are two."""
     first = _build_problem(scene, _require_net(scene), settings.levels[0])
@@ -182,9 +167,7 @@ def _solve_levels(
     def solve(size: MeshSize, coarse: CoupledState | None) -> CoupledState:
         if size not in solved:
             problem = replace(first, template=_build_template(scene, size))
-            solved[size] = couple(
-                problem, settings, coarse or start, is_first=coarse is None
-            )
+            solved[size] = couple(problem, settings, coarse, is_first=coarse is None)
             _require_pressure(solved[size])
         return solved[size]
 
@@ -222,28 +205,6 @@ def _require_pressure(end: CoupledState) -> None:
         raise SuctionError(suction)
 
 
-def _find_start(scene: Scene, settings: SolverSettings) -> CoupledState | None:
-    """State that the first mesh starts from; None if there is none."""
-    if not settings.shares_start:
-        return None
-    net = replace(_require_net(scene), friction_angle=LARGEST_FRICTION_ANGLE)
-    return _find_stuck(replace(scene, net=net), settings)
-
-
-@lru_cache(maxsize=1)
-def _find_stuck(scene: Scene, settings: SolverSettings) -> CoupledState | None:
-    """First mesh of a scene whose snow sticks to its net; None without a solution.
-
-    Scenes in turn that differ in friction only have it in common. Each ends the same
-    whether this was known or not.
-    """
-    problem = _build_problem(scene, _require_net(scene), settings.levels[0])
-    try:
-        return couple(problem, settings, None, is_first=True)
-    except SolveError:
-        return None
-
-
 def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
     thickness = scene.snowpack.thickness
     return SteadyProblem(
@@ -270,7 +231,8 @@ def _finish(
         if is_balanced(problem.snow, last.mesh, forces):
             return last.state, net, forces
     state, forces = find_support_forces(problem.snow, last.mesh, last.state)
-    return state, hang_net(problem, last.net, forces.on_net), forces
+    net = last.net
+    return state, hang_net(problem, forces.on_net, net.cable.pull, net.parts), forces
 
 
 def _build_solution(

@@ -8,7 +8,6 @@ from functools import partial
 
 import numpy as np
 
-from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.run import scale_history
 from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.history.staggered import run_exchange
@@ -184,9 +183,7 @@ def _run_one_mesh(case: PaperCase, settings: PaperSettings) -> PaperRun:
     else:
         plain = TransientSettings(start=case.start, horizon=horizon)
         run = run_history(scene, size, plain, creep_time)
-    history = scale_history(
-        run, scene, Clock(), start=case.start, densifies=case.densifies
-    )
+    history = scale_history(run, scene)
     body = run.state.body
     heights = body.vertices[1, body.topology.net][1:] * scene.snowpack.thickness
     track = _track_of(history, heights)

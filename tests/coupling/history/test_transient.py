@@ -7,13 +7,11 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.history import transient
-from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.moments import select_counted
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.outcome import ModelError, Outcome, SolveError
-from netdesign.snow.creep_law import compute_fluidity
 
 COARSE = TRANSIENT_LEVELS[0]
 SHORT = 0.02  # creep time in which a sagged net comes to rest
@@ -166,10 +164,8 @@ def test_fluidity_only_rescales_time(a_scene):
 
 def solve(scene, **options) -> Solution:
     options = {"horizon": 86400.0, "accuracy": 0.1, **options}
-    clock = options.pop("clock", None)
-    solution = solve_transient(
-        scene, TransientSettings(**options), clock=clock, on_failure="raise"
-    )
+    settings = TransientSettings(**options)
+    solution = solve_transient(scene, settings, on_failure="raise")
     assert isinstance(solution, Solution)
     return solution
 
@@ -187,23 +183,6 @@ def test_solution_keeps_the_largest_pull_and_the_plateau(a_scene):
     assert solution.tension_max == pytest.approx(largest, rel=1e-12)
     assert solution.history.plateau.reached
     assert solution.balance.relative_residual < 1e-8
-
-
-def test_temperature_runs_the_clock(a_scene):
-    """Snow 5 K colder than the scene's reading needs longer for the same creep."""
-    warm = compute_fluidity(268.15)
-    scene = replace(a_scene(), fluidity=warm)
-    times = np.array([0.0, 86400.0])
-    cold = Clock.of_temperatures(times, np.array([263.15, 263.15]), warm)
-    ratio = compute_fluidity(263.15) / warm
-    plain = solve(scene, horizon=ratio * 86400.0)
-    cooled = solve(scene, horizon=86400.0, clock=cold)
-    np.testing.assert_allclose(
-        sizes(cooled.history.moments, "foot"),
-        sizes(plain.history.moments, "foot"),
-        rtol=1e-9,
-    )
-    assert cooled.history.moments[-1].time == pytest.approx(86400.0, rel=1e-9)
 
 
 def test_too_few_steps_are_said(a_scene):

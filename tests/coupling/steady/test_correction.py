@@ -22,6 +22,7 @@ def a_round(curve, image):
         net=None,
         linear_solves=1,
         change=0.0,
+        condense=None,
     )
 
 

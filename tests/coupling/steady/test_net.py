@@ -54,7 +54,8 @@ def test_layers_end_at_their_heights_on_the_net(build_problem, height, seed):
     problem = build_problem(height, tops)
     first = start_net(problem)
     forces = first.forces[:, : problem.template.net.size]
-    net = hang_net(problem, first, forces * rng.uniform(0.2, 1.8, forces.shape))
+    spread = forces * rng.uniform(0.2, 1.8, forces.shape)
+    net = hang_net(problem, spread, first.cable.pull, first.parts)
     curve = find_contact_curve(problem, net)
     fractions = problem.template.net_fractions
     for top in (*tops, 1.0):
@@ -73,7 +74,7 @@ def test_the_net_holds_the_forces_in_its_ends_alone(build_problem, height):
     problem = build_problem(height)
     first = start_net(problem)
     on_net = 2.0 * first.forces[:, : problem.template.net.size]
-    cable = hang_net(problem, first, on_net).cable
+    cable = hang_net(problem, on_net, first.cable.pull, first.parts).cable
     held = cable.foot_pull + cable.head_pull
     assert held == pytest.approx(on_net.sum(axis=1), rel=1e-9)
 
@@ -83,5 +84,10 @@ def test_a_net_that_nothing_spans_is_refused(build_problem):
     problem = build_problem(1.0)
     first = start_net(problem)
     with pytest.raises(SolveError) as caught:
-        hang_net(replace(problem, stiffness=1e9), first, np.zeros_like(first.forces))
+        hang_net(
+            replace(problem, stiffness=1e9),
+            np.zeros_like(first.forces),
+            first.cable.pull,
+            first.parts,
+        )
     assert caught.value.outcome is Outcome.NO_EQUILIBRIUM

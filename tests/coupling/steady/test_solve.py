@@ -10,7 +10,6 @@ from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import net, round, rounds
-from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow import flow
@@ -78,6 +77,7 @@ def test_net_without_equilibrium(a_scene, monkeypatch):
         cable = solve_funicular(*arguments)
         return replace(cable, outcome=Outcome.NO_EQUILIBRIUM)
 
+    monkeypatch.setenv("NETDESIGN_CORE", "numpy")  # the core has its own net
     solve_funicular = net.solve_funicular
     monkeypatch.setattr(net, "solve_funicular", without_equilibrium)
     result = solve_steady(a_scene(), COARSE)
@@ -323,66 +323,6 @@ def test_snow_beyond_the_nets_reach_becomes_its_load(a_scene, inclination, monke
             pull(getattr(whole, end)),
             atol=1e-3 * getattr(whole, end).size,
         )
-
-
-SHARING = SolverSettings(accuracy=0.005, shares_start=True)
-
-
-@pytest.mark.parametrize(("ground", "spared"), [("no-slip", 4), ("free", 1)])
-@pytest.mark.parametrize("friction_deg", [20.0, 35.0])
-def test_shared_start_spares_steps_and_leaves_the_answer(
-    a_scene, ground, spared, friction_deg
-):
-    scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg, ground=ground)
-    own = solve_steady(scene, replace(SHARING, shares_start=False))
-    shared = solve_steady(scene, SHARING)
-    assert shared.cost.linear_solves <= own.cost.linear_solves - spared
-    for end in ENDS:
-        one, other = getattr(own, end), getattr(shared, end)
-        np.testing.assert_allclose(pull(other), pull(one), atol=0.01 * one.error)
-
-
-def test_shared_start_does_not_depend_on_what_was_solved_before(a_scene):
-    first, second = (
-        a_scene(inclination_deg=30.0, friction_deg=phi) for phi in (20.0, 35.0)
-    )
-    steady._find_stuck.cache_clear()
-    fresh = solve_steady(second, SHARING)
-    steady._find_stuck.cache_clear()
-    solve_steady(first, SHARING)
-    after = solve_steady(second, SHARING)
-    assert steady._find_stuck.cache_info()[:2] == (1, 1)  # known, solved
-    assert (after.foot, after.head) == (fresh.foot, fresh.head)
-
-
-def refuse_start(*_):
-    return None
-
-
-def fail_from_a_start(refine):
-    def fail(scene, settings, start):
-        if start is not None:
-            raise SolveError(Outcome.DIVERGED)
-        return refine(scene, settings, start)
-
-    return fail
-
-
-@pytest.mark.parametrize(
-    ("name", "spoil"),
-    [("_find_stuck", lambda _: refuse_start), ("_refine", fail_from_a_start)],
-)
-def test_without_a_shared_start_a_scene_begins_on_its_own(
-    a_scene, monkeypatch, name, spoil
-):
-    monkeypatch.setattr(steady, name, spoil(getattr(steady, name)))
-    scene = a_scene(inclination_deg=30.0)
-    own, shared = (
-        solve_steady(scene, replace(SHARING, shares_start=shares))
-        for shares in (False, True)
-    )
-    assert shared.cost == own.cost
-    assert (shared.foot, shared.head) == (own.foot, own.head)
 
 
 @pytest.mark.parametrize(
