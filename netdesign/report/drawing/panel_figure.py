@@ -27,8 +27,8 @@ SPAN, LEFT = 84.0, 46.0  # of a panel on paper, room at its left [pt]
 LONGEST = 34.0  # arrow [pt]
 _PLACE = 172.0  # from one picture to the next
 _TOP = 3 * LINE_PT  # below titles of two lines
-_AROUND = LONGEST + 4.0  # room for arrows above and below a view
-_CHART = 84.0
+_AROUND = 4.0  # an arrow above and below a view
+_CHART = 62.0
 _ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
 _TITLES = ("panel_view.elevation", "panel_view.plan", "panel_view.tensions")
 
@@ -126,16 +126,23 @@ def _place_view(drawn: PanelDrawing, part: int, place: int) -> tuple[_View, floa
     low, high = min(values), max(values)
     sign, origin = (-1.0, high) if part == 1 else (1.0, low)
     scale = SPAN / (2.0 * drawn.places_m[-1])
+    reach = max(abs(one[part]) for one in (drawn.foot_kN, drawn.head_kN))
+    around = _AROUND + max(LINE_PT, min(reach * _scale_forces(drawn), LONGEST))
     view = _View(
         left=place * _PLACE + LEFT,
-        top=_TOP + _AROUND,
+        top=_TOP + around,
         part=part,
         origin=origin,
         sign=sign,
         scale=scale,
     )
     names = 2.5 * LINE_PT if part == 1 else 0.0
-    return view, view.top + (high - low) * scale + _AROUND + names
+    return view, view.top + (high - low) * scale + around + names
+
+
+def _scale_forces(drawn: PanelDrawing) -> float:
+    """Length of an arrow for 1 kN [pt]."""
+    return LONGEST / max(drawn.lower_along_kN, drawn.upper_along_kN, 1e-9)
 
 
 def _mirror(
@@ -169,7 +176,7 @@ def _draw_forces(
 ) -> None:
     """Half a bay and the ropes' pull on the last support, a bay on the inner one."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
-    per_kn = LONGEST / max(drawn.lower_along_kN, drawn.upper_along_kN, 1e-9)
+    per_kn = _scale_forces(drawn)
     head = drawn.post_head_m[part]
     labels = []
     for place, share, along in ((0.0, 0.5, 1.0), (spacing, 1.0, 0.0)):

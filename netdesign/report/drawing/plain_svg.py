@@ -258,7 +258,9 @@ def list_loose_ticks(frame: Frame) -> list[float]:
 
 
 def shade(value: float, low: float, high: float) -> str:
-    """Grey for a value, white at the low end; prints without colour."""
+    """Grey for a value, white at the low end and for none; prints without colour."""
+    if math.isnan(value):
+        return "#fff"
     share = (value - low) / (high - low) if high > low else 0.0
     return _GREYS[round((SHADES - 1) * min(1.0, max(0.0, share)))]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from netdesign.report.drawing.chain_figure import draw_chains
-from netdesign.report.drawing.envelope_figure import draw_envelope
 from netdesign.report.drawing.envelope_maps import draw_lines, draw_maps, split_members
+from netdesign.report.drawing.grid_record import record_grid
 from netdesign.report.drawing.monitoring_figure import (
     describe_monitoring,
     draw_monitoring,
@@ -36,9 +36,7 @@ def draw_row(row: RowStudy, anchor: str, words: Words) -> RowDrawings:
     return RowDrawings(
         section=draw_section(row.drawing, anchor, words) if row.drawing else "",
         chains=draw_chains(row, words),
-        envelope=_draw_member(row, words)
-        if row.envelope
-        else draw_envelope(row, words),
+        envelope=_draw_member(row, words),
         panel=draw_panel(row.panel, words) if row.panel else "",
         monitoring=monitoring,
         monitoring_note=describe_monitoring(row.monitoring, words)
@@ -48,8 +46,8 @@ def draw_row(row: RowStudy, anchor: str, words: Words) -> RowDrawings:
 
 
 def _draw_member(row: RowStudy, words: Words) -> str:
-    """Searched envelope of the member that governs; of another where that has none."""
-    members = split_members(row.envelope) if row.envelope else []
+    """Envelope of the member that governs; of another where that has no force."""
+    members = split_members(row.envelope or record_grid(row))
     if not members:
         return ""
     first = find_shown_member(row)

@@ -11,7 +11,7 @@ from netdesign.report.words import Words
 from netdesign.study.support_records import Drawing
 
 CHART_WIDTH = 150.0  # of all that stands right of the section [pt]
-_LEFT, _HEIGHT = WIDTH - 112.0, 84.0
+_LEFT, _HEIGHT = WIDTH - 112.0, 62.0
 _TITLES = 2.6 * TEXT_PT  # two lines above the chart
 CHART_BOTTOM = LEGEND_BOTTOM + _TITLES + _HEIGHT + 4.0 * TEXT_PT
 

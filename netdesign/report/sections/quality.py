@@ -22,6 +22,7 @@ from netdesign.report.blocks.table import (
     text_column,
 )
 from netdesign.report.governing import find_shown, find_shown_member, list_failed
+from netdesign.report.sections.basis import name_rows
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -29,10 +30,12 @@ from netdesign.report.words import (
     name_heading,
     show_check,
     show_member,
+    show_text,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import BoundRecord, CasePoint, CaseRecord
 from netdesign.study.records import CheckRecord, ModelFormRecord, RowStudy, Study
+from netdesign.words.message import Message
 from netdesign.words.names import name
 
 _QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
@@ -422,14 +425,20 @@ def _describe_model_form(record: ModelFormRecord | None, words: Words) -> str:
 
 
 def _list_differences(study: Study, words: Words) -> Iterator[Block]:
-    """Reasons why guideline and coupled calculation differ, row by row."""
-    told = tuple(
-        words("show.label", label=row.id, text=words.show(row.guideline.sentence))
-        for row in study.rows
-        if row.guideline
-    )
-    if told:
-        yield Items(items=told, look="small")
+    """Causes why guideline and coupled calculation differ, each with its net rows."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        told = row.guideline.sentence if row.guideline else None
+        causes = told.arguments.get("causes", (told,)) if told else ()
+        for cause in causes if isinstance(causes, tuple) else ():
+            if isinstance(cause, Message):
+                rows.setdefault(words.show(cause), []).append(row.id)
+    if rows:
+        items = tuple(
+            words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
+            for one, ids in rows.items()
+        )
+        yield Items(items=items, look="small")
 
 
 def _stack(

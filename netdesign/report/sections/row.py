@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
@@ -23,9 +23,9 @@ from netdesign.report.blocks.table import (
     rich_cell,
     text_cell,
 )
-from netdesign.report.blocks.text import Badge, Piece, keep_units, small
+from netdesign.report.blocks.text import Badge, Piece, keep_units, small, symbols
 from netdesign.report.drawing.row_drawings import RowDrawings, draw_row
-from netdesign.report.governing import find_shown
+from netdesign.report.governing import find_shown, is_far_from_limit
 from netdesign.report.sections.anchor_tests import show_tests
 from netdesign.report.sections.changes import show_changes
 from netdesign.report.sections.checks import (
@@ -33,6 +33,7 @@ from netdesign.report.sections.checks import (
     describe_loads,
     list_lines,
     name_few,
+    part_lines,
     show_used,
 )
 from netdesign.report.sections.inputs import show_value
@@ -42,6 +43,7 @@ from netdesign.report.words import (
     Words,
     append_unit,
     show_check,
+    show_member,
     show_text,
     show_verdict,
 )
@@ -135,7 +137,10 @@ class RowSections:
             reasons = tuple(t.show(one) for one in row.reasons)
             yield Items(items=reasons, look="reasons")
         if lines:
-            yield self._tabulate_checks(lines)
+            alone, beside = part_lines(lines)
+            yield self._tabulate_checks(alone)
+            if beside:
+                yield Paragraph(text=symbols(self._list_beside(beside)), look="small")
             yield Figure(svg=drawn.chains)
             yield from show_tests(row, t)
         further = [one for one in row.checks if not one.is_of_force]
@@ -170,6 +175,20 @@ class RowSections:
             symbols="headings",
         )
 
+    def _list_beside(self, lines: Mapping[str, Sequence[CheckLine]]) -> str:
+        """Modes that share the design force of a more used one, by member."""
+        t = self.words
+        members = (
+            t.join(
+                t("show.label", label=show_member(t, member), text=one.describe(t))
+                if place == 0
+                else one.describe(t)
+                for place, one in enumerate(of_member)
+            )
+            for member, of_member in lines.items()
+        )
+        return t("show.less_used", checks=" · ".join(members))
+
     def _list_columns(self) -> Iterator[Column]:
         t = self.words
         yield Column(heading=t("heading.check"))
@@ -185,7 +204,8 @@ class RowSections:
         if check is None:
             return text_cell(MISSING), text_cell(MISSING)
         demand = number_cell(self.words, "demand_kN", check.demand_kN)
-        return demand, rich_cell(show_used(check, self.words, with_interval=False))
+        is_near = not is_far_from_limit(check)
+        return demand, rich_cell(show_used(check, self.words, with_interval=is_near))
 
     def _show_requirements(self, checks: Sequence[CheckRecord]) -> Iterator[Block]:
         """Checks without a force: those that are met by name, the others at length."""
@@ -222,16 +242,13 @@ class RowSections:
     def _show_envelope(self, drawn: RowDrawings) -> Block:
         if not drawn.envelope:
             return self._none("heading.no_case_converged")
-        key = "caption.maps" if self.row.envelope else "caption.envelope_grid"
-        return Figure(svg=drawn.envelope, caption=self.words(key))
+        return Figure(svg=drawn.envelope)
 
     def _show_further(self, drawn: RowDrawings) -> Iterator[Part]:
         """Panel, measurements and notes, of a row that has them."""
-        t, row = self.words, self.row
-        if drawn.panel and row.drawing:
-            case = keep_units(t.name_case(row.drawing.case))
-            caption = t("panel_view.caption", case=case)
-            figure = Figure(svg=drawn.panel, caption=caption)
+        t = self.words
+        if drawn.panel:
+            figure = Figure(svg=drawn.panel)
             yield self._section("panel", t("panel_view.title"), figure)
         if drawn.monitoring:
             figure = Figure(svg=drawn.monitoring, caption=drawn.monitoring_note)
