@@ -72,11 +72,10 @@ def _plate_nodes(study: PaperStudy, words: Words, kind: str) -> Plate | None:
     shown = words("paper_plate.nodes", lower=lower, upper=upper)
     svg = draw_panels(
         _list_node_panels(tracks, words, is_thin=is_staggered),
-        f"nodes-{kind}",
         heading,
         across=2,
         time_label=words("paper_plate.since"),
-        panel_in=1.7,
+        panel_pt=122.0,
         language=words.language,
     )
     return Plate(
@@ -134,7 +133,7 @@ def _plate_meshes(study: PaperStudy, words: Words) -> Plate | None:
         name="meshes",
         heading=words("paper_plate.meshes"),
         caption=words("paper_plate.meshes_caption"),
-        svg=draw_meshes(pictures, "meshes", words),
+        svg=draw_meshes(pictures, words),
     )
 
 
@@ -266,10 +265,9 @@ def _plate(
     heading = words(f"paper_plate.{name}")
     svg = draw_panels(
         panels,
-        name,
         heading,
         across=across,
-        panel_in=1.9,
+        panel_pt=137.0,
         time_label=words("paper_plate.since"),
         language=words.language,
     )

@@ -149,9 +149,9 @@ def _draw(
         "history": _draw_history(solution, words)
         if isinstance(solution, Solution)
         else "",
-        "node_forces": draw_node_forces(face, "forces", words),
-        "stick_slip": draw_stick_slip(face, "stick", words),
-        "mesh": draw_meshes([picture_mesh(solution, "")], "mesh", words),
+        "node_forces": draw_node_forces(face, words),
+        "stick_slip": draw_stick_slip(face, words),
+        "mesh": draw_meshes([picture_mesh(solution, "")], words),
         "panel": draw_panel(panel, words) if panel else "",
     }
     return [
@@ -191,9 +191,8 @@ def _draw_history(solution: Solution, words: Words) -> str:
     )
     return draw_panels(
         [panel],
-        "history",
         _describe_history(pulls, times, words),
-        panel_in=2.3,
+        panel_pt=166.0,
         time_label=words("solved.time"),
         language=words.language,
     )

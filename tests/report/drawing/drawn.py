@@ -68,8 +68,8 @@ def draw_slow(rng: random.Random, words) -> list[str]:
     row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
     return [
         draw_maps(record_grid(row), words),
-        draw_node_forces(face, "f", words),
-        draw_stick_slip(face, "t", words),
+        draw_node_forces(face, words),
+        draw_stick_slip(face, words),
     ]
 
 
