@@ -17,7 +17,6 @@ from netdesign.report.sections.checks import (
     part_lines,
 )
 from netdesign.report.sections.quality import build_extremes
-from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, show_check
 from netdesign.report.workbook.excel import render_workbook
@@ -139,7 +138,7 @@ def test_every_step_of_the_page_stands_in_the_workbook(page, book):
 
 def test_verdicts_agree(page, book):
     stream = io.StringIO()
-    print_summary(build_summary(STUDY), Console(file=stream, width=200))
+    print_summary(STUDY, Console(file=stream, width=200))
     lines = stream.getvalue().splitlines()
     summary = read_rows(book["Decision"], "No.")
     shown = page.tables["decision"][0][1:]
