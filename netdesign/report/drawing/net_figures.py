@@ -65,13 +65,16 @@ def draw_stick_slip(face: Face, words: Words = ENGLISH) -> str:
     ends = [(frame.left, frame.y(1.0)), (frame.left + frame.width, frame.y(1.0))]
     sketch.line(ends, stroke=GREY, width=0.6, dash="1 2")
     sketch.line(_trace(frame, heights, used), stroke=GREY, width=0.6)
-    looks = ((~slides, INK, INK, "sticks"), (slides, "#fff", ACCENT, "slips"))
+    looks = (
+        (~slides, INK, INK, "net_drawing.sticks"),
+        (slides, "#fff", ACCENT, "net_drawing.slips"),
+    )
     for place, (mask, fill, rim, key) in enumerate(looks):
         for at in _trace(frame, heights[mask], used[mask]):
             sketch.dot(at, 2.1, fill=fill, stroke=rim)
         at = (0.72 * WIDTH, _TOP + 12.0 + 14.0 * place)
         sketch.dot(at, 2.1, fill=fill, stroke=rim)
-        told = words(f"net_drawing.{key}", count=int(mask.sum()), all=int(mask.size))
+        told = words(key, count=int(mask.sum()), all=int(mask.size))
         sketch.text(at[0] + 8.0, at[1] + TEXT_PT / 3, told)
     values = (_show_range("net_drawing.over_limit", used, words),)
     what = words("net_drawing.stick_slip")
@@ -195,15 +198,15 @@ def _draw_tractions(sketch: Sketch, face: Face, words: Words) -> None:
     sketch.line(zero, stroke=GREY, width=0.5)
     left, y = frame.left, 2.5 * TEXT_PT + 2.0
     for part, stroke, dash, key in (
-        (pressure, INK, "", "pressure"),
-        (shear, "#555b63", "4 1.5", "shear"),
+        (pressure, INK, "", "net_drawing.pressure"),
+        (shear, "#555b63", "4 1.5", "net_drawing.shear"),
     ):
         points = _trace(frame, heights, part)
         sketch.line(points, stroke=stroke, width=1.1, dash=dash)
         for at in points:
             sketch.dot(at, 0.9, fill=stroke, stroke=stroke)
         sketch.line([(left, y - 2.6), (left + 18.0, y - 2.6)], stroke=stroke, dash=dash)
-        sketch.text(left + 22.0, y, words(f"net_drawing.{key}"))
+        sketch.text(left + 22.0, y, words(key))
         y += LINE_PT
 
 

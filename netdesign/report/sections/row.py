@@ -24,7 +24,14 @@ from netdesign.report.blocks.table import (
     text_cell,
 )
 from netdesign.report.blocks.text import Badge, Piece, keep_units, small, symbols
-from netdesign.report.drawing.row_drawings import RowDrawings, draw_row
+from netdesign.report.drawing.chain_figure import draw_chains
+from netdesign.report.drawing.monitoring_figure import (
+    describe_monitoring,
+    draw_monitoring,
+)
+from netdesign.report.drawing.panel_figure import draw_panel
+from netdesign.report.drawing.row_envelope import draw_envelope
+from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.governing import find_shown, is_far_from_limit
 from netdesign.report.sections.anchor_tests import show_tests
 from netdesign.report.sections.changes import show_changes
@@ -79,7 +86,6 @@ class RowSections:
             Piece(" "),
             Badge(show_verdict(row.verdict, t)),
         )
-        drawn = draw_row(row, self.anchor, t)
         heading, changes = show_changes(row, t)
         return Part(
             kind="article",
@@ -89,17 +95,15 @@ class RowSections:
                 Heading(text=title, level=2),
                 Part(
                     id=f"{self.anchor}-drawing",
-                    blocks=tuple(self._show_drawing(drawn)),
+                    blocks=tuple(self._show_drawing()),
                 ),
-                self._section("checks", t("heading.checks"), *self._show_checks(drawn)),
+                self._section("checks", t("heading.checks"), *self._show_checks()),
                 self._section(
                     "worked", t("heading.worked_check"), *self._show_worked()
                 ),
-                self._section(
-                    "envelope", t("heading.envelope"), self._show_envelope(drawn)
-                ),
+                self._section("envelope", t("heading.envelope"), self._show_envelope()),
                 self._section("changes", heading, *changes),
-                *self._show_further(drawn),
+                *self._show_further(),
                 Paragraph(text=name, look="running", on="page"),
             ),
         )
@@ -110,13 +114,14 @@ class RowSections:
     def _none(self, key: str) -> Paragraph:
         return Paragraph(text=self.words(key), look="none")
 
-    def _show_drawing(self, drawn: RowDrawings) -> Iterator[Block]:
+    def _show_drawing(self) -> Iterator[Block]:
         """Section to scale, and the inputs that it shows."""
         t, row = self.words, self.row
-        if drawn.section and row.drawing:
+        if row.drawing:
             case = keep_units(t.name_case(row.drawing.case))
             caption = t("caption.section", case=case)
-            yield Figure(svg=drawn.section, caption=caption)
+            svg = draw_section(row.drawing, self.anchor, t)
+            yield Figure(svg=svg, caption=caption)
         else:
             yield self._none("heading.no_case_converged")
         yield Paragraph(text=t.join(self._list_inputs()), look="given")
@@ -130,7 +135,7 @@ class RowSections:
                 value = append_unit(show_value(echo, t), echo.unit.replace("-", ""))
                 yield t("show.label", label=t.show(label), text=value)
 
-    def _show_checks(self, drawn: RowDrawings) -> Iterator[Block]:
+    def _show_checks(self) -> Iterator[Block]:
         row, t = self.row, self.words
         lines = tuple(list_lines(row.checks))
         if row.reasons and not row.checks:
@@ -141,7 +146,7 @@ class RowSections:
             yield self._tabulate_checks(alone)
             if beside:
                 yield Paragraph(text=symbols(self._list_beside(beside)), look="small")
-            yield Figure(svg=drawn.chains)
+            yield Figure(svg=draw_chains(row, t))
             yield from show_tests(row, t)
         further = [one for one in row.checks if not one.is_of_force]
         if further:
@@ -239,19 +244,20 @@ class RowSections:
         if loads:
             yield Paragraph(text=loads, look="small")
 
-    def _show_envelope(self, drawn: RowDrawings) -> Block:
-        if not drawn.envelope:
-            return self._none("heading.no_case_converged")
-        return Figure(svg=drawn.envelope)
+    def _show_envelope(self) -> Block:
+        svg = draw_envelope(self.row, self.words)
+        return Figure(svg=svg) if svg else self._none("heading.no_case_converged")
 
-    def _show_further(self, drawn: RowDrawings) -> Iterator[Part]:
+    def _show_further(self) -> Iterator[Part]:
         """Panel, measurements and notes, of a row that has them."""
-        t = self.words
-        if drawn.panel:
-            figure = Figure(svg=drawn.panel)
-            yield self._section("panel", t("panel_view.title"), figure)
-        if drawn.monitoring:
-            figure = Figure(svg=drawn.monitoring, caption=drawn.monitoring_note)
+        t, row = self.words, self.row
+        panel = draw_panel(row.panel, t) if row.panel else ""
+        if panel:
+            yield self._section("panel", t("panel_view.title"), Figure(svg=panel))
+        monitoring = draw_monitoring(row.monitoring, t)
+        if monitoring:
+            caption = describe_monitoring(row.monitoring, t)
+            figure = Figure(svg=monitoring, caption=caption)
             yield self._section("monitoring", t("heading.monitoring"), figure)
         notes = tuple(self._list_notes())
         if notes:

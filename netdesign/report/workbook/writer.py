@@ -11,7 +11,6 @@ from typing import Any
 from netdesign.outcome import Verdict
 from netdesign.report.blocks.table import Cell, Column, Table
 from netdesign.report.words import Words, number_format, show_verdict
-from netdesign.report.workbook.bands import split_bands
 from netdesign.report.workbook.pages import A4, NAMING, choose_paper
 from netdesign.report.workbook.widths import (
     BOLD,
@@ -202,7 +201,6 @@ class Book:
         Where there are several, no heading is repeated on each page of paper: it would
         stand above columns of another table.
         """
-        tables = [split_bands(table, self.words) for table in tables]
         widths = find_widths(tables)
         paper, pages = choose_paper(widths)
         sheet = self.add_sheet(name, title, paper=paper)
