@@ -46,7 +46,6 @@ class Table:
     columns: tuple[Column, ...]
     rows: tuple[tuple[Cell, ...], ...]
     empty: str = MISSING
-    note: Content = ()  # after the caption
     look: str = ""
     on: Medium = "all"
     symbols: Literal["", "headings", "cells"] = ""

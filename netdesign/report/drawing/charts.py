@@ -7,8 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH, Frame, bounds_of, drop_straight
-from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.drawing.plain_svg import (
+    WIDTH,
+    Chart,
+    Frame,
+    bounds_of,
+    drop_straight,
+)
 from netdesign.report.drawing.style import ACCENT, GREY, INK, SOFT, TEXT_PT
 from netdesign.words.numerals import Language
 
@@ -94,7 +99,7 @@ def draw_panels(
     language : Language
         Of the numbers beside the axes.
     """
-    sketch = Sketch(language=language)
+    sketch = Chart(language=language)
     lines = [line for panel in panels for line in panel.lines if len(line.x)]
     times = bounds_of([line.x for line in lines])
     room = max(measure_words(line.label, TEXT_PT) for line in lines) + _GAP
@@ -134,7 +139,7 @@ def _place_frame(panel: Panel, times: Sequence[float], **place: float) -> Frame:
 class _Painter:
     """Paints one panel into its frame."""
 
-    sketch: Sketch
+    sketch: Chart
     frame: Frame
     is_log: bool
 
@@ -149,7 +154,7 @@ class _Painter:
             ends = [(x, frame.top), (x, frame.top + frame.height)]
             sketch.line(ends, stroke=GREY, width=0.5, dash="1 2")
             at = (x - 2.5, frame.top + TEXT_PT)
-            sketch.words(at, mark.label, anchor="end", fill=SOFT)
+            sketch.text(*at, mark.label, anchor="end", fill=SOFT)
         for line in panel.lines:
             self._draw_line(line)
         self._name_lines([one for one in panel.lines if one.label and len(one.x)])
@@ -197,7 +202,7 @@ class _Painter:
                 shade, _ = SHADES[line.style % len(SHADES)]
                 fill = ACCENT if line.is_accent else INK if shade == INK else SOFT
                 at = (x + 3.0, y + TEXT_PT / 3 + drop)
-                self.sketch.words(at, line.label, fill=fill)
+                self.sketch.text(*at, line.label, fill=fill)
 
 
 def spread(heights: Sequence[float], gap: float) -> list[float]:

@@ -11,8 +11,15 @@ from netdesign.coupling.face import Face
 from netdesign.coupling.solution import Solution, WallSolution
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.report.drawing.label_board import LINE_PT
-from netdesign.report.drawing.plain_svg import SHADES, WIDTH, Frame, shade, show_place
-from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.drawing.plain_svg import (
+    SHADES,
+    WIDTH,
+    Chart,
+    Frame,
+    Point,
+    shade,
+    show_place,
+)
 from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import ENGLISH, Words
 
@@ -31,7 +38,7 @@ _NO_FORCE = 1e-9  # of the largest pressure: below it a ratio means nothing
 
 def draw_node_forces(face: Face, words: Words = ENGLISH) -> str:
     """SVG: the snow's forces on the nodes to scale, beside pressure and shear."""
-    sketch = Sketch(language=words.language)
+    sketch = Chart(language=words.language)
     _draw_arrows(sketch, face, words)
     _draw_tractions(sketch, face, words)
     pressure, _ = face.tractions
@@ -57,7 +64,7 @@ def draw_stick_slip(face: Face, words: Words = ENGLISH) -> str:
     known[[0, -1]] = False  # corners belong to the ends
     used = np.abs(shear[known]) / limit[known]
     heights, slides = face.points[1, known], face.slides[known]
-    sketch = Sketch(language=words.language)
+    sketch = Chart(language=words.language)
     size = (0.6 * WIDTH, _SLIP_PT - _TOP - _BELOW)
     frame = _draw_frame(sketch, 34.0, size, (heights, np.array([0.0, 1.12])))
     sketch.text(frame.left, TEXT_PT + 2.0, words("net_drawing.over_limit"), bold=True)
@@ -103,7 +110,7 @@ def draw_meshes(pictures: Sequence[MeshPicture], words: Words = ENGLISH) -> str:
     each = scale * tall * 1.06 + 22.0
     quantiles = [_find_ends(picture) for picture in pictures]
     limits = (min(low for low, _ in quantiles), max(high for _, high in quantiles))
-    sketch = Sketch(language=words.language)
+    sketch = Chart(language=words.language)
     for place, picture in enumerate(pictures):
         base = np.array([(wide * 1.03 - right) * scale, each * (place + 1) - 6.0])
         sketch.text(2.0, each * place + TEXT_PT + 2.0, picture.title, bold=True)
@@ -161,7 +168,7 @@ def _place_points(points: Floats, base: Floats, scale: float) -> list[Point]:
     return [(float(x), float(y)) for x, y in zip(across, down, strict=True)]
 
 
-def _draw_arrows(sketch: Sketch, face: Face, words: Words) -> None:
+def _draw_arrows(sketch: Chart, face: Face, words: Words) -> None:
     """Net with the force on each node, the largest of a fixed length."""
     unit, largest = float(face.points[1, -1]), _find_largest(face) or 1.0
     tips = face.points + face.forces * (_LONGEST_ARROW * unit / largest)
@@ -180,10 +187,10 @@ def _draw_arrows(sketch: Sketch, face: Face, words: Words) -> None:
     sketch.text(2.0, TEXT_PT + 2.0, words("net_drawing.on_nodes"), bold=True)
     longest = words("net_drawing.longest", force=largest / 1e3)
     for place, line in enumerate(longest.split("\n")):
-        sketch.words((2.0, (2.5 + 1.2 * place) * TEXT_PT + 2.0), line, fill=ACCENT)
+        sketch.text(2.0, (2.5 + 1.2 * place) * TEXT_PT + 2.0, line, fill=ACCENT)
 
 
-def _draw_tractions(sketch: Sketch, face: Face, words: Words) -> None:
+def _draw_tractions(sketch: Chart, face: Face, words: Words) -> None:
     """Pressure and shear over the height, their names above."""
     pressure, shear = (part[face.inner] / 1e3 for part in face.tractions)
     heights = face.points[1, face.inner]
@@ -211,7 +218,7 @@ def _draw_tractions(sketch: Sketch, face: Face, words: Words) -> None:
 
 
 def _draw_frame(
-    sketch: Sketch,
+    sketch: Chart,
     left: float,
     size: tuple[float, float],
     ranges: tuple[Floats, Floats],
@@ -238,13 +245,13 @@ def _trace(frame: Frame, across: Floats, up: Floats) -> list[Point]:
     return [(frame.x(float(x)), frame.y(float(y))) for x, y in pairs]
 
 
-def _name_across(sketch: Sketch, frame: Frame, text: str) -> None:
+def _name_across(sketch: Chart, frame: Frame, text: str) -> None:
     base = frame.top + frame.height + 2.3 * TEXT_PT + 4.5
     sketch.text(frame.left + frame.width / 2, base, text, anchor="middle")
 
 
 def _draw_mesh(
-    sketch: Sketch,
+    sketch: Chart,
     picture: MeshPicture,
     base: Floats,
     scale: float,
@@ -280,7 +287,7 @@ def _shade(density: float, limits: tuple[float, float]) -> str:
 
 
 def _draw_scale(
-    sketch: Sketch, limits: tuple[float, float], height: float, words: Words
+    sketch: Chart, limits: tuple[float, float], height: float, words: Words
 ) -> None:
     """Shades of the densities, three of them named."""
     low, high = limits
