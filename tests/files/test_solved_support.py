@@ -34,7 +34,6 @@ PANEL = Panel(
 )
 
 
-@pytest.fixture
 def list_tables(part):
     return [one for one in part.blocks if isinstance(one, Table)]
 
@@ -45,6 +44,7 @@ def list_sentences(part):
     return [text for note in notes for items in note.blocks for text in items.items]
 
 
+@pytest.fixture
 def section(solved):
     return solved(inclination_deg=30.0, slack=0.03, ground="no-slip")
 
