@@ -345,7 +345,7 @@ def test_no_module_imports_by_name_at_run_time():
         ("snow.flow", "if TYPE_CHECKING:\n    import netdesign.cli", "above"),
         ("snow.flow", "class A:\n    def f(self):\n        import click", "allowed"),
         ("site.cells.xlsx", "import netdesign.site.reader", "above"),
-        ("report.blocks.table", "import netdesign.report.drawing.sketch", "above"),
+        ("report.blocks.table", "import netdesign.report.drawing.plain_svg", "above"),
         ("report.page.html", "import netdesign.report.workbook.writer", "neighbour"),
         ("units", "import netdesign.edge.output", "above"),
         ("checks.check", "import numpy as np", "allowed"),

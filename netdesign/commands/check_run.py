@@ -108,13 +108,11 @@ def _print_summaries(
     explain: bool,
 ) -> None:
     """Print what each study says, and lines of what ``--size`` found."""
-    from netdesign.report.summary import build_summary
     from netdesign.report.terminal import open_console, print_lines, print_summary
 
     console = open_console()
     for study in studies:
-        summary = build_summary(study, language, explain=explain)
-        print_summary(summary, console)
+        print_summary(study, console, language, explain=explain)
     print_lines(tuple(sized), console)
 
 

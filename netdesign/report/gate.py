@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
-from html.parser import HTMLParser
+from collections.abc import Iterable, Iterator
 
 from netdesign.calculation.steps import SAME, Step, compare_steps, is_same
 from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.outcome import ContentError, NetDesignError, Verdict, merge_verdicts
+from netdesign.report.blocks.block import (
+    Block,
+    Figure,
+    Heading,
+    Items,
+    Paragraph,
+    Part,
+)
 from netdesign.structure.members import ROPE_OF
 from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
@@ -19,10 +25,6 @@ _RESULTS = {"demand_kN": "E_d", "resistance_kN": "R_d", "utilisation": "μ"}
 _RULES = {"E_d": "γ_E * E_k", "R_d": "R_k / γ_R", "μ": "E_d / R_d"}
 _FORCES = ("E_k", "V_k", "E_d", "R_k", "R_d")
 _ABOVE_ZERO = ("γ_E", "γ_R", "R_d")
-_DRAWING = re.compile(r"<svg.*?</svg>", re.DOTALL)
-_HEADINGS = ("h1", "h2", "h3", "h4")
-# Tags that bound neither a section nor a heading: most of a page, and slow to parse.
-_OTHER_TAG = re.compile(r"<(?!/?(?:section|h[1-4])\b)[^>]*>")
 
 
 def require_consistent(study: Study) -> None:
@@ -133,42 +135,40 @@ def _is_without_force(check: CheckRecord) -> bool:
     return not check.is_of_force and (is_geometry or check.mode in MODES_WITHOUT_FORCE)
 
 
-def require_sections(page: str, expected: Iterable[str]) -> None:
-    """Refuse a page in which an expected section is missing or only a heading.
+def require_sections(blocks: Iterable[Block], expected: Iterable[str]) -> None:
+    """Refuse blocks in which an expected section is missing or only a heading.
 
     Raises
     ------
     NetDesignError
         Naming every such section.
     """
-    reader = _SectionReader()
-    reader.feed(_OTHER_TAG.sub(" ", _DRAWING.sub(" drawing ", page)))
-    missing = [name for name in expected if not reader.words.get(name)]
+    filled = set(_list_filled(blocks))
+    missing = tuple(name for name in expected if name not in filled)
     if missing:
-        raise NetDesignError(say("audit.empty_sections", sections=tuple(missing)))
+        raise NetDesignError(say("audit.empty_sections", sections=missing))
 
 
-class _SectionReader(HTMLParser):
-    """Counts the words below the headings of each ``<section id=...>``."""
+def _list_filled(blocks: Iterable[Block]) -> Iterator[str]:
+    """Ids of the parts with more than headings."""
+    for block in blocks:
+        if isinstance(block, Part):
+            yield from _list_filled(block.blocks)
+            if block.id and any(map(_says, block.blocks)):
+                yield block.id
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.words: dict[str, int] = {}
-        self._open: list[tuple[str, str]] = []
 
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        name = (dict(attrs).get("id") or "") if tag == "section" else ""
-        self._open.append((tag, name))
-        if name:
-            self.words[name] = 0
-
-    def handle_endtag(self, tag: str) -> None:
-        while self._open and self._open.pop()[0] != tag:
-            pass
-
-    def handle_data(self, data: str) -> None:
-        if any(tag in _HEADINGS for tag, _ in self._open):
-            return
-        for _, name in self._open:
-            if name:
-                self.words[name] += len(data.split())
+def _says(block: Block) -> bool:
+    """True of a block that shows something; a table without rows says why."""
+    match block:
+        case Heading():
+            return False
+        case Part():
+            return any(map(_says, block.blocks))
+        case Items():
+            return bool(block.items)
+        case Paragraph():
+            return bool(block.text)
+        case Figure():
+            return bool(block.svg)
+    return True

@@ -64,12 +64,3 @@ def is_far_from_limit(check: CheckRecord) -> bool:
 def list_failed(row: RowStudy) -> list[CaseRecord]:
     """Cases that gave no numbers."""
     return [case for case in row.cases if case.outcome is not Outcome.CONVERGED]
-
-
-def list_loaded(row: RowStudy) -> list[str]:
-    """Members that carry a force in at least one case."""
-    return [
-        member
-        for member in REPORTED_MEMBERS
-        if any(getattr(case, f"{member}_kN") for case in row.cases)
-    ]

@@ -1,10 +1,39 @@
-"""Summary of a study -> a terminal; nothing else of the study is needed."""
+"""Study -> a terminal: a line for each net row, the verdict, and what is open."""
 
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from itertools import groupby
 from typing import TYPE_CHECKING
+
+from netdesign.outcome import Verdict
+from netdesign.report.gate import require_consistent
+from netdesign.report.governing import SEVERITY, find_governing, rank_check
+from netdesign.report.sections.basis import (
+    describe_floor,
+    has_other_floor,
+    list_notes,
+    name_cases,
+)
+from netdesign.report.sections.changes import list_changes
+from netdesign.report.sections.checks import describe_briefly, describe_loads, name_case
+from netdesign.report.sections.decision import list_open_points
+from netdesign.report.sections.verify import describe_cases
+from netdesign.report.what_if import mark_verdict
+from netdesign.report.words import (
+    MISSING,
+    VerdictWords,
+    Words,
+    show_check,
+    show_text,
+    show_verdict,
+)
+from netdesign.structure.members import CARRYING_MEMBERS
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.words.catalogue import Language
+from netdesign.words.names import name_check
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -12,68 +41,15 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 _PIPE = 160  # columns of an output that is no terminal, where no line is folded
+_FEW_IDS = 3  # net rows that one line names
 _STYLES = {
     "pass": "green",
     "fail": "bold red",
     "not-proven": "yellow",
     "declared": "cyan",
 }
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Headings:
-    """Headings of the table of net rows, in the language of the summary."""
-
-    row: str
-    verdict: str
-    check: str
-    utilisation: str
-    reason: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RowLine:
-    """One net row with its governing check, in words.
-
-    ``style`` of the verdict is "pass", "fail", "not-proven" or "declared"; ``reason``
-    is "" of a pass.
-    """
-
-    id: str
-    verdict: str
-    style: str
-    check: str
-    utilisation: str
-    reason: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Summary:
-    """Plain texts of a study, for a terminal; a store can keep them.
-
-    Attributes
-    ----------
-    mark : str
-        Mark of a what-if; "" of the site as built.
-    lines : tuple of str
-        Counts, and what is open, below the table.
-    overall, meaning : str
-        What stands before and behind the verdict of the whole.
-    style : str
-        Of that verdict, as in `RowLine`.
-    changes : tuple of str
-        What ``--explain`` adds.
-    """
-
-    headings: Headings
-    rows: tuple[RowLine, ...]
-    mark: str
-    lines: tuple[str, ...]
-    overall: str
-    verdict: str
-    style: str
-    meaning: str
-    changes: tuple[str, ...] = ()
+# Id of a net row, verdict, governing check, utilisation, reason.
+RowLine = tuple[str, VerdictWords, str, str, str]
 
 
 def open_console() -> Console:
@@ -86,25 +62,47 @@ def open_console() -> Console:
     return console
 
 
-def print_summary(summary: Summary, console: Console) -> None:
+def print_summary(
+    study: Study, console: Console, language: Language = "en", *, explain: bool = False
+) -> None:
     """Print one line per net row, the verdict, what is open, and explanations.
 
     Colour, width and destination are those of ``console``; texts of the site
     are never read as markup.
+
+    Parameters
+    ----------
+    study : Study
+        What was found.
+    console : rich.console.Console
+        Where it is printed.
+    language : str
+        Of the summary.
+    explain : bool
+        Whether to say all that is open, the loads, and what would turn each check.
+
+    Raises
+    ------
+    NetDesignError
+        If the study contradicts its own numbers.
     """
     from rich.text import Text
 
-    if summary.mark:
-        console.print(Text(summary.mark, style="bold"), soft_wrap=True)
-    if summary.rows:
-        console.print(_build_table(summary))
-    overall = Text(summary.overall).append_text(_word(summary))
-    console.print(overall.append(f" - {summary.meaning}"), soft_wrap=True)
-    print_lines(summary.lines, console)
-    print_lines(summary.changes, console)
+    require_consistent(study)
+    words = Words(language)
+    verdict = mark_verdict(study, words)
+    if study.what_if:
+        console.print(Text(words("what_if.mark"), style="bold"), soft_wrap=True)
+    if study.rows:
+        console.print(_build_table(study, words))
+    overall = Text(words("show.overall", verdict="")).append_text(_word(verdict))
+    console.print(overall.append(f" - {verdict.meaning}"), soft_wrap=True)
+    print_lines(_list_lines(study, words, is_short=not explain), console)
+    if explain:
+        print_lines(_explain(study, words), console)
 
 
-def print_lines(lines: tuple[str, ...], console: Console) -> None:
+def print_lines(lines: Iterable[str], console: Console) -> None:
     """Print lines of text, which the terminal may wrap."""
     from rich.text import Text
 
@@ -112,29 +110,115 @@ def print_lines(lines: tuple[str, ...], console: Console) -> None:
         console.print(Text(line), soft_wrap=True)
 
 
-def _build_table(summary: Summary) -> Table:
+def _build_table(study: Study, words: Words) -> Table:
     from rich.table import Table
+    from rich.text import Text
 
-    headings = summary.headings
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(headings.row, overflow="fold", min_width=4)
-    table.add_column(headings.verdict, no_wrap=True)
-    table.add_column(headings.check, overflow="fold", min_width=13)
-    table.add_column(headings.utilisation, justify="right", no_wrap=True)
-    table.add_column(headings.reason, overflow="fold")
-    for row in summary.rows:
-        table.add_row(*_list_cells(row))
+    table.add_column(words("heading.net_row"), overflow="fold", min_width=4)
+    table.add_column(words("heading.verdict"), no_wrap=True)
+    table.add_column(words("heading.governing_check"), overflow="fold", min_width=13)
+    table.add_column(words("heading.utilisation"), justify="right", no_wrap=True)
+    table.add_column(words("heading.reason"), overflow="fold")
+    for row, verdict, *texts in list_rows(study, words):
+        table.add_row(Text(row), _word(verdict), *map(Text, texts))
     return table
 
 
-def _list_cells(row: RowLine) -> list[Text]:
+def _word(verdict: VerdictWords) -> Text:
     from rich.text import Text
 
-    texts = [row.check, row.utilisation, row.reason]
-    return [Text(row.id), _word(row), *map(Text, texts)]
+    return Text(verdict.word, style=_STYLES[verdict.style])
 
 
-def _word(shown: RowLine | Summary) -> Text:
-    from rich.text import Text
+def list_rows(study: Study, words: Words) -> Iterator[RowLine]:
+    """Lines of the net rows; those that say the same without a number are one."""
+    lines = [_show_row(row, words) for row in study.rows]
+    for _, group in groupby(lines, key=_tell_alike):
+        first, *others = group
+        ids = [first[0], *(one[0] for one in others)]
+        few = len(ids) <= _FEW_IDS
+        name = ", ".join(ids) if few else f"{ids[0]} … {ids[-1]} ({len(ids)})"
+        yield (name, *first[1:])
 
-    return Text(shown.verdict, style=_STYLES[shown.style])
+
+def _tell_alike(line: RowLine) -> tuple[object, ...]:
+    """Things that lines in one must share; of one with a number its own name."""
+    name, verdict, check, utilisation, reason = line
+    own = "" if utilisation == MISSING and reason else name
+    return own, verdict, check, reason
+
+
+def _show_row(row: RowStudy, words: Words) -> RowLine:
+    check = find_governing(row.checks)
+    return (
+        show_text(row.id),
+        show_verdict(row.verdict, words),
+        _name_governing(check, words) if check else words("heading.no_check"),
+        words.show_number("utilisation", check.used) if check else MISSING,
+        describe_briefly(row, words),
+    )
+
+
+def _name_governing(check: CheckRecord, words: Words) -> str:
+    """Check with its place, where that is the end of the row."""
+    named = words.show(name_check(check.member, check.mode))
+    is_of_end = check.position == "edge" and check.member in CARRYING_MEMBERS
+    return words("check.of_end", check=named) if is_of_end else named
+
+
+def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
+    """Counts, and what is open."""
+    verdicts = [check.verdict for row in study.rows for check in row.checks]
+    checks = _count_verdicts(verdicts, words)
+    yield words("show.counts", checks=checks, cases=describe_cases(study, words))
+    if has_other_floor(study):
+        floor = words("heading.floor")
+        yield words("show.label", label=floor, text=describe_floor(study, words))
+    points = list(list_open_points(study, words))
+    if is_short:
+        yield words("show.more_points", count=len(points))
+        return
+    for number, point in enumerate(points, 1):
+        yield words("show.open_point", number=number, point=point)
+
+
+def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
+    """Numbers of verdicts, the worst first: ``1 FAIL, 4 PASS``."""
+    counts = Counter(verdicts)
+    shown = [
+        words(
+            "show.count_verdict",
+            count=counts[verdict],
+            verdict=words(f"verdict.{verdict}"),
+        )
+        for verdict in SEVERITY
+        if counts[verdict]
+    ]
+    return ", ".join(shown) or words("show.none")
+
+
+def _explain(study: Study, words: Words) -> Iterator[str]:
+    """Loads of the governing checks, reasons, notes, and what turns each check."""
+    yield name_cases(study, words)
+    for row in study.rows:
+        check = find_governing(row.checks)
+        if check and (loads := describe_loads(check, words)):
+            place = f"{show_text(row.id)}, {show_check(words, check)}"
+            told = words.join([name_case(check, words), loads])
+            yield words("show.label", label=place, text=told)
+        for reason in row.reasons:
+            text = words.show(reason)
+            yield words("show.label", label=show_text(row.id), text=text)
+    floor = describe_floor(study, words)
+    yield words("show.label", label=words("heading.floor"), text=floor)
+    for note in list_notes(study, words):
+        yield words("show.note", note=note)
+    yield from list_changes(
+        [
+            (row.id, check)
+            for row in study.rows
+            for check in sorted(row.checks, key=rank_check)
+        ],
+        words,
+    )

@@ -19,7 +19,6 @@ from rich.console import Console
 from netdesign.report.case_table import render_cases
 from netdesign.report.difference import compare_studies
 from netdesign.report.page.html import render_html
-from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.reader import read_site
@@ -140,7 +139,7 @@ def test_a_workbook_of_hostile_texts_opens(text):
 def test_a_terminal_is_not_steered(text):
     shown = io.StringIO()
     console = Console(file=shown, width=200, color_system=None, force_terminal=True)
-    print_summary(build_summary(spoilt_study(text), explain=True), console)
+    print_summary(spoilt_study(text), console, explain=True)
     assert all(sign.isprintable() or sign == "\n" for sign in shown.getvalue())
 
 

@@ -3,7 +3,6 @@ import re
 import pytest
 from rich.console import Console
 
-from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
 from tests.report.build_study import build_study
 
@@ -18,7 +17,7 @@ def test_no_color_is_honoured_on_a_terminal(monkeypatch, capsys, asked):
     if asked:
         monkeypatch.setenv("NO_COLOR", "1")
     console = Console(force_terminal=True, color_system="standard")
-    print_summary(build_summary(build_study()), console)
+    print_summary(build_study(), console)
     out = capsys.readouterr().out
     assert "FAIL" in out
     assert bool(COLOUR.search(out)) is not asked

@@ -5,15 +5,15 @@ from dataclasses import replace
 from rich.console import Console
 
 from netdesign.report.governing import find_governing
-from netdesign.report.summary import build_summary
-from netdesign.report.terminal import open_console, print_summary
+from netdesign.report.terminal import list_rows, open_console, print_summary
 from netdesign.report.words import ENGLISH, show_check
 from tests.report.build_study import SCRIPT, build_study
 
 
-def printed(study, **options):
+def printed(study, *, explain=False, **options):
     stream = io.StringIO()
-    print_summary(build_summary(study), Console(file=stream, width=160, **options))
+    console = Console(file=stream, width=160, **options)
+    print_summary(study, console, explain=explain)
     return stream.getvalue()
 
 
@@ -35,12 +35,10 @@ def test_a_summary_has_few_lines_and_explain_has_the_rest():
     row = build_study().rows[2]
     rows = [replace(row, id=f"N{number}") for number in range(6)]
     study = replace(build_study(), rows=rows, verdict=row.verdict)
-    short, whole = (build_summary(study, explain=one) for one in (False, True))
-    assert len(short.lines) == 2
-    assert short.changes == ()
-    assert whole.lines[0] == short.lines[0]
-    assert len(whole.lines) > 4
-    assert whole.changes
+    short, whole = (printed(study, explain=one).splitlines() for one in (False, True))
+    assert len(short) == len(list(list_rows(study, ENGLISH))) + 4
+    assert whole[: len(short) - 1] == short[:-1]
+    assert len(whole) > len(short) + 4
 
 
 def test_rows_that_say_the_same_without_a_number_are_one_line():
@@ -48,17 +46,17 @@ def test_rows_that_say_the_same_without_a_number_are_one_line():
     names = [f"N{number}" for number in range(6)]
     rows = [replace(row, id=name) for name in names]
     study = replace(build_study(), rows=rows, verdict=row.verdict)
-    lines = build_summary(study).rows
+    shown = [line[0] for line in list_rows(study, ENGLISH)]
     if find_governing(row.checks).utilisation is None:
-        assert [line.id for line in lines] == ["N0 … N5 (6)"]
+        assert shown == ["N0 … N5 (6)"]
     else:
-        assert [line.id for line in lines] == names
+        assert shown == names
 
 
 def test_summary_in_french_has_the_same_numbers():
     stream = io.StringIO()
     console = Console(file=stream, width=200)
-    print_summary(build_summary(build_study(), "fr"), console)
+    print_summary(build_study(), console, "fr")
     lines = stream.getvalue().splitlines()
     assert lines[4].startswith("Verdict\u00a0: NON VÉRIFIÉ - ")
     english = printed(build_study()).splitlines()
@@ -82,7 +80,7 @@ def test_texts_of_the_site_are_not_markup():
 
 def test_a_narrow_terminal_breaks_no_number_and_no_word():
     stream = io.StringIO()
-    print_summary(build_summary(build_study()), Console(file=stream, width=80))
+    print_summary(build_study(), Console(file=stream, width=80))
     text = stream.getvalue()
     for row in build_study().rows:
         check = find_governing(row.checks)

@@ -96,7 +96,9 @@ def outputs(request, study):
     """Language, checks of page, document and workbook, their tables of inputs."""
     language = request.param
     page = PageReader(render_html(study, language, "full"))
-    document = list_tables(render_document(study, language, "full"))
+    written = render_document(study, language, "full")
+    text = " ".join(one.text for one in open_word(written).paragraphs)
+    document = list_tables(written), text
     book = read_workbook(render_workbook(study, language))
     return language, page, document, book
 
@@ -117,7 +119,8 @@ def list_shown(tables, texts):
                 continue
             for place, shown in (("", cells[3:5]), ("end", cells[5:7])):
                 if shown != ["-", "-"]:
-                    checks[cells[0], place] = (cells[2], *shown)
+                    used = shown[1].split(" (")[0]
+                    checks[cells[0], place] = (cells[2], shown[0], used)
         found.append(checks)
     return found
 
@@ -167,7 +170,7 @@ def is_shown(number, text):
 
 
 def test_no_value_of_a_check_differs(study, outputs):
-    language, page, document, book = outputs
+    language, page, (document, between), book = outputs
     texts = load_texts(language)
     on_page = list_shown([t for ts in page.tables.values() for t in ts], texts)
     in_document = list_shown(document, texts)
@@ -188,9 +191,38 @@ def test_no_value_of_a_check_differs(study, outputs):
                 compared += 1
         for (_, word, check), words in signs.items():
             assert word in words, check  # the worse of both places
+    beside = list_beside("".join(page.text), texts)
+    assert beside == list_beside(between, texts)
+    assert len(beside) == len(study.rows)
+    for told, kept in zip(beside, stored, strict=True):
+        for title, resistance, *used in told:
+            for is_end in (False, True):
+                if used[is_end] != "-":
+                    line = kept.pop(find_name(title, kept, is_end=is_end))
+                    assert line[18] == texts["verdict.pass"]
+                    assert is_shown(line[15], used[is_end])
+                    assert is_shown(line[13], resistance)
+                    compared += 2
     assert compared > 90
     # what is left in the workbook are the checks that follow from no force
     assert all(line[5] in (None, "-") for kept in stored for line in kept.values())
+
+
+def list_beside(text, texts):
+    """Checks told below the table of a row, row by row: name, R_d, utilisations."""
+    lead = texts["show.less_used"].partition("{checks}")[0]
+    mark = re.escape(clean(lead.rpartition("/")[2]))
+    rows = []
+    for told in re.findall(rf"{mark} ((?:[^.]|\.\d)+)\.", clean(text)):
+        rows.append([])
+        for of_member in told.split(" · "):
+            member, _, modes = of_member.partition(": ")
+            for mode in re.split(r"\s?; ", modes):
+                first, _, used = mode.rpartition(", ")
+                name, _, resistance = first.rpartition(" ")
+                title = f"{member.strip()}, {name}"
+                rows[-1].append((title, resistance, *used.split(" / ")))
+    return rows
 
 
 def part_title(title, texts):
@@ -213,7 +245,7 @@ def find_name(title, kept, *, is_end):
 
 
 def test_no_input_differs(study, outputs):
-    language, page, document, book = outputs
+    language, page, (document, _), book = outputs
     texts = load_texts(language)
     head = texts["heading.input"]
     wanted = [row.id for row in study.rows]
@@ -246,7 +278,7 @@ def test_no_input_differs(study, outputs):
 
 def test_a_changed_value_is_seen(outputs):
     """A number that is one more in its last place is not the one that is printed."""
-    language, _, document, _ = outputs
+    language, _, (document, _), _ = outputs
     texts = load_texts(language)
     for checks in list_shown(document, texts):
         for resistance, demand, _ in checks.values():

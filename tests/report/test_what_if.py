@@ -10,7 +10,6 @@ from rich.console import Console
 from netdesign.report.document.word import render_document
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.whole import title_pages
-from netdesign.report.summary import build_summary
 from netdesign.report.terminal import print_summary
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import Words
@@ -57,7 +56,7 @@ def unpack(content, part):
 
 def print_out(study, language):
     console = Console(file=io.StringIO(), width=400)
-    print_summary(build_summary(study, language), console)
+    print_summary(study, console, language)
     return console.file.getvalue()
 
 

@@ -39,19 +39,13 @@ class Calculation:
     derived: str = ""  # where R_k comes from dimensions
 
 
-def read_rows(page):
-    """Calculations of each net row, by its place in the page."""
+def read_annex(page):
+    """Calculations of the annex, in their order."""
     page = re.sub(r"<sub>(\w+)</sub>", r"_\1", page)
-    found = re.findall(r'<section id="(row-\d+)-calculation".*?</section>', page, re.S)
-    return {name: list(_read_row(page, name)) for name in found}
-
-
-def _read_row(page, name):
-    start = page.index(f'id="{name}-calculation"')
+    start = page.index('id="annex-checks"')
     section = page[start : page.index("</section>", start)]
-    caption = clean(re.search("<caption>(.*?)</caption>", section, re.S)[1])
     shared = Calculation("")
-    read_steps(shared, caption.partition(". ")[2])
+    read_steps(shared, clean(re.search("<caption>(.*?)</caption>", section, re.S)[1]))
     for cell in re.findall(r'<th scope="row">(.*?)</th>', section, re.S):
         head, *lines = clean(cell).split("\n")
         name, _, steps = head.partition(": ")
@@ -62,6 +56,29 @@ def _read_row(page, name):
             read_steps(one, steps.rstrip("."))
             read_steps(one, told)
             yield one
+
+
+def read_ratios(page):
+    """Title, E_d, R_d and μ of every check in the tables of the net rows."""
+    for section in re.findall(r'<section id="row-\d+-checks".*?</section>', page, re.S):
+        forces = {}
+        for line in re.findall(r"<tr>(.*?)</tr>", section, re.S):
+            cells = re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", line, re.S)
+            if len(cells) != 7 or 'scope="row"' not in line:
+                continue
+            title, _, resistance, *places = map(clean, cells)
+            member = re.sub(r"^\S+ (PASS|FAIL|NOT PROVEN|PROVEN ELSEWHERE)", "", title)
+            member = member.strip().split(", ")[0]
+            forces.setdefault(member, []).append((places[0], places[2]))
+            for demand, used in (places[:2], places[2:]):
+                yield title, demand, resistance, used.split(" ")[0]
+        told = re.search(r"Also met.*? at its end\. (.*?)</p>", section, re.S)
+        for of_member in clean(told[1]).rstrip(".").split(" · ") if told else ():
+            member, _, modes = of_member.partition(": ")
+            for mode in modes.split("; "):
+                first, _, ratios = mode.rpartition(", ")
+                resistance = first.rpartition(" ")[2]
+                yield f"{member}, {first}", forces[member], resistance, ratios
 
 
 def clean(text):
@@ -142,13 +159,37 @@ class Again:
             self.wrong.append((what, printed, value))
 
 
-def work_out(rows):
+def work_out(checks):
     """Every result of every check, from the lines above it."""
     again = Again()
-    for place, checks in rows.items():
-        for check in checks:
-            _work_out_check(f"{place}: {check.title}", check, again)
+    for check in checks:
+        _work_out_check(check.title, check, again)
     return again
+
+
+def divide(ratios):
+    """Every utilisation that the net rows print, from its two forces in print."""
+    again = Again()
+    for title, demands, resistance, used in ratios:
+        if isinstance(demands, str):
+            pairs = [[(demands, used)]]
+        else:  # beside the table: the line of its member that it shares a force with
+            ends = used.split(" / ")
+            pairs = [list(zip(one, ends, strict=True)) for one in demands]
+        again.count += sum(not {*one} & {"-", "∞"} for one in pairs[0])
+        fits = [all(_divides(*one, resistance) for one in pair) for pair in pairs]
+        if not any(fits):
+            again.wrong.append((title, demands, resistance, used))
+    return again
+
+
+def _divides(demand, used, resistance):
+    """The ratio is that of the forces, each right to its last digit."""
+    if "-" in (demand, used, resistance) or used == "∞":
+        return True
+    force, resists, ratio = map(float, (demand, resistance, used.lstrip(">")))
+    near = 0.0006 + ratio * (0.06 / max(resists, 0.1)) + 0.06 / max(resists, 0.1)
+    return math.isclose(ratio, force / resists, abs_tol=near)
 
 
 def _work_out_check(what, check, again):

@@ -34,6 +34,7 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
+from netdesign.evidence.figure_style import use_style, write_svg
 from netdesign.evidence.runner import fit_order, measure, run_in_turns
 from netdesign.evidence.table import show_document, show_rows
 from netdesign.outcome import SolveError
@@ -42,8 +43,6 @@ from netdesign.report.drawing.style import (
     GREY,
     INK,
     WIDTH_IN,
-    use_style,
-    write_svg,
 )
 from netdesign.report.words import ENGLISH, Words
 

@@ -66,11 +66,10 @@ def _plate_nodes(study: PaperStudy, words: Words, kind: str) -> Plate | None:
     shown = words("paper_plate.nodes", lower=lower, upper=upper)
     svg = draw_panels(
         _list_node_panels(tracks, words, is_thin=is_staggered),
-        f"nodes-{kind}",
         heading,
         across=2,
         time_label=words("paper_plate.since"),
-        panel_in=1.7,
+        panel_pt=122.0,
         language=words.language,
     )
     return Plate(
@@ -128,7 +127,7 @@ def _plate_meshes(study: PaperStudy, words: Words) -> Plate | None:
         name="meshes",
         heading=words("paper_plate.meshes"),
         caption=words("paper_plate.meshes_caption"),
-        svg=draw_meshes(pictures, "meshes", words),
+        svg=draw_meshes(pictures, words),
     )
 
 
@@ -151,10 +150,9 @@ def _plate_methods(study: PaperStudy, words: Words) -> Plate | None:
         caption=words("paper_plate.methods_caption"),
         svg=draw_panels(
             panels,
-            "methods",
             heading,
             across=1,
-            panel_in=1.9,
+            panel_pt=137.0,
             time_label=words("paper_plate.since"),
             language=words.language,
         ),

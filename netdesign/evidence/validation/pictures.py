@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from netdesign.evidence.figure_style import use_style, write_svg
 from netdesign.evidence.validation.band import MemberBand, Validation
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, STRESSES, Place
 from netdesign.evidence.verification.pack import name_kind
-from netdesign.report.drawing.charts import SHADES
 from netdesign.report.drawing.style import (
     ACCENT,
     GREY,
     INK,
     PALE,
     WIDTH_IN,
-    use_style,
-    write_svg,
 )
 from netdesign.report.words import ENGLISH, Words, show_member, show_own
 from netdesign.snow.creep_law import CREEP_LAWS
@@ -28,6 +26,8 @@ if TYPE_CHECKING:
 
 _LEAST = 1e-16  # an error of none is shown there
 _ROW_IN = 0.19  # height of a bar
+# Told apart without colour.
+_DASHES = ("-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 
 
 def draw_errors(cases: Sequence[VerificationCase], words: Words = ENGLISH) -> str:
@@ -89,14 +89,14 @@ def _draw_stress(axes: Axes, places: Sequence[Place]) -> None:
         warm = [place.models[model.name][0] for place in places]
         cold = [place.models[model.name][1] for place in places]
         axes.fill_between(densities, warm, cold, color=PALE, linewidth=0.0, alpha=0.5)
-        _, dashes = SHADES[index]
+        dashes = _DASHES[index]
         axes.plot(
             densities, warm, color=GREY, linestyle=dashes, label=model.name, linewidth=1
         )
     for index, law in enumerate(CREEP_LAWS):
         values = [place.laws[law] for place in places]
         color = ACCENT if index == 0 else INK
-        _, dashes = SHADES[index]
+        dashes = _DASHES[index]
         axes.plot(densities, values, color=color, linestyle=dashes, label=law)
     axes.set_yscale("log")
 

@@ -17,13 +17,11 @@ Medium = Literal["all", "page"]
 class Cell:
     """Text that a reader sees, and the number behind it if it is one.
 
-    ``ends`` are the numbers of an interval; the workbook gives each a cell.
     ``content`` stands for the text where it has several looks.
     """
 
     text: str = ""
     number: float | None = None
-    ends: tuple[float | None, float | None] | None = None
     content: Content = ()
 
 
@@ -48,7 +46,6 @@ class Table:
     columns: tuple[Column, ...]
     rows: tuple[tuple[Cell, ...], ...]
     empty: str = MISSING
-    note: Content = ()  # after the caption
     look: str = ""
     on: Medium = "all"
     symbols: Literal["", "headings", "cells"] = ""
@@ -95,11 +92,6 @@ def rich_cell(content: Content) -> Cell:
 def number_cell(words: Words, key: str, value: float | None) -> Cell:
     """Number of the quantity ``key``, with its decimals."""
     return Cell(text=words.show_number(key, value), number=value)
-
-
-def band_cell(words: Words, key: str, low: float | None, high: float | None) -> Cell:
-    """Interval of the quantity ``key``."""
-    return Cell(text=words.show_band(key, low, high), ends=(low, high))
 
 
 def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:

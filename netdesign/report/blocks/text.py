@@ -11,7 +11,6 @@ from netdesign.report.words import VerdictWords
 # Looks that every writer knows; a page's style sheet may have more. A small piece
 # stands on a line of its own, a hidden one is for readers aloud, and on paper.
 STRONG, CODE, SMALL, HIDDEN = "strong", "code", "small", "hidden"
-REFERENCE = "reference"
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +62,6 @@ def strong(text: str) -> Content:
 def link(anchor: str, text: str) -> Content:
     """Text that leads to a part of the page."""
     return (Piece(text, link=anchor),)
-
-
-def refer(anchor: str, text: str) -> Content:
-    """Link to what explains a text, for pages alone."""
-    return (Piece(text, REFERENCE, link=anchor),)
 
 
 def small(lines: Sequence[str]) -> Content:

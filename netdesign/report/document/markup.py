@@ -10,7 +10,6 @@ from typing import Any
 
 from netdesign.edge.given_files import make_printable
 from netdesign.report.blocks.text import (
-    REFERENCE,
     SMALL,
     Badge,
     Piece,
@@ -70,14 +69,14 @@ class Grid:
 
 
 def list_runs(text: Text, *, has_symbols: bool = False) -> Runs:
-    """Runs of a block's text; sketches and references are for pages."""
+    """Runs of a block's text; sketches are for pages."""
     runs: list[Run] = []
     for piece in list_pieces(text, has_symbols=has_symbols):
         if isinstance(piece, Badge):
             shown = piece.verdict
             end = "\n" if piece.look == "sign" else ""
             runs.append(Run(f"{shown.symbol}\u00a0{shown.word}{end}", is_bold=True))
-        elif isinstance(piece, Piece) and piece.look != REFERENCE:
+        elif isinstance(piece, Piece):
             is_small = piece.look == SMALL
             begins = is_small and runs and not runs[-1].text.endswith("\n")
             begun = f"\n{piece.text}" if begins else piece.text

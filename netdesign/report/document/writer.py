@@ -22,7 +22,7 @@ from netdesign.report.blocks.block import (
     Part,
 )
 from netdesign.report.blocks.table import Cell, Table
-from netdesign.report.blocks.text import Piece, Text
+from netdesign.report.blocks.text import Text
 from netdesign.report.document import styles
 from netdesign.report.document.markup import (
     Grid,
@@ -145,8 +145,7 @@ class Writer:
 
     def _write_table(self, table: Table) -> None:
         if table.rows:
-            note = (Piece(" "), *table.note) if table.note else ()
-            self._add_grid((Piece(table.caption), *note), _list_cells(table))
+            self._add_grid(table.caption, _list_cells(table))
             return
         told = table.empty
         if table.symbols:

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH
-from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.drawing.plain_svg import WIDTH, Chart
 from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import Words, show_member, show_verdict
 from netdesign.study.records import CheckRecord, RowStudy
@@ -61,7 +60,7 @@ def draw_chains(row: RowStudy, words: Words) -> str:
     if not chains:
         return ""
     most = _find_weakest([one for chain in chains for one in chain])
-    sketch = Sketch(language=words.language)
+    sketch = Chart(language=words.language)
     start = words("chain.net")
     for place, chain in enumerate(chains):
         _draw_chain(sketch, start, chain, place * _LINE + 1.0, most)
@@ -115,7 +114,7 @@ def _find_weakest(links: Sequence[_Link]) -> float:
 
 
 def _draw_chain(
-    sketch: Sketch, start: str, chain: Sequence[_Link], top: float, most: float
+    sketch: Chart, start: str, chain: Sequence[_Link], top: float, most: float
 ) -> None:
     """One chain from left to right, smaller where it would not fit."""
     texts = [start, *(one.text for one in chain)]
@@ -135,7 +134,7 @@ def _draw_chain(
             sketch.line(corners, stroke=edge, width=thick)
         base = (left + size * _PAD, middle + 0.35 * size * TEXT_PT)
         is_weakest = used is not None and used == weakest
-        sketch.words_of_size(base, text, size * TEXT_PT, bold=is_weakest)
+        sketch.text(*base, text, size=size * TEXT_PT, bold=is_weakest)
         left += wide
         if place < len(chain):
             sketch.arrow(

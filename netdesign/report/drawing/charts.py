@@ -1,36 +1,24 @@
-"""Line charts against time: few ticks, faint lines, labels at the lines' ends."""
+"""Line charts against time: few ticks, thin lines, names at the lines' ends."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
-from netdesign.report.drawing.style import (
-    ACCENT,
-    GREY,
-    INK,
-    PALE,
-    SOFT,
-    TEXT_PT,
-    WIDTH_IN,
-    use_style,
-    write_svg,
+from netdesign.report.drawing.letters import measure_words
+from netdesign.report.drawing.plain_svg import (
+    WIDTH,
+    Chart,
+    Frame,
+    bounds_of,
+    drop_straight,
 )
+from netdesign.report.drawing.style import ACCENT, GREY, INK, SOFT, TEXT_PT
 from netdesign.words.numerals import Language
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 # Told apart without colour: by shade and by dashes.
-SHADES: tuple[tuple[str, Any], ...] = (
-    (INK, "-"),
-    ("#555b63", (0, (5, 1.6))),
-    (GREY, (0, (1.2, 1.2))),
-    (GREY, (0, (6, 1.5, 1.2, 1.5))),
-)
+SHADES = ((INK, ""), ("#555b63", "5 1.6"), (GREY, "1.2 1.2"), (GREY, "6 1.5 1.2 1.5"))
 _SECOND = 1.0 / 86_400.0  # [days]
 _CLOCK = (
     *((_SECOND * n, f"{n} s") for n in (1, 10)),
@@ -38,10 +26,13 @@ _CLOCK = (
     *((3600 * _SECOND * n, f"{n} h") for n in (1, 6)),
     *((1.0 * n, f"{n} d") for n in (1, 10, 100, 1000)),
 )
-_LETTER_IN = 0.066  # width of a letter in a label
-_TICK_GAP = 0.05  # least distance of two ticks, in widths of a panel
-_LABEL_REACH = 0.06  # names beginning that close, in widths of a panel, may overlap
-_LINE_GAP = 0.075  # least distance of two labels, in heights of the panel
+_LEFT, _GAP = 34.0, 8.0  # of a panel: its numbers; beside the names of its lines [pt]
+_ABOVE, _BELOW = 18.0, 20.0  # it: its title; its ticks [pt]
+_MARGIN = 0.1  # of the values, above and below them
+_APART = 1.15 * TEXT_PT  # names of two lines [pt]
+_REACH = 20.0  # names beginning that close may overlap [pt]
+_TICK = 3.0
+_DOT, _MOST_DOTS = 1.2, 60  # half the width of a dot [pt]; more of them are a band
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,11 +72,10 @@ class Panel:
 
 def draw_panels(
     panels: Sequence[Panel],
-    name: str,
     title: str,
     *,
     across: int = 1,
-    panel_in: float = 1.75,
+    panel_pt: float = 120.0,
     is_log: bool = True,
     time_label: str,
     language: Language = "en",
@@ -96,166 +86,123 @@ def draw_panels(
     ----------
     panels : sequence of Panel
         In reading order; lines need not share their times.
-    name, title : str
-        As ``write_svg`` takes them.
+    title : str
+        What a screen reader says.
     across : int
         Panels in a row.
-    panel_in : float
-        Height of a panel [inch].
+    panel_pt : float
+        Height of a panel [pt].
     is_log : bool
         Time on a logarithmic scale, ticks in seconds to days.
     time_label : str
-        Below the last row.
+        Below each column.
     language : Language
         Of the numbers beside the axes.
     """
-    from matplotlib.figure import Figure
-
-    scale = _find_scale(panels, across, is_log=is_log)
-    down = math.ceil(len(panels) / across)
-    height = down * (panel_in + 0.28) + 0.38
-    with use_style(name):
-        figure = Figure(figsize=(WIDTH_IN, height))
-        grid = figure.subplots(down, across, squeeze=False)
-        for panel, axes in zip(panels, grid.flat, strict=False):
-            _draw_panel(axes, panel, scale)
-        for axes in grid.flat[len(panels) :]:
-            axes.set_axis_off()
-        for axes in grid[-1]:
-            axes.set_xlabel(time_label, labelpad=3)
-        _arrange(figure, height, across)
-        return write_svg(figure, name, title, language=language)
-
-
-def dress(axes: Axes, title: str) -> None:
-    """Faint grid, no frame, the quantity's name in bold above."""
-    axes.set_title(title, loc="left", fontsize=TEXT_PT, fontweight="bold", pad=5)
-    axes.grid(axis="y", color=PALE, linewidth=0.4)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.locator_params(axis="y", nbins=5)
+    sketch = Chart(language=language)
+    lines = [line for panel in panels for line in panel.lines if len(line.x)]
+    times = bounds_of([line.x for line in lines])
+    room = max(measure_words(line.label, TEXT_PT) for line in lines) + _GAP
+    pitch, step = (WIDTH + _GAP) / across, _ABOVE + panel_pt + _BELOW
+    height = math.ceil(len(panels) / across) * step + TEXT_PT
+    for place, panel in enumerate(panels):
+        frame = _place_frame(
+            panel,
+            [math.log(end) for end in times] if is_log else times,
+            left=place % across * pitch + _LEFT,
+            top=place // across * step + _ABOVE,
+            width=pitch - _GAP - _LEFT - room,
+            height=panel_pt,
+        )
+        _Painter(sketch, frame, is_log).draw(panel, times)
+        if place < across:
+            middle = frame.left + frame.width / 2
+            sketch.text(middle, height - 3.0, time_label, anchor="middle")
+    return sketch.write(height, title)
 
 
-def _arrange(figure: Figure, height: float, across: int) -> None:
-    figure.subplots_adjust(
-        left=0.45 / WIDTH_IN,
-        right=1 - 0.08 / WIDTH_IN,
-        top=1 - 0.24 / height,
-        bottom=0.4 / height,
-        wspace=0.22 if across > 1 else 0.0,
-        hspace=0.32,
+def _place_frame(panel: Panel, times: Sequence[float], **place: float) -> Frame:
+    """Frame of a panel; all lines and a margin above and below them."""
+    low, high = bounds_of([line.y for line in panel.lines])
+    low = 0.0 if panel.from_zero else low
+    margin = _MARGIN * ((high - low) or abs(high) or 1.0)
+    return Frame(
+        **place,
+        x_low=times[0],
+        x_high=times[1],
+        y_low=low if panel.from_zero else low - margin,
+        y_high=high + (2.0 * margin if panel.marks else margin),
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Scale:
-    """Time axis that all panels share; ``room`` is for labels, a share of it."""
+@dataclass(frozen=True, slots=True)
+class _Painter:
+    """Paints one panel into its frame."""
 
-    low: float
-    high: float
-    room: float
-    across: int
+    sketch: Chart
+    frame: Frame
     is_log: bool
 
+    def draw(self, panel: Panel, times: Sequence[float]) -> None:
+        sketch, frame = self.sketch, self.frame
+        sketch.text(frame.left, frame.top - 6.0, panel.title, bold=True)
+        sketch.axes(frame, x_ticks=not self.is_log)
+        if self.is_log:
+            self._draw_clock(times)
+        for mark in panel.marks:
+            x = self._at(mark.x)
+            ends = [(x, frame.top), (x, frame.top + frame.height)]
+            sketch.line(ends, stroke=GREY, width=0.5, dash="1 2")
+            at = (x - 2.5, frame.top + TEXT_PT)
+            sketch.text(*at, mark.label, anchor="end", fill=SOFT)
+        for line in panel.lines:
+            self._draw_line(line)
+        self._name_lines([one for one in panel.lines if one.label and len(one.x)])
 
-def _find_scale(panels: Sequence[Panel], across: int, *, is_log: bool) -> _Scale:
-    lines = [line for panel in panels for line in panel.lines if len(line.x)]
-    longest = max((len(line.label) for line in lines), default=0)
-    return _Scale(
-        low=min((min(line.x) for line in lines), default=1.0),
-        high=max((max(line.x) for line in lines), default=1.0),
-        room=(longest * _LETTER_IN + 0.06) * across / WIDTH_IN,
-        across=across,
-        is_log=is_log,
-    )
+    def _at(self, time: float) -> float:
+        return self.frame.x(math.log(time) if self.is_log else time)
 
+    def _draw_line(self, line: Line) -> None:
+        shade, dash = SHADES[line.style % len(SHADES)]
+        stroke = ACCENT if line.is_accent else shade
+        points = [
+            (self._at(x), self.frame.y(y)) for x, y in zip(line.x, line.y, strict=True)
+        ]
+        width = 0.6 if line.is_thin or line.has_dots else 1.2
+        kept = drop_straight(points)
+        self.sketch.line(kept, stroke=stroke, width=width, dash=dash)
+        if line.has_dots and len(points) <= _MOST_DOTS:
+            for x, y in points:
+                self.sketch.rectangle(x - _DOT, y - _DOT, 2 * _DOT, 2 * _DOT, GREY)
 
-def _draw_panel(axes: Axes, panel: Panel, scale: _Scale) -> None:
-    dress(axes, panel.title)
-    for line in panel.lines:
-        shade, dashes = SHADES[line.style % len(SHADES)]
-        axes.plot(
-            line.x,
-            line.y,
-            color=ACCENT if line.is_accent else shade,
-            linestyle=dashes,
-            linewidth=0.5 if line.is_thin or line.has_dots else 1.2,
-            marker="o" if line.has_dots else None,
-            markersize=2.4,
-            zorder=2 if line.is_thin else 3,
-        )
-    if scale.is_log:
-        _set_clock(axes, scale)
-    else:
-        span = max(scale.high - scale.low, 1e-9)
-        axes.set_xlim(scale.low, scale.low + span / (1.0 - scale.room))
-    if panel.from_zero:
-        axes.set_ylim(bottom=0.0)
-    axes.margins(y=0.12)
-    for mark in panel.marks:
-        _draw_mark(axes, mark)
-    _label_ends(axes, panel.lines)
+    def _draw_clock(self, times: Sequence[float]) -> None:
+        """Ticks of logarithmic time that a reader can picture, none too close."""
+        bottom, free = self.frame.top + self.frame.height, -math.inf
+        for days, word in _CLOCK:
+            x, half = self._at(days), measure_words(word, TEXT_PT) / 2 + 1.5
+            if times[0] * 0.999 <= days <= times[1] * 1.001 and x - half >= free:
+                free = x + half
+                self.sketch.line([(x, bottom), (x, bottom + _TICK)], stroke=GREY)
+                base = bottom + _TICK + TEXT_PT + 1.5
+                self.sketch.text(x, base, word, anchor="middle")
 
-
-def _set_clock(axes: Axes, scale: _Scale) -> None:
-    """Logarithmic time with ticks that a reader can picture, none too close."""
-    low, high = scale.low, scale.high
-    efolds = math.log(max(high / low, 1.01)) / (1.0 - scale.room)
-    axes.set_xscale("log")
-    axes.set_xlim(low, low * math.exp(efolds))
-    near = _TICK_GAP * scale.across * efolds
-    shown: list[tuple[float, str]] = []
-    for days, word in _CLOCK:
-        is_apart = not shown or math.log(days / shown[-1][0]) >= near
-        if low * 0.999 <= days <= high * 1.001 and is_apart:
-            shown.append((days, word))
-    axes.set_xticks([days for days, _ in shown], [word for _, word in shown])
-    axes.minorticks_off()
-
-
-def _draw_mark(axes: Axes, mark: Mark) -> None:
-    axes.axvline(mark.x, color=GREY, linewidth=0.5, linestyle=(0, (1, 2)), zorder=1)
-    axes.annotate(
-        mark.label,
-        (mark.x, 1.0),
-        xycoords=("data", "axes fraction"),
-        xytext=(-2.5, -1.5),
-        textcoords="offset points",
-        ha="right",
-        va="top",
-        color=SOFT,
-        fontsize=TEXT_PT,
-    )
-
-
-def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
-    """Name each line at its end; names that would overlap are moved apart."""
-    named = [line for line in lines if line.label and len(line.x)]
-    to_axes = axes.transData + axes.transAxes.inverted()
-    ends = [to_axes.transform((line.x[-1], line.y[-1])) for line in named]
-    placed = sorted(zip(ends, named, strict=True), key=lambda pair: float(pair[0][0]))
-    last = max((float(end[0]) for end in ends), default=1.0)
-    while placed:
-        first = float(placed[0][0][0])
-        group = [pair for pair in placed if pair[0][0] - first < _LABEL_REACH]
-        # the longer lines go on above or below the name of one that ends early
-        drop = 7.0 if first < last - _LABEL_REACH else 0.0
-        _label_group(axes, sorted(group, key=lambda pair: float(pair[0][1])), drop)
-        placed = placed[len(group) :]
-
-
-def _label_group(axes: Axes, group: Sequence[tuple[Any, Line]], drop: float) -> None:
-    heights = spread([float(end[1]) for end, _ in group], _LINE_GAP)
-    for (end, line), height in zip(group, heights, strict=True):
-        shade, _ = SHADES[line.style % len(SHADES)]
-        axes.annotate(
-            line.label,
-            (float(end[0]), height),
-            xycoords="axes fraction",
-            xytext=(3, -drop),
-            textcoords="offset points",
-            va="center",
-            color=ACCENT if line.is_accent else INK if shade == INK else SOFT,
-        )
+    def _name_lines(self, lines: Sequence[Line]) -> None:
+        """Name each line at its end; names that would overlap are moved apart."""
+        ends = [(self._at(one.x[-1]), self.frame.y(one.y[-1]), one) for one in lines]
+        ends.sort(key=lambda end: end[0])
+        while ends:
+            first, last = ends[0][0], ends[-1][0]
+            group = [end for end in ends if end[0] - first < _REACH]
+            ends = ends[len(group) :]
+            # the longer lines go on above or below the name of one that ends early
+            drop = 7.0 if first < last - _REACH else 0.0
+            group.sort(key=lambda end: end[1])
+            heights = spread([y for _, y, _ in group], _APART)
+            for (x, _, line), y in zip(group, heights, strict=True):
+                shade, _ = SHADES[line.style % len(SHADES)]
+                fill = ACCENT if line.is_accent else INK if shade == INK else SOFT
+                at = (x + 3.0, y + TEXT_PT / 3 + drop)
+                self.sketch.text(*at, line.label, fill=fill)
 
 
 def spread(heights: Sequence[float], gap: float) -> list[float]:

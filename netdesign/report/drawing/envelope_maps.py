@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -38,6 +39,7 @@ _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
 _HEAD, _PANEL, _FOOT = 25.0, 60.0, 19.0  # heights of a row of panels [pt]
 _ACROSS = 4  # lines side by side; more go below
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
+_FAILED = "×"  # at a case without a result
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
 
 
@@ -65,7 +67,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
                 bound.maps[k].inclination_deg - bound.case["inclination_deg"]
             ),
         )
-        low, high = bounds_of(row for one in bound.maps for row in one.force_kN)
+        low, high = bounds_of(_list_known(bound))
         frames = [
             _place_panel(column, len(bound.maps), top, one)
             for column, one in enumerate(bound.maps)
@@ -74,15 +76,18 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
         chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
         for frame, one in pairs:
             _name_map(chart, frame, one, words)
+            _mark_failed(chart, frame, one)
+        if any(
+            math.isnan(x) for one in bound.maps for row in one.force_kN for x in row
+        ):
+            told = f"{_FAILED} {words('drawing.no_result')}"
+            chart.text(WIDTH - 2.0, top + TEXT_PT + 1.0, told, anchor="end")
         at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
     values = [
-        _show_forces(
-            [row for one in bound.maps for row in one.force_kN], bound, record, words
-        )
-        for bound in bounds
+        _show_forces(_list_known(bound), bound, record, words) for bound in bounds
     ]
     return chart.write(height, _title("drawing.maps", record, values, words))
 
@@ -147,22 +152,31 @@ def _list_cells(
     frame: Frame, one: MapRecord, low: float, high: float
 ) -> list[tuple[float, float, float, float, str]]:
     """Cells around the points of the map, clipped to its frame: tiles of a chart."""
-    xs = _edges(one.density_kg_m3)
-    ys = _edges(one.friction_deg)
+    ends = (frame.left, frame.left + frame.width)
+    xs = _edges(one.density_kg_m3, frame.x, *ends)
+    ys = _edges(one.friction_deg, frame.y, frame.top + frame.height, frame.top)
     cells = []
-    for column in range(len(one.density_kg_m3)):
-        left, right = frame.x(xs[column]), frame.x(xs[column + 1])
+    for column, (left, right) in enumerate(pairwise(xs)):
         fills = [shade(forces[column], low, high) for forces in one.force_kN]
         start = 0
         for row in range(1, len(fills) + 1):  # cells of one shade are one tile
             if row < len(fills) and fills[row] == fills[start]:
                 continue
-            bottom, top = frame.y(ys[start]), frame.y(ys[row])
+            bottom, top = ys[start], ys[row]
             end = min(right + _OVERLAP, frame.left + frame.width)
             foot = min(bottom + _OVERLAP, frame.top + frame.height)
             cells.append((left, top, end - left, foot - top, fills[start]))
             start = row
     return cells
+
+
+def _mark_failed(chart: Chart, frame: Frame, one: MapRecord) -> None:
+    """Crosses at the cases without a result."""
+    for friction, forces in zip(one.friction_deg, one.force_kN, strict=True):
+        for density, force in zip(one.density_kg_m3, forces, strict=True):
+            if math.isnan(force):
+                at = frame.x(density), frame.y(friction) + TEXT_PT / 3
+                chart.text(*at, _FAILED, anchor="middle", bold=True)
 
 
 def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
@@ -288,10 +302,17 @@ def _name_axis(chart: Chart, frame: Frame, label: str) -> int:
     return len(lines)
 
 
-def _edges(values: Sequence[float]) -> list[float]:
-    """Borders of the cells around some values; the outer ones are the ends."""
-    between = [(a + b) / 2 for a, b in pairwise(values)]
-    return [values[0], *between, values[-1]]
+def _edges(
+    values: Sequence[float], place: Callable[[float], float], first: float, last: float
+) -> list[float]:
+    """Borders of the cells around some values; the outer ones are those of a frame."""
+    return [first, *(place((a + b) / 2) for a, b in pairwise(values)), last]
+
+
+def _list_known(bound: BoundRecord) -> list[list[float]]:
+    """Forces of all maps, without those of cases that gave no result."""
+    rows = (row for one in bound.maps for row in one.force_kN)
+    return [known for row in rows if (known := [x for x in row if not math.isnan(x)])]
 
 
 def _list_loaded(record: EnvelopeRecord) -> list[BoundRecord]:

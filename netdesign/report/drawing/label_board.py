@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.drawing.plain_svg import Chart, Point
 from netdesign.report.drawing.style import GREY, INK, TEXT_PT
 
 LINE_PT = 1.3 * TEXT_PT  # from one line of a label to the next
@@ -77,7 +77,7 @@ class LabelBoard:
             count = max(1, round(math.dist(start, end) / _STEP))
             self.lines += [_between(start, end, k / count) for k in range(count + 1)]
 
-    def draw(self, sketch: Sketch, label: Label) -> None:
+    def draw(self, sketch: Chart, label: Label) -> None:
         """Write a label where it is free."""
         box, foot, reach = self._find(label)
         self.taken.append(box)
@@ -88,7 +88,7 @@ class LabelBoard:
         anchor, x = ("end", box.right) if is_right else ("start", box.left)
         for place, (text, colour) in enumerate(label.lines):
             base = box.top + (place + 1) * LINE_PT - _DESCENT * TEXT_PT
-            sketch.words((x, base), text, anchor=anchor, fill=colour)
+            sketch.text(x, base, text, anchor=anchor, fill=colour)
 
     def _find(self, label: Label) -> tuple[Box, Point, float]:
         """Box of the label, the point of it that is nearest to its own, the reach."""

@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH, Frame
-from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame
 from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import Words
 from netdesign.study.case_records import GuidelineRecord
@@ -60,12 +59,12 @@ def draw_loads(record: GuidelineRecord, height: float, words: Words) -> str:
         y_low=0.0,
         y_high=height,
     )
-    sketch = Sketch(language=words.language)
+    sketch = Chart(language=words.language)
     sketch.axes(frame)
-    sketch.words((0.0, TEXT_PT), words("loads.height"), bold=True)
+    sketch.text(0.0, TEXT_PT, words("loads.height"), bold=True)
     bottom = _TOP + _HEIGHT + _BELOW
     end = frame.left + frame.width
-    sketch.words((end, bottom), words("loads.pressure"), anchor="end", bold=True)
+    sketch.text(end, bottom, words("loads.pressure"), anchor="end", bold=True)
     for place, one in enumerate(lines):
         points = [(frame.x(max(0.0, p)), frame.y(y)) for p, y in one.points]
         sketch.line(points, stroke=one.stroke, width=1.3, dash=one.dashes)
@@ -73,7 +72,7 @@ def draw_loads(record: GuidelineRecord, height: float, words: Words) -> str:
         start = end + 2.0 * _BETWEEN
         sample = [(start, y - 2.6), (start + _SAMPLE, y - 2.6)]
         sketch.line(sample, stroke=one.stroke, width=1.3, dash=one.dashes)
-        sketch.words((start + _SAMPLE + 4.0, y), one.label)
+        sketch.text(start + _SAMPLE + 4.0, y, one.label)
     values = tuple(one.label for one in lines)
     title = words("drawing.with_values", what=words("loads.title"), values=values)
     return sketch.write(bottom + 4.0, title)

@@ -4,68 +4,58 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from netdesign.coupling.face import Face
 from netdesign.coupling.solution import Solution, WallSolution
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.report.drawing.charts import dress
-from netdesign.report.drawing.style import (
-    ACCENT,
-    GREY,
-    INK,
-    TEXT_PT,
-    WIDTH_IN,
-    use_style,
-    write_svg,
+from netdesign.report.drawing.label_board import LINE_PT
+from netdesign.report.drawing.plain_svg import (
+    SHADES,
+    WIDTH,
+    Chart,
+    Frame,
+    Point,
+    shade,
+    show_place,
 )
+from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import ENGLISH, Words
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-
-_DARK = "#4d5761"  # of the densest snow; text stays readable beside it
+_FORCES_PT, _SLIP_PT = 208.0, 136.0  # heights of the drawings [pt]
+_TOP, _BELOW = 38.0, 32.0  # above and below a chart [pt]
+_CHART = 0.55 * WIDTH  # where the chart beside the net begins [pt]
 _LONGEST_ARROW = 0.42  # heights of the net
 _STACKED = 0.84  # width of meshes below each other, so that five fit on a page
-_STEPS = 24  # of the density scale
+_SCALE_PT = 150.0  # width of the density scale [pt]
 _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
-# Share of the snow's area, at each end, that the colours need not tell apart: one that
+# Share of the snow's area, at each end, that the shades need not tell apart: one that
 # is all but empty at the overhanging surface would flatten all others.
 _OUTLIERS = 0.005
 _NO_FORCE = 1e-9  # of the largest pressure: below it a ratio means nothing
 
 
-def draw_node_forces(face: Face, name: str, words: Words = ENGLISH) -> str:
+def draw_node_forces(face: Face, words: Words = ENGLISH) -> str:
     """SVG: the snow's forces on the nodes to scale, beside pressure and shear."""
-    from matplotlib.figure import Figure
-
-    with use_style(name):
-        figure = Figure(figsize=(WIDTH_IN, 2.9))
-        left = figure.add_axes((0.01, 0.02, 0.44, 0.88))
-        right = figure.add_axes((0.55, 0.14, 0.44, 0.76))
-        _draw_arrows(left, face, words)
-        _draw_tractions(right, face, words)
-        pressure, _ = face.tractions
-        values = (
-            words("net_drawing.longest", force=_find_largest(face) / 1e3),
-            _show_range("drawing.pressure", pressure[face.inner] / 1e3, words),
-        )
-        what = words("net_drawing.forces")
-        title = words("drawing.with_values", what=what, values=values)
-        return write_svg(figure, name, title, language=words.language)
+    sketch = Chart(language=words.language)
+    _draw_arrows(sketch, face, words)
+    _draw_tractions(sketch, face, words)
+    pressure, _ = face.tractions
+    values = (
+        words("net_drawing.longest", force=_find_largest(face) / 1e3),
+        _show_range("drawing.pressure", pressure[face.inner] / 1e3, words),
+    )
+    what = words("net_drawing.forces")
+    title = words("drawing.with_values", what=what, values=values)
+    return sketch.write(_FORCES_PT, title)
 
 
-def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
+def draw_stick_slip(face: Face, words: Words = ENGLISH) -> str:
     """SVG: shear over its friction limit along the height, slipping nodes hollow.
 
     Empty text where there is no limit: the snow adheres, or there is no friction.
     """
-    from matplotlib.figure import Figure
-
     if not face.friction:
         return ""
     pressure, shear = face.tractions
@@ -74,37 +64,29 @@ def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
     known[[0, -1]] = False  # corners belong to the ends
     used = np.abs(shear[known]) / limit[known]
     heights, slides = face.points[1, known], face.slides[known]
-    with use_style(name):
-        figure = Figure(figsize=(WIDTH_IN, 1.9))
-        axes = figure.add_axes((0.08, 0.2, 0.6, 0.66))
-        dress(axes, words("net_drawing.over_limit"))
-        axes.axhline(1.0, color=GREY, linewidth=0.6, linestyle=(0, (1, 2)))
-        axes.plot(heights, used, color=GREY, linewidth=0.6, zorder=2)
-        for mask, fill, rim, key in (
-            (~slides, INK, INK, "net_drawing.sticks"),
-            (slides, "white", ACCENT, "net_drawing.slips"),
-        ):
-            axes.plot(
-                heights[mask],
-                used[mask],
-                "o",
-                color=fill,
-                mec=rim,
-                mew=1.0,
-                ms=4.2,
-                label=words(key, count=int(mask.sum()), all=int(mask.size)),
-                zorder=3,
-                clip_on=False,
-            )
-        axes.set_ylim(0.0, 1.12)
-        axes.set_xlabel(words("net_drawing.height_normal"))
-        figure.legend(
-            loc="center left", bbox_to_anchor=(0.7, 0.55), frameon=False, numpoints=1
-        )
-        what = words("net_drawing.stick_slip")
-        values = (_show_range("net_drawing.over_limit", used, words),)
-        title = words("drawing.with_values", what=what, values=values)
-        return write_svg(figure, name, title, language=words.language)
+    sketch = Chart(language=words.language)
+    size = (0.6 * WIDTH, _SLIP_PT - _TOP - _BELOW)
+    frame = _draw_frame(sketch, 34.0, size, (heights, np.array([0.0, 1.12])))
+    sketch.text(frame.left, TEXT_PT + 2.0, words("net_drawing.over_limit"), bold=True)
+    _name_across(sketch, frame, words("net_drawing.height_normal"))
+    ends = [(frame.left, frame.y(1.0)), (frame.left + frame.width, frame.y(1.0))]
+    sketch.line(ends, stroke=GREY, width=0.6, dash="1 2")
+    sketch.line(_trace(frame, heights, used), stroke=GREY, width=0.6)
+    looks = (
+        (~slides, INK, INK, "net_drawing.sticks"),
+        (slides, "#fff", ACCENT, "net_drawing.slips"),
+    )
+    for place, (mask, fill, rim, key) in enumerate(looks):
+        for at in _trace(frame, heights[mask], used[mask]):
+            sketch.dot(at, 2.1, fill=fill, stroke=rim)
+        at = (0.72 * WIDTH, _TOP + 12.0 + 14.0 * place)
+        sketch.dot(at, 2.1, fill=fill, stroke=rim)
+        told = words(key, count=int(mask.sum()), all=int(mask.size))
+        sketch.text(at[0] + 8.0, at[1] + TEXT_PT / 3, told)
+    values = (_show_range("net_drawing.over_limit", used, words),)
+    what = words("net_drawing.stick_slip")
+    title = words("drawing.with_values", what=what, values=values)
+    return sketch.write(_SLIP_PT, title)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -118,39 +100,27 @@ class MeshPicture:
     face: Floats  # net or wall, shape (2, k) [m]
 
 
-def draw_meshes(
-    pictures: Sequence[MeshPicture], name: str, words: Words = ENGLISH
-) -> str:
+def draw_meshes(pictures: Sequence[MeshPicture], words: Words = ENGLISH) -> str:
     """SVG of deformed meshes below each other, to one scale of length and density."""
-    from matplotlib.figure import Figure
-
-    spans = [np.ptp(picture.nodes, axis=1) for picture in pictures]
-    wide = max(float(span[0]) for span in spans)
+    wide = max(float(np.ptp(picture.nodes[0])) for picture in pictures)
     tall = max(float(picture.nodes[1].max()) for picture in pictures)
-    shown = 1.0 if len(pictures) == 1 else _STACKED
-    scale = shown * (WIDTH_IN - 0.3) / (1.02 * wide)
-    each = scale * tall * 1.06 + 0.3
-    height = each * len(pictures) + 0.5
-    quantiles = [_find_ends(picture) for picture in pictures]
-    low, high = (
-        float(min(low for low, _ in quantiles)),
-        float(max(high for _, high in quantiles)),
-    )
     right = max(float(picture.face[0].max()) for picture in pictures)
-    with use_style(name):
-        figure = Figure(figsize=(WIDTH_IN, height))
-        for place, picture in enumerate(pictures):
-            bottom = (height - each * (place + 1)) / height
-            axes = figure.add_axes((0.0, bottom, 1.0, (each - 0.26) / height))
-            _draw_mesh(axes, picture, (low, high))
-            edge = right - wide * 1.03
-            axes.set_xlim(edge, edge + WIDTH_IN / scale)
-            axes.set_ylim(-0.05 * tall, 1.02 * tall)
-        _draw_scale(figure, (low, high), height, words)
-        what = words("net_drawing.mesh")
-        values = (_show_range("net_drawing.density", np.array([low, high]), words),)
-        title = words("drawing.with_values", what=what, values=values)
-        return write_svg(figure, name, title, language=words.language)
+    shown = 1.0 if len(pictures) == 1 else _STACKED
+    scale = shown * (WIDTH - 22.0) / (1.02 * wide)
+    each = scale * tall * 1.06 + 22.0
+    quantiles = [_find_ends(picture) for picture in pictures]
+    limits = (min(low for low, _ in quantiles), max(high for _, high in quantiles))
+    sketch = Chart(language=words.language)
+    for place, picture in enumerate(pictures):
+        base = np.array([(wide * 1.03 - right) * scale, each * (place + 1) - 6.0])
+        sketch.text(2.0, each * place + TEXT_PT + 2.0, picture.title, bold=True)
+        _draw_mesh(sketch, picture, base, scale, limits)
+    height = each * len(pictures) + 36.0
+    _draw_scale(sketch, limits, height, words)
+    values = (_show_range("net_drawing.density", np.array(limits), words),)
+    what = words("net_drawing.mesh")
+    title = words("drawing.with_values", what=what, values=values)
+    return sketch.write(height, title)
 
 
 def _show_range(key: str, values: Floats, words: Words) -> str:
@@ -192,107 +162,144 @@ def picture_mesh(solution: Solution | WallSolution, title: str) -> MeshPicture:
     )
 
 
-def _draw_arrows(axes: Axes, face: Face, words: Words) -> None:
-    axes.set_axis_off()
-    axes.set_aspect("equal")
-    dress(axes, words("net_drawing.on_nodes"))
-    x, y = face.points
-    unit = float(y[-1])
-    largest = _find_largest(face) or 1.0
-    axes.plot([x[0], x[-1]], [y[0], y[-1]], color=GREY, linewidth=0.5)
-    axes.plot(x, y, color=INK, linewidth=1.4, zorder=3)
+def _place_points(points: Floats, base: Floats, scale: float) -> list[Point]:
+    """Points (2, n) [m] on paper; y upwards from the base [pt]."""
+    across, down = base[0] + scale * points[0], base[1] - scale * points[1]
+    return [(float(x), float(y)) for x, y in zip(across, down, strict=True)]
+
+
+def _draw_arrows(sketch: Chart, face: Face, words: Words) -> None:
+    """Net with the force on each node, the largest of a fixed length."""
+    unit, largest = float(face.points[1, -1]), _find_largest(face) or 1.0
     tips = face.points + face.forces * (_LONGEST_ARROW * unit / largest)
-    for start, tip in zip(face.points.T, tips.T, strict=True):
-        axes.annotate(
-            "",
-            xy=(tip[0], tip[1]),
-            xytext=(start[0], start[1]),
-            arrowprops={
-                "arrowstyle": "-|>,head_length=0.3,head_width=0.12",
-                "color": ACCENT,
-                "linewidth": 0.8,
-                "shrinkA": 0,
-                "shrinkB": 0,
-            },
-        )
-    axes.plot(x, y, "o", color=INK, ms=2.0, zorder=4)
-    left = min(float(x.min()), 0.0) - 0.25 * unit
-    right = max(float(x.max()), float(tips[0].max())) + 0.2 * unit
-    axes.plot([left, right], [0, 0], color=INK, linewidth=1.0)
-    axes.set_xlim(left, right)
-    axes.set_ylim(-0.12 * unit, 1.06 * unit)
-    axes.text(
-        left,
-        0.97 * unit,
-        words("net_drawing.longest", force=largest / 1e3),
-        va="top",
-        color=ACCENT,
-    )
+    left = min(float(face.points[0].min()), 0.0) - 0.25 * unit
+    right = max(float(face.points[0].max()), float(tips[0].max())) + 0.2 * unit
+    scale = min(0.47 * WIDTH / (right - left), (_FORCES_PT - _TOP) / (1.12 * unit))
+    base = np.array([-left * scale, _FORCES_PT - 0.06 * unit * scale])
+    ground = np.array([[left, right], [0.0, 0.0]])
+    nodes = _place_points(face.points, base, scale)
+    sketch.line(_place_points(ground, base, scale), width=1.0)
+    sketch.line([nodes[0], nodes[-1]], stroke=GREY, width=0.5)
+    sketch.line(nodes, width=1.4)
+    for start, tip in zip(nodes, _place_points(tips, base, scale), strict=True):
+        sketch.arrow(start, tip, width=0.8)
+        sketch.dot(start, 1.0)
+    sketch.text(2.0, TEXT_PT + 2.0, words("net_drawing.on_nodes"), bold=True)
+    longest = words("net_drawing.longest", force=largest / 1e3)
+    for place, line in enumerate(longest.split("\n")):
+        sketch.text(2.0, (2.5 + 1.2 * place) * TEXT_PT + 2.0, line, fill=ACCENT)
 
 
-def _draw_tractions(axes: Axes, face: Face, words: Words) -> None:
-    dress(axes, words("net_drawing.tractions"))
+def _draw_tractions(sketch: Chart, face: Face, words: Words) -> None:
+    """Pressure and shear over the height, their names above."""
     pressure, shear = (part[face.inner] / 1e3 for part in face.tractions)
     heights = face.points[1, face.inner]
-    axes.axhline(0.0, color=GREY, linewidth=0.5)
-    for values, shade, dashes, word in (
-        (pressure, INK, "-", words("net_drawing.pressure")),
-        (shear, "#555b63", (0, (4, 1.5)), words("net_drawing.shear")),
+    values = np.concatenate((pressure, shear, [0.0]))
+    reach = 0.1 * (float(np.ptp(values)) or 1.0)
+    ends = np.array([values.min() - reach, values.max() + reach])
+    size = (WIDTH - _CHART - 42.0, _FORCES_PT - _TOP - _BELOW)
+    frame = _draw_frame(sketch, _CHART + 34.0, size, (heights, ends))
+    sketch.text(frame.left, TEXT_PT + 2.0, words("net_drawing.tractions"), bold=True)
+    _name_across(sketch, frame, words("net_drawing.height"))
+    zero = [(frame.left, frame.y(0.0)), (frame.left + frame.width, frame.y(0.0))]
+    sketch.line(zero, stroke=GREY, width=0.5)
+    left, y = frame.left, 2.5 * TEXT_PT + 2.0
+    for part, stroke, dash, key in (
+        (pressure, INK, "", "net_drawing.pressure"),
+        (shear, "#555b63", "4 1.5", "net_drawing.shear"),
     ):
-        axes.plot(heights, values, color=shade, linestyle=dashes, lw=1.1, label=word)
-        axes.plot(heights, values, "o", color=shade, ms=2.0)
-    axes.set_xlabel(words("net_drawing.height"))
-    axes.margins(y=0.1)
-    axes.legend(frameon=False, fontsize=TEXT_PT, loc="best", handlelength=2.4)
+        points = _trace(frame, heights, part)
+        sketch.line(points, stroke=stroke, width=1.1, dash=dash)
+        for at in points:
+            sketch.dot(at, 0.9, fill=stroke, stroke=stroke)
+        sketch.line([(left, y - 2.6), (left + 18.0, y - 2.6)], stroke=stroke, dash=dash)
+        sketch.text(left + 22.0, y, words(key))
+        y += LINE_PT
 
 
-def _draw_mesh(axes: Axes, picture: MeshPicture, limits: tuple[float, float]) -> None:
-    from matplotlib.collections import PolyCollection
-
-    axes.set_axis_off()
-    axes.set_aspect("equal", adjustable="box", anchor="SW")
-    axes.set_title(picture.title, loc="left", fontsize=TEXT_PT, fontweight="bold")
-    corners = list(picture.nodes[:, picture.triangles].transpose(2, 1, 0))
-    mesh = PolyCollection(
-        corners, cmap=_colours(), edgecolors="white", linewidths=0.25, zorder=1
+def _draw_frame(
+    sketch: Chart,
+    left: float,
+    size: tuple[float, float],
+    ranges: tuple[Floats, Floats],
+) -> Frame:
+    """Axes of a chart below its title; ``ranges`` are values along both."""
+    across, up = ranges
+    frame = Frame(
+        left=left,
+        top=_TOP,
+        width=size[0],
+        height=size[1],
+        x_low=float(across.min()),
+        x_high=float(across.max()),
+        y_low=float(up.min()),
+        y_high=float(up.max()),
     )
-    mesh.set_array(picture.density)
-    mesh.set_clim(*_widen(limits))
-    axes.add_collection(mesh)
-    left = float(picture.nodes[0].min())
-    right = float(picture.face[0].max())
-    axes.plot([left, right], [0, 0], color=INK, linewidth=1.0, zorder=3)
-    axes.plot(*picture.face, color=ACCENT, linewidth=1.5, zorder=4)
-    for place in (0, -1):
-        axes.plot(*picture.face[:, place], "o", color=ACCENT, ms=3, zorder=5)
+    sketch.axes(frame)
+    return frame
+
+
+def _trace(frame: Frame, across: Floats, up: Floats) -> list[Point]:
+    """Points of a line in its frame."""
+    pairs = zip(across, up, strict=True)
+    return [(frame.x(float(x)), frame.y(float(y))) for x, y in pairs]
+
+
+def _name_across(sketch: Chart, frame: Frame, text: str) -> None:
+    base = frame.top + frame.height + 2.3 * TEXT_PT + 4.5
+    sketch.text(frame.left + frame.width / 2, base, text, anchor="middle")
+
+
+def _draw_mesh(
+    sketch: Chart,
+    picture: MeshPicture,
+    base: Floats,
+    scale: float,
+    limits: tuple[float, float],
+) -> None:
+    """Triangles, those of one shade in one path, with ground and net."""
+    corners = _place_points(picture.nodes, base, scale)
+    paths: dict[str, str] = {}
+    for triangle, density in zip(picture.triangles.T, picture.density, strict=True):
+        fill = _shade(float(density), limits)
+        path = "L".join(
+            f"{show_place(corners[k][0])} {show_place(corners[k][1])}" for k in triangle
+        )
+        paths[fill] = f"{paths.get(fill, '')}M{path}z"
+    for fill, path in paths.items():
+        sketch.shapes.append(
+            f'<path d="{path}" fill="{fill}" stroke="#fff" stroke-width="0.25"/>'
+        )
+    ends = [float(picture.nodes[0].min()), float(picture.face[0].max())]
+    sketch.line(_place_points(np.array([ends, [0.0, 0.0]]), base, scale), width=1.0)
+    face = _place_points(picture.face, base, scale)
+    sketch.line(face, stroke=ACCENT, width=1.5)
+    for at in (face[0], face[-1]):
+        sketch.dot(at, 1.5, fill=ACCENT, stroke=ACCENT)
+
+
+def _shade(density: float, limits: tuple[float, float]) -> str:
+    """Grey of a density, of the loosest snow still darker than paper."""
+    low, high = limits
+    if high - low < _ONE_DENSITY:
+        low, high = low - 50.0, low + 50.0
+    return shade(density, low - 0.15 * (high - low), high)
 
 
 def _draw_scale(
-    figure: Figure, limits: tuple[float, float], height: float, words: Words
+    sketch: Chart, limits: tuple[float, float], height: float, words: Words
 ) -> None:
-    """Density scale made of rectangles: a drawing without an embedded picture."""
+    """Shades of the densities, three of them named."""
     low, high = limits
     if high - low < _ONE_DENSITY:
-        figure.text(0.015, 0.12 / height, words("net_drawing.one_density", density=low))
+        told = words("net_drawing.one_density", density=low)
+        sketch.text(6.0, height - 9.0, told)
         return
-    axes = figure.add_axes((0.015, 0.27 / height, 0.3, 0.09 / height))
-    for step in range(_STEPS):
-        left, right = step / _STEPS, (step + 1.1) / _STEPS
-        axes.axvspan(left, min(right, 1.0), color=_colours()((step + 0.5) / _STEPS))
-    axes.set_xlim(0, 1)
-    axes.set_yticks([])
-    middle = (low + high) / 2
-    axes.set_xticks([0, 0.5, 1], [f"{value:.0f}" for value in (low, middle, high)])
-    axes.spines[:].set_visible(False)
-    figure.text(0.335, 0.27 / height, words("net_drawing.density"), va="bottom")
-
-
-def _widen(limits: tuple[float, float]) -> tuple[float, float]:
-    low, high = limits
-    return (low, high) if high - low >= _ONE_DENSITY else (low - 50.0, low + 50.0)
-
-
-def _colours() -> Any:
-    from matplotlib.colors import LinearSegmentedColormap
-
-    return LinearSegmentedColormap.from_list("snow", ["#e3e8ec", _DARK])
+    step = _SCALE_PT / SHADES
+    for place in range(SHADES):
+        fill = _shade(low + (place + 0.5) / SHADES * (high - low), limits)
+        sketch.rectangle(10.0 + place * step, height - 22.0, step + 0.2, 7.0, fill)
+    for share in (0.0, 0.5, 1.0):
+        at, shown = 10.0 + share * _SCALE_PT, f"{low + share * (high - low):.0f}"
+        sketch.text(at, height - 4.0, shown, anchor="middle")
+    sketch.text(24.0 + _SCALE_PT, height - 15.5, words("net_drawing.density"))

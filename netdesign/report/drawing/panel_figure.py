@@ -17,8 +17,7 @@ from netdesign.report.drawing.label_board import (
     write_label,
 )
 from netdesign.report.drawing.letters import wrap_words
-from netdesign.report.drawing.plain_svg import WIDTH, Frame
-from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, Point
 from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord, RopeRecord
@@ -27,8 +26,8 @@ SPAN, LEFT = 84.0, 46.0  # of a panel on paper, room at its left [pt]
 LONGEST = 34.0  # arrow [pt]
 _PLACE = 172.0  # from one picture to the next
 _TOP = 3 * LINE_PT  # below titles of two lines
-_AROUND = LONGEST + 4.0  # room for arrows above and below a view
-_CHART = 84.0
+_AROUND = 4.0  # an arrow above and below a view
+_CHART = 62.0
 _ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
 _TITLES = ("panel_view.elevation", "panel_view.plan", "panel_view.tensions")
 
@@ -55,7 +54,7 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
     drawn = panel.drawing
     if drawn is None or not _is_whole(drawn):
         return ""
-    sketch = Sketch(language=words.language)
+    sketch = Chart(language=words.language)
     views = [_place_view(drawn, part, place) for place, part in enumerate((1, 0))]
     bottoms = [bottom for _, bottom in views]
     height = max(*bottoms, _TOP + _CHART + 5 * LINE_PT)
@@ -71,22 +70,22 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
     return sketch.write(height, _describe(panel, drawn, words))
 
 
-def _write_title(sketch: Sketch, board: LabelBoard, text: str, left: float) -> None:
+def _write_title(sketch: Chart, board: LabelBoard, text: str, left: float) -> None:
     width = _PLACE - 10.0
     for line, part in enumerate(wrap_words(text, 1.08 * TEXT_PT, width)):
         base = (line + 1) * LINE_PT
-        sketch.words((left + 2.0, base), part, bold=True)
+        sketch.text(left + 2.0, base, part, bold=True)
     board.reserve(Box(left, 0.0, left + width, 2.3 * LINE_PT))
 
 
 def _name_supports(
-    sketch: Sketch, board: LabelBoard, bottom: float, words: Words
+    sketch: Chart, board: LabelBoard, bottom: float, words: Words
 ) -> None:
     """Row's end at the left, inner post at the right, each on its line."""
-    sketch.words((2.0, bottom - 1.6 * LINE_PT), words("panel_view.row_end"))
+    sketch.text(2.0, bottom - 1.6 * LINE_PT, words("panel_view.row_end"))
     right = LEFT + SPAN + 28.0
     at = (right, bottom - 0.4 * LINE_PT)
-    sketch.words(at, words("panel_view.inner_post"), anchor="end")
+    sketch.text(*at, words("panel_view.inner_post"), anchor="end")
     board.reserve(Box(0.0, bottom - 2.5 * LINE_PT, right, bottom))
 
 
@@ -126,16 +125,23 @@ def _place_view(drawn: PanelDrawing, part: int, place: int) -> tuple[_View, floa
     low, high = min(values), max(values)
     sign, origin = (-1.0, high) if part == 1 else (1.0, low)
     scale = SPAN / (2.0 * drawn.places_m[-1])
+    reach = max(abs(one[part]) for one in (drawn.foot_kN, drawn.head_kN))
+    around = _AROUND + max(LINE_PT, min(reach * _scale_forces(drawn), LONGEST))
     view = _View(
         left=place * _PLACE + LEFT,
-        top=_TOP + _AROUND,
+        top=_TOP + around,
         part=part,
         origin=origin,
         sign=sign,
         scale=scale,
     )
     names = 2.5 * LINE_PT if part == 1 else 0.0
-    return view, view.top + (high - low) * scale + _AROUND + names
+    return view, view.top + (high - low) * scale + around + names
+
+
+def _scale_forces(drawn: PanelDrawing) -> float:
+    """Length of an arrow for 1 kN [pt]."""
+    return LONGEST / max(drawn.lower_along_kN, drawn.upper_along_kN, 1e-9)
 
 
 def _mirror(
@@ -147,7 +153,7 @@ def _mirror(
     return [*half, *((width - place, value) for place, value in half[-2::-1])]
 
 
-def _draw_view(sketch: Sketch, view: _View, drawn: PanelDrawing) -> None:
+def _draw_view(sketch: Chart, view: _View, drawn: PanelDrawing) -> None:
     """Net and ropes of the panel, its supports, and the forces on the last of them."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
     head = drawn.post_head_m[part]
@@ -165,11 +171,11 @@ def _draw_view(sketch: Sketch, view: _View, drawn: PanelDrawing) -> None:
 
 
 def _draw_forces(
-    sketch: Sketch, board: LabelBoard, view: _View, drawn: PanelDrawing, words: Words
+    sketch: Chart, board: LabelBoard, view: _View, drawn: PanelDrawing, words: Words
 ) -> None:
     """Half a bay and the ropes' pull on the last support, a bay on the inner one."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
-    per_kn = LONGEST / max(drawn.lower_along_kN, drawn.upper_along_kN, 1e-9)
+    per_kn = _scale_forces(drawn)
     head = drawn.post_head_m[part]
     labels = []
     for place, share, along in ((0.0, 0.5, 1.0), (spacing, 1.0, 0.0)):
@@ -192,7 +198,7 @@ def _draw_forces(
 
 
 def _draw_tensions(
-    sketch: Sketch, panel: PanelRecord, drawn: PanelDrawing, words: Words
+    sketch: Chart, panel: PanelRecord, drawn: PanelDrawing, words: Words
 ) -> None:
     """Tension of both ropes over the panel, their names below."""
     left, spacing = 2 * _PLACE + 30.0, 2.0 * drawn.places_m[-1]
@@ -211,10 +217,10 @@ def _draw_tensions(
         y_high=1.1 * max(max(values) for _, values, _ in series),
     )
     sketch.axes(frame)
-    sketch.words((left - 24.0, _TOP - 0.6 * LINE_PT), "kN")
+    sketch.text(left - 24.0, _TOP - 0.6 * LINE_PT, "kN")
     base = _TOP + _CHART + 2.6 * LINE_PT
     middle = (left + frame.width / 2.0, base)
-    sketch.words(middle, words("panel_view.axis_along"), anchor="middle")
+    sketch.text(*middle, words("panel_view.axis_along"), anchor="middle")
     for name, values, dash in series:
         half = list(zip(drawn.rope_places_m, values, strict=True))
         whole = [*half, *((spacing - z, value) for z, value in half[::-1])]
@@ -226,7 +232,7 @@ def _draw_tensions(
                 key = [(left - 24.0, base - 2.6), (left - 4.0, base - 2.6)]
                 sketch.line(key, stroke=INK, width=1.1, dash=dash)
                 text = f"{name_rope(rope, words)} {rope.type}".strip()
-                sketch.words((left, base), text)
+                sketch.text(left, base, text)
 
 
 def name_rope(rope: RopeRecord, words: Words) -> str:

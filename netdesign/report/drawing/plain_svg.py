@@ -12,11 +12,15 @@ from html import escape
 from itertools import pairwise
 
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.style import GREY, INK, TEXT_PT, WIDTH_IN
+from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT, WIDTH_IN
 from netdesign.words.numerals import Language, set_marks
+
+Point = tuple[float, float]
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
+_SHORTEST = 0.4  # of loose lines [pt]
+_HEAD_LENGTH, _HEAD_HALF = 6.5, 2.3  # of an arrow [pt]
 _TICK = 2.5  # length of a tick [pt]
 _APART = 3.0  # least space between the numbers of two ticks [pt]
 SHADES = 16  # greys from white to the darkest: as many as a print tells apart
@@ -132,13 +136,72 @@ class Chart:
         words: str,
         *,
         anchor: str = "start",
+        fill: str = INK,
+        size: float = TEXT_PT,
         bold: bool = False,
     ) -> None:
         """One line of text; y is its base line [pt]."""
-        weight = ' font-weight="bold"' if bold else ""
-        self.labels.setdefault(f'text-anchor="{anchor}"{weight}', []).append(
+        look = f'text-anchor="{anchor}"'
+        look += "" if fill == INK else f' fill="{fill}"'
+        look += "" if size == TEXT_PT else f' font-size="{size:.2f}"'
+        look += ' font-weight="bold"' if bold else ""
+        self.labels.setdefault(look, []).append(
             f'<text x="{show_place(x)}" y="{show_place(y)}">{escape(words)}</text>'
         )
+
+    def dot(
+        self, at: Point, radius: float, *, fill: str = INK, stroke: str = INK
+    ) -> None:
+        """Filled circle."""
+        self.shapes.append(
+            f'<circle cx="{at[0]:.2f}" cy="{at[1]:.2f}" r="{radius}" '
+            f'fill="{fill}" stroke="{stroke}" stroke-width="0.8"/>'
+        )
+
+    def segments(
+        self,
+        pairs: Iterable[tuple[Point, Point]],
+        *,
+        stroke: str,
+        width: float,
+        clip: str = "",
+    ) -> None:
+        """Loose lines in one path; ``clip`` names an area that bounds them.
+
+        Those too short to be seen are left out.
+        """
+        path = "".join(
+            _write_segment(a, b) for a, b in pairs if math.dist(a, b) > _SHORTEST
+        )
+        within = f' clip-path="url(#{clip})"' if clip else ""
+        if path:
+            self.shapes.append(
+                f'<path d="{path}" fill="none" stroke="{stroke}" '
+                f'stroke-width="{width}"{within}/>'
+            )
+
+    def clip_area(self, name: str, points: Sequence[Point]) -> None:
+        """Define an area that may bound other shapes."""
+        path = _list_points(points)
+        self.shapes.append(
+            f'<clipPath id="{name}"><polygon points="{path}"/></clipPath>'
+        )
+
+    def arrow(
+        self, start: Point, tip: Point, *, stroke: str = ACCENT, width: float = 1.5
+    ) -> None:
+        """Line with a filled head that ends at ``tip``."""
+        length = math.dist(start, tip)
+        if length == 0.0:
+            return
+        ux, uy = (tip[0] - start[0]) / length, (tip[1] - start[1]) / length
+        head = min(_HEAD_LENGTH, 0.6 * length)
+        half = _HEAD_HALF * head / _HEAD_LENGTH
+        neck = (tip[0] - head * ux, tip[1] - head * uy)
+        self.line([start, neck], stroke=stroke, width=width)
+        left = (neck[0] - half * uy, neck[1] + half * ux)
+        right = (neck[0] + half * uy, neck[1] - half * ux)
+        self.area([tip, left, right], stroke)
 
     def write_tick(self, value: float) -> str:
         """Round number beside an axis or a dimension, with the language's mark."""
@@ -190,6 +253,14 @@ class Chart:
 def show_place(place: float) -> str:
     """Place on the page to a tenth of a point, without a zero that says nothing."""
     return f"{place:.1f}".removesuffix(".0")
+
+
+def _write_segment(start: Point, end: Point) -> str:
+    """Line of a path, its end counted from its start: fewer digits."""
+    x, y = round(start[0], 1), round(start[1], 1)
+    along, down = round(end[0], 1) - x, round(end[1], 1) - y
+    line = f"{show_place(along)} {show_place(down)}"
+    return f"M{show_place(x)} {show_place(y)}l{line}"
 
 
 def _list_points(points: Iterable[tuple[float, float]]) -> str:
@@ -258,7 +329,9 @@ def list_loose_ticks(frame: Frame) -> list[float]:
 
 
 def shade(value: float, low: float, high: float) -> str:
-    """Grey for a value, white at the low end; prints without colour."""
+    """Grey for a value, white at the low end and for none; prints without colour."""
+    if math.isnan(value):
+        return "#fff"
     share = (value - low) / (high - low) if high > low else 0.0
     return _GREYS[round((SHADES - 1) * min(1.0, max(0.0, share)))]
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from netdesign.numerics.curve import trace_curve
 from netdesign.report.drawing.label_board import Label, LabelBoard
-from netdesign.report.drawing.plain_svg import WIDTH, drop_straight
+from netdesign.report.drawing.plain_svg import WIDTH, Chart, drop_straight
 from netdesign.report.drawing.section_frame import (
     LONGEST_ARROW,
     ROD,
@@ -30,7 +30,6 @@ from netdesign.report.drawing.section_pressure import (
     draw_pressure,
     list_pressures,
 )
-from netdesign.report.drawing.sketch import Sketch
 from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, SNOW
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.support_records import Arrow, Drawing
@@ -50,7 +49,7 @@ def draw_section(drawing: Drawing, name: str, words: Words = ENGLISH) -> str:
     has_pressure = len(list_pressures(drawing)) > 1
     paper = fit_paper(frame, CHART_BOTTOM if has_pressure else LEGEND_BOTTOM)
     board = LabelBoard(width=WIDTH, height=paper.height)
-    sketch = Sketch(language=words.language)
+    sketch = Chart(language=words.language)
     _draw_snow(sketch, paper, f"{name}-snow")
     _draw_ground(sketch, paper)
     draw_legend(sketch, words, board)
@@ -101,7 +100,7 @@ def _avoid_members(board: LabelBoard, paper: Paper) -> None:
         board.avoid(paper.all_at([at, move(at, along, reach * frame.unit)]))
 
 
-def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
+def _draw_snow(sketch: Chart, paper: Paper, name: str) -> None:
     drawing, top_end = paper.frame.drawing, paper.frame.top_end
     thickness = drawing.snow_thickness_m
     net = [point for piece in trace_curve(drawing.net_m, _CHORDS) for point in piece]
@@ -120,7 +119,7 @@ def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
     sketch.line(paper.all_at(surface), stroke=GREY, width=0.6)
 
 
-def _draw_ground(sketch: Sketch, paper: Paper) -> None:
+def _draw_ground(sketch: Chart, paper: Paper) -> None:
     frame = paper.frame
     start, end = frame.top_end, frame.low_end
     step, depth = 0.11 * frame.unit, 0.05 * frame.unit
@@ -132,7 +131,7 @@ def _draw_ground(sketch: Sketch, paper: Paper) -> None:
     sketch.line(paper.all_at([(start, 0.0), (end, 0.0)]), width=1.0)
 
 
-def _draw_support(sketch: Sketch, paper: Paper) -> None:
+def _draw_support(sketch: Chart, paper: Paper) -> None:
     drawing, reach = paper.frame.drawing, 0.09 * paper.frame.unit
     for anchor in (drawing.uphill_anchor_m, drawing.downhill_anchor_m):
         sketch.line(paper.all_at([anchor, drawing.head_m]), width=0.7)
@@ -142,7 +141,7 @@ def _draw_support(sketch: Sketch, paper: Paper) -> None:
     sketch.line(paper.all_at([(x - reach, 0.0), (x + reach, 0.0)]), width=2.6)
 
 
-def _draw_net(sketch: Sketch, paper: Paper) -> None:
+def _draw_net(sketch: Chart, paper: Paper) -> None:
     pieces = trace_curve(paper.frame.drawing.net_m, _CHORDS)
     sticks = [a and b for a, b in pairwise(paper.frame.drawing.sticks)]
     start = 0
@@ -154,7 +153,7 @@ def _draw_net(sketch: Sketch, paper: Paper) -> None:
             start = i
 
 
-def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow, words: Words) -> Label:
+def _draw_arrow(sketch: Chart, paper: Paper, arrow: Arrow, words: Words) -> Label:
     """Draw force and anchor; a force into the ground ends there, others pull up."""
     frame = paper.frame
     size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
@@ -185,7 +184,7 @@ def _aim(frame: Frame, start: Point) -> Point:
 
 
 def _draw_anchor(
-    sketch: Sketch, paper: Paper, start: Point, along: Point, named: Named
+    sketch: Chart, paper: Paper, start: Point, along: Point, named: Named
 ) -> Label:
     """Rod in the ground, against the pull; its label hangs at its end."""
     rod = move(start, along, -ROD * paper.frame.unit)

@@ -6,8 +6,8 @@ import math
 from itertools import pairwise
 
 from netdesign.report.drawing.label_board import Label, LabelBoard, write_label
+from netdesign.report.drawing.plain_svg import Chart
 from netdesign.report.drawing.section_frame import Paper, Point
-from netdesign.report.drawing.sketch import Sketch
 from netdesign.report.drawing.style import GREY
 from netdesign.report.words import Words
 
@@ -22,7 +22,7 @@ _SAME = 0.005  # heights that agree to the centimetre are one
 
 
 def draw_measures(
-    sketch: Sketch, paper: Paper, words: Words, board: LabelBoard
+    sketch: Chart, paper: Paper, words: Words, board: LabelBoard
 ) -> list[Label]:
     """Draw the lines of all measures; their labels, the most confined first."""
     return [
@@ -58,7 +58,7 @@ def list_distances(paper: Paper) -> list[tuple[float, float]]:
 
 
 def _draw_heights(
-    sketch: Sketch, paper: Paper, words: Words, board: LabelBoard
+    sketch: Chart, paper: Paper, words: Words, board: LabelBoard
 ) -> list[Label]:
     """Thickness of the snow at its cut end, the height of the net outside of it."""
     frame, drawing = paper.frame, paper.frame.drawing
@@ -80,7 +80,7 @@ def _draw_heights(
 
 
 def _draw_distances(
-    sketch: Sketch, paper: Paper, words: Words, board: LabelBoard
+    sketch: Chart, paper: Paper, words: Words, board: LabelBoard
 ) -> list[Label]:
     """Chain of distances along the slope, below the ground."""
     y = -_CHAIN * paper.frame.unit
@@ -95,7 +95,7 @@ def _draw_distances(
     return labels
 
 
-def _draw_span(sketch: Sketch, paper: Paper, start: Point, end: Point) -> None:
+def _draw_span(sketch: Chart, paper: Paper, start: Point, end: Point) -> None:
     """Line of a measure with a tick across each end."""
     sketch.line(paper.all_at([start, end]), stroke=GREY, width=0.5)
     reach = _TICK * paper.frame.unit
@@ -112,7 +112,7 @@ def _turn_down(paper: Paper) -> Point:
     return -math.sin(slope), math.cos(slope)
 
 
-def _draw_tilts(sketch: Sketch, paper: Paper, words: Words) -> list[Label]:
+def _draw_tilts(sketch: Chart, paper: Paper, words: Words) -> list[Label]:
     """Inclinations of net and post, each from the slope's normal."""
     drawing = paper.frame.drawing
     net = math.atan2(*drawing.head_m)
@@ -128,7 +128,7 @@ def _draw_tilts(sketch: Sketch, paper: Paper, words: Words) -> list[Label]:
 
 
 def _draw_angle(
-    sketch: Sketch, paper: Paper, of: tuple[float, float], share: float, text: str
+    sketch: Chart, paper: Paper, of: tuple[float, float], share: float, text: str
 ) -> Label:
     """Angle (place along the slope, angle) between the normal there and a member."""
     x, angle = of
@@ -143,7 +143,7 @@ def _draw_angle(
     return write_label(text, at, (-up[0] - 0.6, -up[1]))
 
 
-def _draw_slope(sketch: Sketch, paper: Paper, words: Words) -> Label:
+def _draw_slope(sketch: Chart, paper: Paper, words: Words) -> Label:
     """Angle of the slope at its low end."""
     frame = paper.frame
     x, y = paper.at((frame.low_end - 0.36 * frame.unit, 0.0))

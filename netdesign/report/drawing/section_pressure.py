@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from netdesign.report.drawing.label_board import Box, LabelBoard
-from netdesign.report.drawing.plain_svg import WIDTH, Frame
+from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, Point
 from netdesign.report.drawing.section_labels import LEGEND_BOTTOM
-from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.drawing.style import ACCENT, TEXT_PT
 from netdesign.report.words import Words
 from netdesign.study.support_records import Drawing
 
 CHART_WIDTH = 150.0  # of all that stands right of the section [pt]
-_LEFT, _HEIGHT = WIDTH - 112.0, 84.0
+_LEFT, _HEIGHT = WIDTH - 112.0, 62.0
 _TITLES = 2.6 * TEXT_PT  # two lines above the chart
 CHART_BOTTOM = LEGEND_BOTTOM + _TITLES + _HEIGHT + 4.0 * TEXT_PT
 
@@ -23,7 +22,7 @@ def list_pressures(drawing: Drawing) -> list[Point]:
 
 
 def draw_pressure(
-    sketch: Sketch, drawing: Drawing, words: Words, board: LabelBoard
+    sketch: Chart, drawing: Drawing, words: Words, board: LabelBoard
 ) -> None:
     """Pressure to the right, height upwards; nothing where no pressure is known."""
     known = list_pressures(drawing)
@@ -32,9 +31,9 @@ def draw_pressure(
     top = LEGEND_BOTTOM + _TITLES + 10.0
     right = WIDTH - 8.0
     title = top - 2.1 * TEXT_PT
-    sketch.words((right, title), words("drawing.pressure"), anchor="end", bold=True)
+    sketch.text(right, title, words("drawing.pressure"), anchor="end", bold=True)
     line = (right, title + 1.2 * TEXT_PT)
-    sketch.words(line, words("drawing.over_height"), anchor="end")
+    sketch.text(*line, words("drawing.over_height"), anchor="end")
     frame = Frame(
         left=_LEFT,
         top=top,

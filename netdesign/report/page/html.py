@@ -39,16 +39,16 @@ def render_html(
     words = Words(language)
     running = title_pages(study, words)
     title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
-    page = render_page(
-        build_report(study, words, detail),
+    blocks = build_report(study, words, detail)
+    require_sections(blocks, list_sections(study, detail))
+    return render_page(
+        blocks,
         " - ".join(title),
         language,
         skip=link("todo", words("heading.skip_to_todo")),
         style=f"@page {{ @bottom-left {{ content: {_quote_css(running)}; }} }}",
         is_report=True,
     )
-    require_sections(page, list_sections(study, detail))
-    return page
 
 
 def _quote_css(text: str) -> str:

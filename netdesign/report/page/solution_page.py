@@ -6,8 +6,7 @@ All numbers shown come from the solution document; the shapes from the solution.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from netdesign.coupling.face import find_face
@@ -50,7 +49,7 @@ from netdesign.report.drawing.net_figures import (
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import render_page
-from netdesign.report.page.solved_support import view_support
+from netdesign.report.page.solved_support import show_support
 from netdesign.report.words import (
     Words,
     show_text,
@@ -63,15 +62,6 @@ Solved = Solution | WallSolution | FailedSolution
 PAGE_FILE, SOLUTION_FILE, HISTORY_FILE = "index.html", "solution.json", "history.csv"
 
 _DRAWINGS = ("history", "node_forces", "stick_slip", "mesh", "panel")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Drawn:
-    """One drawing of the page, and the name of its file."""
-
-    name: str
-    caption: str
-    svg: str
 
 
 def list_solution_files(
@@ -112,12 +102,12 @@ def render_solution(
     """
     words = Words(language)
     drawings = (
-        [] if isinstance(solution, FailedSolution) else _draw(solution, panel, words)
+        {} if isinstance(solution, FailedSolution) else _draw(solution, panel, words)
     )
     files = {
         SOLUTION_FILE: json.dumps(document, indent=1, allow_nan=False).encode(),
         PAGE_FILE: _render_page(document, drawings, scene_file, words).encode(),
-        **{f"{drawn.name}.svg": drawn.svg.encode() for drawn in drawings},
+        **{f"{name}.svg": svg.encode() for name, svg in drawings.items()},
     }
     if document.get("history"):
         files[HISTORY_FILE] = write_history(document["history"])
@@ -143,22 +133,18 @@ def write_history(moments: Sequence[dict[str, Any]]) -> bytes:
 
 def _draw(
     solution: Solution | WallSolution, panel: PanelRecord | None, words: Words
-) -> list[Drawn]:
+) -> dict[str, str]:
     face = find_face(solution)
     svgs = {
         "history": _draw_history(solution, words)
         if isinstance(solution, Solution)
         else "",
-        "node_forces": draw_node_forces(face, "forces", words),
-        "stick_slip": draw_stick_slip(face, "stick", words),
-        "mesh": draw_meshes([picture_mesh(solution, "")], "mesh", words),
+        "node_forces": draw_node_forces(face, words),
+        "stick_slip": draw_stick_slip(face, words),
+        "mesh": draw_meshes([picture_mesh(solution, "")], words),
         "panel": draw_panel(panel, words) if panel else "",
     }
-    return [
-        Drawn(name=name, caption=words(f"solved_caption.{name}"), svg=svg)
-        for name, svg in svgs.items()
-        if svg
-    ]
+    return {name: svg for name, svg in svgs.items() if svg}
 
 
 def _draw_history(solution: Solution, words: Words) -> str:
@@ -191,9 +177,8 @@ def _draw_history(solution: Solution, words: Words) -> str:
     )
     return draw_panels(
         [panel],
-        "history",
         _describe_history(pulls, times, words),
-        panel_in=2.3,
+        panel_pt=166.0,
         time_label=words("solved.time"),
         language=words.language,
     )
@@ -225,7 +210,7 @@ def _size(vector: Any) -> float:
 
 
 def _render_page(
-    document: dict[str, Any], drawings: Sequence[Drawn], scene_file: str, words: Words
+    document: dict[str, Any], drawings: Mapping[str, str], scene_file: str, words: Words
 ) -> str:
     is_proven = document["outcome"] == "converged"
     title = show_text(scene_file)
@@ -249,7 +234,7 @@ def _warn(what: str, why: str) -> Part:
 
 
 def _show_solution(
-    document: dict[str, Any], drawings: Sequence[Drawn], words: Words
+    document: dict[str, Any], drawings: Mapping[str, str], words: Words
 ) -> list[Block]:
     plateau, flags = document.get("plateau"), document.get("flags", ())
     support = document.get("support")
@@ -264,22 +249,19 @@ def _show_solution(
     if flags:
         blocks.append(notes(*(show_text(flag) for flag in flags)))
     if support:
-        blocks.append(_show_support(support, words))
+        blocks.append(show_support(support, words))
     blocks += [
-        Figure(svg=one.svg, caption=one.caption, id=f"figure-{one.name}", look="plate")
-        for one in drawings
+        Figure(
+            svg=svg,
+            caption=words(f"solved_caption.{name}"),
+            id=f"figure-{name}",
+            look="plate",
+        )
+        for name, svg in drawings.items()
     ]
     tables = (_tabulate_nodes(document, words), _tabulate_quality(document, words))
     numbers = [table.shown("study") for table in tables]
     return [*blocks, section("tables", words("solved.numbers"), *numbers)]
-
-
-def _show_support(support: dict[str, Any], words: Words) -> Part:
-    view = view_support(support, words)
-    blocks: list[Block] = [table.shown("study") for table in view.tables]
-    if view.sentences:
-        blocks.append(notes(*view.sentences))
-    return section("support", words("support_view.title"), *blocks)
 
 
 def describe_criterion(words: Words) -> str:

@@ -6,9 +6,9 @@ All numbers come from part ``support`` of the solution document.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from netdesign.report.blocks.block import Block, Part, notes, section
 from netdesign.report.blocks.table import (
     Cell,
     Table,
@@ -44,28 +44,20 @@ _PULLS: Mapping[tuple[str, str], str] = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SupportView:
-    """Tables of a solved support, and what they are worth."""
-
-    tables: tuple[Table, ...]
-    sentences: tuple[str, ...]
-
-
-def view_support(support: Mapping[str, Any], words: Words) -> SupportView:
-    """Support of a solution document in words."""
-    panel = support["panel"]
-    tables = [_build_forces(support, words), _build_vectors(support, words)]
-    if panel:
-        tables.append(_build_ropes(panel, words))
-    return SupportView(
-        tables=tuple(tables) if support["plain"] else (),
-        sentences=(
-            *_describe_lack(support, words),
-            *_describe_panel(support, words),
-            *_describe_end(support["row_end"], words),
-        ),
+def show_support(support: Mapping[str, Any], words: Words) -> Part:
+    """Section with the support of a solution document, and what it is worth."""
+    tables = [_build_forces, _build_vectors] if support["plain"] else []
+    blocks: list[Block] = [build(support, words).shown("study") for build in tables]
+    if support["plain"] and support["panel"]:
+        blocks.append(_build_ropes(support["panel"], words).shown("study"))
+    sentences = (
+        *_describe_lack(support, words),
+        *_describe_panel(support, words),
+        *_describe_end(support["row_end"], words),
     )
+    if sentences:
+        blocks.append(notes(*sentences))
+    return section("support", words("support_view.title"), *blocks)
 
 
 def list_shown(support: Mapping[str, Any]) -> list[str]:

@@ -29,7 +29,7 @@ from netdesign.words.message import say
 _SCOPE = ("avalanche", "structure", "ground", "product")
 _READING = (
     *("reading.checks", "caption.chains", "caption.arrows", "reading.pressure"),
-    "reading.search",
+    *("caption.maps", "panel_view.caption", "reading.search"),
     *("reading.holds", "reading.directions"),
 )
 # Left empty, its factor is taken by the guideline's load.

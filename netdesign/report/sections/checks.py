@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from netdesign.outcome import Verdict
 from netdesign.report.blocks.table import Cell, rich_cell
 from netdesign.report.blocks.text import Badge, Content, Piece, Sketch
-from netdesign.report.governing import SEVERITY, find_governing
+from netdesign.report.governing import SEVERITY, find_governing, rank_check
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -18,7 +18,7 @@ from netdesign.report.words import (
 )
 from netdesign.study.records import CheckRecord, RowStudy
 from netdesign.words.message import Message, say
-from netdesign.words.names import name, name_check
+from netdesign.words.names import name, name_check, name_mode
 
 _OVER, _BELOW = "#b23a1e", "#7d838b"  # of a bar: beyond utilisation 1, and below
 _BAR_UNIT = 100.0  # length of a bar at utilisation 1
@@ -178,10 +178,28 @@ class CheckLine:
         """The worse verdict of both."""
         return min((one.verdict for one in self.checks), key=SEVERITY.index)
 
+    @property
+    def demands(self) -> tuple[object, ...]:
+        """Member, type and design forces, which several modes may share."""
+        forces = (one.demand_kN if one else None for one in (self.inside, self.end))
+        first = self.checks[0]
+        return (first.member, first.resistance_type, *forces)
+
     def name(self, words: Words) -> str:
         """Member and mode, without the place."""
         first = self.checks[0]
         return words.show(name_check(first.member, first.mode))
+
+    def describe(self, words: Words) -> str:
+        """Mode, design resistance, and utilisations inside the row and at its end."""
+        first = self.checks[0]
+        mode = words.show(name_mode(first.mode))
+        resistance = words.show_number("resistance_kN", first.resistance_kN)
+        used = " / ".join(
+            words.show_number("utilisation", one.used) if one else MISSING
+            for one in (self.inside, self.end)
+        )
+        return f"{mode} {resistance}, {used}"
 
     def list_remarks(self, words: Words) -> list[str]:
         """Reasons that say more than the numbers; once where both places share it."""
@@ -213,6 +231,33 @@ def list_lines(checks: Sequence[CheckRecord]) -> Iterator[CheckLine]:
         for group in [together] if is_pair else [[one] for one in together]:
             shown = {one.position == "edge": one for one in group}
             yield CheckLine(inside=shown.get(False), end=shown.get(True))
+
+
+def part_lines(
+    lines: Sequence[CheckLine],
+) -> tuple[list[CheckLine], dict[str, list[CheckLine]]]:
+    """Lines that stand alone, and by member those that are told beside them.
+
+    Of the modes of one design force the most used stands alone, and each that says more
+    than its numbers.
+    """
+    groups: dict[tuple[object, ...], list[CheckLine]] = {}
+    for line in lines:
+        groups.setdefault(line.demands, []).append(line)
+    leading = {id(min(group, key=_rank_line)) for group in groups.values()}
+    alone: list[CheckLine] = []
+    beside: dict[str, list[CheckLine]] = {}
+    for line in lines:
+        is_plain = all(_is_plain(one.reason) for one in line.checks)
+        if id(line) in leading or line.verdict is not Verdict.PASS or not is_plain:
+            alone.append(line)
+        else:
+            beside.setdefault(line.checks[0].member, []).append(line)
+    return alone, beside
+
+
+def _rank_line(line: CheckLine) -> tuple[int, float]:
+    return min(rank_check(one) for one in line.checks)
 
 
 def _name_resistance(check: CheckRecord) -> tuple[object, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from netdesign.outcome import Outcome
@@ -11,7 +10,6 @@ from netdesign.report.blocks.table import (
     Cell,
     Column,
     Table,
-    band_cell,
     fixed_cell,
     given_cell,
     name_columns,
@@ -22,6 +20,7 @@ from netdesign.report.blocks.table import (
     text_column,
 )
 from netdesign.report.governing import find_shown, find_shown_member, list_failed
+from netdesign.report.sections.basis import name_rows
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -29,10 +28,12 @@ from netdesign.report.words import (
     name_heading,
     show_check,
     show_member,
+    show_text,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import BoundRecord, CasePoint, CaseRecord
 from netdesign.study.records import CheckRecord, ModelFormRecord, RowStudy, Study
+from netdesign.words.message import Message
 from netdesign.words.names import name
 
 _QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
@@ -40,7 +41,6 @@ _QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
 
 def show_quality(study: Study, words: Words) -> Part:
     """Annex with the quality of the solutions, and what else was calculated."""
-    failed = _build_failed(study, words)
     searched = tuple(
         Paragraph(text=text, look="small")
         for text in dict.fromkeys(_describe_search(one, words) for one in study.rows)
@@ -55,8 +55,7 @@ def show_quality(study: Study, words: Words) -> Part:
         "annex-quality",
         words("heading.annex_quality"),
         _build_quality(study, words).shown("quality"),
-        *([_build_outcomes(study, words)] if failed.rows else []),
-        failed,
+        _build_failed(study, words),
         *searched,
         *(one.shown("extremes") for one in rows),
         build_opinions(study, words).shown("extremes"),
@@ -110,26 +109,6 @@ def _find_worst(
     solved = (one for one in row.cases if one.outcome is Outcome.CONVERGED)
     known = (read(case) for case in solved)
     return max((one for one in known if one is not None), default=None)
-
-
-def _build_outcomes(study: Study, words: Words) -> Table:
-    """Count cases by outcome; outcomes that did not occur are left out."""
-    headings = [words(f"heading.{key}") for key in ("outcome", "cases", "meaning")]
-    counts = Counter(case.outcome for row in study.rows for case in row.cases)
-    return Table(
-        caption=words("caption.outcomes"),
-        columns=name_columns(headings, numbers=headings[1:2]),
-        rows=tuple(
-            (
-                text_cell(words(f"ended.{outcome}")),
-                given_cell(words, counts[outcome]),
-                text_cell(words.show(outcome.message)),
-            )
-            for outcome in Outcome
-            if counts[outcome]
-        ),
-        empty=words("heading.no_case_run"),
-    )
 
 
 def _build_failed(study: Study, words: Words) -> Table:
@@ -207,12 +186,14 @@ def _show_case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
 
 def build_extremes(row: RowStudy, words: Words) -> Table:
     """Largest force of each member, with what the others carry in that case."""
+    band = words("heading.band")
+    ends = [words("heading.low"), words("heading.high")]
     return Table(
         caption=words("caption.extremes"),
         columns=(
             text_column(words("heading.member")),
             quantity_column(words, "max_kN"),
-            text_column(add_unit(words("heading.band"), "kN")),
+            *(number_column("max_kN", add_unit(f"{band} {end}", "kN")) for end in ends),
             *list_case_columns(words, row),
             *(quantity_column(words, f"{member}_kN") for member in REPORTED_MEMBERS),
         ),
@@ -220,7 +201,8 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, extreme.quantity)),
                 number_cell(words, "max_kN", extreme.max_kN),
-                band_cell(words, "max_kN", extreme.low_kN, extreme.high_kN),
+                number_cell(words, "max_kN", extreme.low_kN),
+                number_cell(words, "max_kN", extreme.high_kN),
                 *_show_case(extreme.case, words),
                 *(
                     number_cell(
@@ -422,14 +404,20 @@ def _describe_model_form(record: ModelFormRecord | None, words: Words) -> str:
 
 
 def _list_differences(study: Study, words: Words) -> Iterator[Block]:
-    """Reasons why guideline and coupled calculation differ, row by row."""
-    told = tuple(
-        words("show.label", label=row.id, text=words.show(row.guideline.sentence))
-        for row in study.rows
-        if row.guideline
-    )
-    if told:
-        yield Items(items=told, look="small")
+    """Causes why guideline and coupled calculation differ, each with its net rows."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        told = row.guideline.sentence if row.guideline else None
+        causes = told.arguments.get("causes", (told,)) if told else ()
+        for cause in causes if isinstance(causes, tuple) else ():
+            if isinstance(cause, Message):
+                rows.setdefault(words.show(cause), []).append(row.id)
+    if rows:
+        items = tuple(
+            words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
+            for one, ids in rows.items()
+        )
+        yield Items(items=items, look="small")
 
 
 def _stack(

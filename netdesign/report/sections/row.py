@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
@@ -23,9 +23,16 @@ from netdesign.report.blocks.table import (
     rich_cell,
     text_cell,
 )
-from netdesign.report.blocks.text import Badge, Piece, keep_units, small
-from netdesign.report.drawing.row_drawings import RowDrawings, draw_row
-from netdesign.report.governing import find_shown
+from netdesign.report.blocks.text import Badge, Piece, keep_units, small, symbols
+from netdesign.report.drawing.chain_figure import draw_chains
+from netdesign.report.drawing.monitoring_figure import (
+    describe_monitoring,
+    draw_monitoring,
+)
+from netdesign.report.drawing.panel_figure import draw_panel
+from netdesign.report.drawing.row_envelope import draw_envelope
+from netdesign.report.drawing.section_figure import draw_section
+from netdesign.report.governing import find_shown, is_far_from_limit
 from netdesign.report.sections.anchor_tests import show_tests
 from netdesign.report.sections.changes import show_changes
 from netdesign.report.sections.checks import (
@@ -33,6 +40,7 @@ from netdesign.report.sections.checks import (
     describe_loads,
     list_lines,
     name_few,
+    part_lines,
     show_used,
 )
 from netdesign.report.sections.inputs import show_value
@@ -42,6 +50,7 @@ from netdesign.report.words import (
     Words,
     append_unit,
     show_check,
+    show_member,
     show_text,
     show_verdict,
 )
@@ -77,7 +86,6 @@ class RowSections:
             Piece(" "),
             Badge(show_verdict(row.verdict, t)),
         )
-        drawn = draw_row(row, self.anchor, t)
         heading, changes = show_changes(row, t)
         return Part(
             kind="article",
@@ -87,17 +95,15 @@ class RowSections:
                 Heading(text=title, level=2),
                 Part(
                     id=f"{self.anchor}-drawing",
-                    blocks=tuple(self._show_drawing(drawn)),
+                    blocks=tuple(self._show_drawing()),
                 ),
-                self._section("checks", t("heading.checks"), *self._show_checks(drawn)),
+                self._section("checks", t("heading.checks"), *self._show_checks()),
                 self._section(
                     "worked", t("heading.worked_check"), *self._show_worked()
                 ),
-                self._section(
-                    "envelope", t("heading.envelope"), self._show_envelope(drawn)
-                ),
+                self._section("envelope", t("heading.envelope"), self._show_envelope()),
                 self._section("changes", heading, *changes),
-                *self._show_further(drawn),
+                *self._show_further(),
                 Paragraph(text=name, look="running", on="page"),
             ),
         )
@@ -108,13 +114,14 @@ class RowSections:
     def _none(self, key: str) -> Paragraph:
         return Paragraph(text=self.words(key), look="none")
 
-    def _show_drawing(self, drawn: RowDrawings) -> Iterator[Block]:
+    def _show_drawing(self) -> Iterator[Block]:
         """Section to scale, and the inputs that it shows."""
         t, row = self.words, self.row
-        if drawn.section and row.drawing:
+        if row.drawing:
             case = keep_units(t.name_case(row.drawing.case))
             caption = t("caption.section", case=case)
-            yield Figure(svg=drawn.section, caption=caption)
+            svg = draw_section(row.drawing, self.anchor, t)
+            yield Figure(svg=svg, caption=caption)
         else:
             yield self._none("heading.no_case_converged")
         yield Paragraph(text=t.join(self._list_inputs()), look="given")
@@ -128,15 +135,18 @@ class RowSections:
                 value = append_unit(show_value(echo, t), echo.unit.replace("-", ""))
                 yield t("show.label", label=t.show(label), text=value)
 
-    def _show_checks(self, drawn: RowDrawings) -> Iterator[Block]:
+    def _show_checks(self) -> Iterator[Block]:
         row, t = self.row, self.words
         lines = tuple(list_lines(row.checks))
         if row.reasons and not row.checks:
             reasons = tuple(t.show(one) for one in row.reasons)
             yield Items(items=reasons, look="reasons")
         if lines:
-            yield self._tabulate_checks(lines)
-            yield Figure(svg=drawn.chains)
+            alone, beside = part_lines(lines)
+            yield self._tabulate_checks(alone)
+            if beside:
+                yield Paragraph(text=symbols(self._list_beside(beside)), look="small")
+            yield Figure(svg=draw_chains(row, t))
             yield from show_tests(row, t)
         further = [one for one in row.checks if not one.is_of_force]
         if further:
@@ -170,6 +180,20 @@ class RowSections:
             symbols="headings",
         )
 
+    def _list_beside(self, lines: Mapping[str, Sequence[CheckLine]]) -> str:
+        """Modes that share the design force of a more used one, by member."""
+        t = self.words
+        members = (
+            t.join(
+                t("show.label", label=show_member(t, member), text=one.describe(t))
+                if place == 0
+                else one.describe(t)
+                for place, one in enumerate(of_member)
+            )
+            for member, of_member in lines.items()
+        )
+        return t("show.less_used", checks=" · ".join(members))
+
     def _list_columns(self) -> Iterator[Column]:
         t = self.words
         yield Column(heading=t("heading.check"))
@@ -185,7 +209,8 @@ class RowSections:
         if check is None:
             return text_cell(MISSING), text_cell(MISSING)
         demand = number_cell(self.words, "demand_kN", check.demand_kN)
-        return demand, rich_cell(show_used(check, self.words, with_interval=False))
+        is_near = not is_far_from_limit(check)
+        return demand, rich_cell(show_used(check, self.words, with_interval=is_near))
 
     def _show_requirements(self, checks: Sequence[CheckRecord]) -> Iterator[Block]:
         """Checks without a force: those that are met by name, the others at length."""
@@ -219,22 +244,20 @@ class RowSections:
         if loads:
             yield Paragraph(text=loads, look="small")
 
-    def _show_envelope(self, drawn: RowDrawings) -> Block:
-        if not drawn.envelope:
-            return self._none("heading.no_case_converged")
-        key = "caption.maps" if self.row.envelope else "caption.envelope_grid"
-        return Figure(svg=drawn.envelope, caption=self.words(key))
+    def _show_envelope(self) -> Block:
+        svg = draw_envelope(self.row, self.words)
+        return Figure(svg=svg) if svg else self._none("heading.no_case_converged")
 
-    def _show_further(self, drawn: RowDrawings) -> Iterator[Part]:
+    def _show_further(self) -> Iterator[Part]:
         """Panel, measurements and notes, of a row that has them."""
         t, row = self.words, self.row
-        if drawn.panel and row.drawing:
-            case = keep_units(t.name_case(row.drawing.case))
-            caption = t("panel_view.caption", case=case)
-            figure = Figure(svg=drawn.panel, caption=caption)
-            yield self._section("panel", t("panel_view.title"), figure)
-        if drawn.monitoring:
-            figure = Figure(svg=drawn.monitoring, caption=drawn.monitoring_note)
+        panel = draw_panel(row.panel, t) if row.panel else ""
+        if panel:
+            yield self._section("panel", t("panel_view.title"), Figure(svg=panel))
+        monitoring = draw_monitoring(row.monitoring, t)
+        if monitoring:
+            caption = describe_monitoring(row.monitoring, t)
+            figure = Figure(svg=monitoring, caption=caption)
             yield self._section("monitoring", t("heading.monitoring"), figure)
         notes = tuple(self._list_notes())
         if notes:

@@ -1,7 +1,8 @@
-"""Checks worked out: the governing one of a row line by line, and all in an annex.
+"""Checks worked out: the governing one of a row line by line, and kinds in an annex.
 
-A reader redoes every number of the annex from the page alone: what is solved or given
-stands with its interval, and below it each formula with its result.
+The annex has one check of each kind. A reader redoes its numbers from the page alone:
+what is solved or given stands with its interval, and below it each formula with its
+result. All others stand in the tables of their rows, and live in the workbook.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import replace
 from netdesign.calculation.formula import PRINTED, write_formula
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.steps import Step, evaluate
-from netdesign.report.blocks.block import Block, Paragraph, Part, section
+from netdesign.report.blocks.block import Items, Paragraph, Part, section
 from netdesign.report.blocks.table import (
     Cell,
     Table,
@@ -21,6 +22,7 @@ from netdesign.report.blocks.table import (
     text_cell,
 )
 from netdesign.report.blocks.text import Piece, strong, symbols
+from netdesign.report.governing import rank_check
 from netdesign.report.sections.checks import describe_resistance, name_case
 from netdesign.report.words import (
     MISSING,
@@ -32,12 +34,13 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import CheckRecord, Study
 from netdesign.words.names import name_mode
 
 _LAST = "E_d"  # of the steps that checks of one member share
 # Formulas of every check, which stand once above all of them.
 _BY_HEADING = ("E_d", "R_d", "μ")
+_OfRow = tuple[str, CheckRecord]  # id of the net row, and a check of it
 
 
 def work_out(check: CheckRecord, words: Words) -> Table:
@@ -103,56 +106,61 @@ def _add_band(
 
 
 def show_all(study: Study, words: Words) -> Part:
-    """Annex with every check of every row."""
-    rows = (
-        block
-        for number, row in enumerate(study.rows, 1)
-        for block in _show_row(row, number, words)
-    )
+    """Annex with the check that decides of each kind, and its net row."""
     reading = Paragraph(text=symbols(words("reading.annex_checks")), look="small")
-    none = Paragraph(text=words("heading.no_rows"), look="none")
-    shown = tuple(rows) or (none,)
-    return section("annex-checks", words("heading.annex_checks"), reading, *shown)
-
-
-def _show_row(row: RowStudy, number: int, words: Words) -> Iterator[Block]:
-    groups = _group(row.checks)
+    named = "annex-checks", words("heading.annex_checks")
+    if not study.rows:
+        none = Paragraph(text=words("heading.no_rows"), look="none")
+        return section(*named, reading, none)
+    groups = _group(_choose(study, is_of_force=True))
     shared = _find_shared(groups)
-    name = words("show.label", label=words("heading.net_row"), text=show_text(row.id))
-    told = words.join(_describe_leaf(one, words) for one in shared)
     table = Table(
-        caption=f"{name}. {told}",
+        caption=words.join(_describe_step(one, {}, words) for one in shared),
         columns=name_columns([words("heading.calculation")], numbers=()),
         rows=tuple(_list_groups(groups, shared, words)),
         empty=words("heading.no_utilisation"),
         look="worked-out",
         symbols="headings",
     )
-    further = [one for one in row.checks if not one.is_of_force]
-    shown: tuple[Block, ...] = (table,)
-    if further:
-        text = words.join(_describe_further(further, words))
-        shown += (Paragraph(text=text, look="small"),)
-    yield Part(kind="section", id=f"row-{number}-calculation", blocks=shown)
+    further = tuple(
+        _describe_further(*one, words) for one in _choose(study, is_of_force=False)
+    )
+    return section(*named, reading, table, Items(items=further, look="small"))
 
 
-def _describe_further(checks: Sequence[CheckRecord], words: Words) -> Iterator[str]:
-    """Checks that compare no force, each with its verdict, clause and reason."""
-    for check in checks:
-        sign = show_verdict(check.verdict, words).symbol
-        clause = f" ({check.clause})" if check.clause not in ("", MISSING) else ""
-        label = f"{sign} {show_check(words, check)}{clause}"
-        reason = words.show(check.reason).rstrip(".")
-        yield words("show.label", label=label, text=reason)
+def _choose(study: Study, *, is_of_force: bool) -> list[_OfRow]:
+    """Check that decides, of each kind; those with a ratio come first."""
+    kinds: dict[tuple[str, ...], list[_OfRow]] = {}
+    for row in study.rows:
+        for check in row.checks:
+            if check.is_of_force is is_of_force:
+                kinds.setdefault(_name_kind(check), []).append((row.id, check))
+    return [
+        min(every, key=lambda one: (one[1].used is None, *rank_check(one[1])))
+        for every in kinds.values()
+    ]
 
 
-def _group(checks: Sequence[CheckRecord]) -> list[list[CheckRecord]]:
-    """Checks of forces by the steps that lead to their design force."""
-    groups: dict[tuple[object, ...], list[CheckRecord]] = {}
-    for check in checks:
-        if check.is_of_force:
-            told = tuple(_identify(one) for one in _take_action(check))
-            groups.setdefault(told, []).append(check)
+def _name_kind(check: CheckRecord) -> tuple[str, ...]:
+    """Member, mode and place, and the way in which the resistance was found."""
+    told = check.resistance_derivation
+    return (check.member, check.mode, check.position, told.key if told else "")
+
+
+def _describe_further(row: str, check: CheckRecord, words: Words) -> str:
+    """Check that compares no force, with its verdict, clause and reason."""
+    sign = show_verdict(check.verdict, words).symbol
+    clause = f" ({check.clause})" if check.clause not in ("", MISSING) else ""
+    label = f"{sign} {show_text(row)}, {show_check(words, check)}{clause}"
+    return words("show.label", label=label, text=words.show(check.reason))
+
+
+def _group(checks: Sequence[_OfRow]) -> list[list[_OfRow]]:
+    """Checks of forces by the steps of their net row that lead to the design force."""
+    groups: dict[tuple[object, ...], list[_OfRow]] = {}
+    for row, check in checks:
+        told = tuple(_identify(one) for one in _take_action(check))
+        groups.setdefault((row, *told), []).append((row, check))
     return list(groups.values())
 
 
@@ -168,39 +176,36 @@ def _take_action(check: CheckRecord) -> Iterator[Step]:
             return
 
 
-def _find_shared(groups: Sequence[Sequence[CheckRecord]]) -> list[Step]:
-    """Given and solved values that have one value in the whole row, in their order."""
+def _find_shared(groups: Sequence[Sequence[_OfRow]]) -> list[Step]:
+    """Given and solved values that have one value in all checks, in their order."""
     found: dict[str, dict[object, Step]] = {}
     for group in groups:
-        for step in _take_action(group[0]):
+        for step in _take_action(group[0][1]):
             found.setdefault(step.symbol, {})[_identify(step)] = step
     alone = [steps for steps in found.values() if len(steps) == 1]
     return [step for steps in alone for step in steps.values() if not step.formula]
 
 
 def _list_groups(
-    groups: Sequence[Sequence[CheckRecord]], shared: Sequence[Step], words: Words
+    groups: Sequence[Sequence[_OfRow]], shared: Sequence[Step], words: Words
 ) -> Iterator[tuple[Cell, ...]]:
     told: set[object] = set()  # resistances whose dimensions stand above already
     above = {step.symbol for step in shared}
     for group in groups:
-        whole = list(_take_action(group[0]))
+        checks = [check for _, check in group]
+        whole = list(_take_action(checks[0]))
         action = [one for one in whole if one.symbol not in above]
-        known = {one.id: evaluate(one.steps) for one in group}
-        first = known[group[0].id]
+        first = evaluate(checks[0].steps)
         steps = [_describe_step(one, first, words) for one in _set_leaves_first(action)]
-        name = words("show.label", label=_name_group(group, words), text="")
+        name = f"{show_text(group[0][0])}, {_name_group(checks, words)}"
         parts = [
-            Piece(name, "name"),
+            Piece(words("show.label", label=name, text=""), "name"),
             Piece(f"{words.join(steps)}.", has_symbols=True),
         ]
-        for check in group:
+        for check in checks:
             own = [one for one in check.steps[len(whole) :] if one.symbol not in above]
             resistance = (check.resistance_cell, check.mode, check.read("R_k"))
-            is_told = resistance in told
-            parts += _describe_check(
-                check, own, known[check.id], words, is_told=is_told
-            )
+            parts += _describe_check(check, own, words, is_told=resistance in told)
             told.add(resistance)
         yield (rich_cell(tuple(parts)),)
 
@@ -219,16 +224,10 @@ def _set_leaves_first(steps: Sequence[Step]) -> list[Step]:
 
 def _describe_step(step: Step, known: dict[str, Quantity], words: Words) -> str:
     """Symbol, formula, value; what the heading says of all checks is left out."""
-    if not step.formula:
-        return _describe_leaf(step, words)
-    if step.symbol in _BY_HEADING:
+    if not step.formula or step.symbol in _BY_HEADING:
         return f"{step.symbol} = {_show_step(step, words)}"
     formula = _write(known[step.symbol], lambda leaf: leaf.symbol, words)
     return f"{step.symbol} = {formula} = {_show_digits(step.value, words)}"
-
-
-def _describe_leaf(step: Step, words: Words) -> str:
-    return f"{step.symbol} = {_show_step(step, words)}"
 
 
 def _show_step(step: Step, words: Words) -> str:
@@ -248,17 +247,16 @@ def _show_digits(value: float | None, words: Words) -> str:
 def _describe_check(
     check: CheckRecord,
     steps: Sequence[Step],
-    known: dict[str, Quantity],
     words: Words,
     *,
     is_told: bool,
 ) -> tuple[Piece, Piece]:
     """Line of one check: where its resistance comes from, and what follows."""
-    told = []
+    told, known = [], evaluate(check.steps)
     for step in steps:
         given = _describe_given(known[step.symbol], check, words)
         if given and is_told and step.symbol == "R_k":
-            told.append(_describe_leaf(step, words))
+            told.append(f"R_k = {_show_step(step, words)}")
         elif given:
             told.append(f"{step.symbol} {' '.join(given)}")
         else:

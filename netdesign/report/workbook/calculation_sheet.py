@@ -23,7 +23,6 @@ from netdesign.report.workbook.formulas import (
     write_same,
 )
 from netdesign.report.workbook.given_cells import IN_FORCES, GivenCells
-from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.widths import count_lines
 from netdesign.report.workbook.writer import Book
 from netdesign.study.records import CheckRecord, Study
@@ -179,12 +178,10 @@ def add_calculation_sheet(book: Book, study: Study, calculations: Calculations) 
         book.write_wide(sheet, (top, 0), title, _WIDTHS, bold=True)
         for line in block:
             _write_line(book, sheet, calculations, block, line)
-        book.paper(sheet).keep(top, top + len(block))
     if not calculations.titles:
         text = words("heading.no_check")
         sheet.write_string(_HEAD_ROW + 1, 0, text, book.text())
-    book.paper(sheet).repeat(_HEAD_ROW)
-    book.paper(sheet).height = find_height(_WIDTHS, A4, 1)
+    sheet.repeat_rows(_HEAD_ROW)
     sheet.freeze_panes(_HEAD_ROW + 1, 1)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,8 +13,6 @@ _FONT = {"name": "Arial", "size": 9, "color": INK}
 _BARS = "#8A929A"
 _MOST_LINES = 8  # of a chart of cases; more cannot be told apart
 _SHADES = (INK, ACCENT, GREY, "#2A4B6B", "#C9A227", "#4F7A5B", "#8C6BB1", "#A9AFB6")
-_ROW_PX = 20  # height of a line below a table
-_WITH_CHART = 8  # lines of a table that stay with the chart below it
 _MARKERS = ("circle", "square", "triangle", "diamond")
 
 
@@ -106,17 +103,8 @@ def add_case_chart(
     density = name_heading(book.words, "density_kg_m3")
     titles = (book.words("heading.foot_in_cases"), density, "kN")
     _finish(chart, titles)
-    size = {"width": 820, "height": 360}
-    chart.set_size(size)
-    _insert_below(book, sheet, bottom, chart, size["height"])
-
-
-def _insert_below(book: Book, sheet: Any, bottom: int, chart: Any, high: int) -> None:
-    """Below a table, on one page with the last lines of it."""
-    top = bottom + 2
-    first = max(bottom - _WITH_CHART, 0)
-    book.paper(sheet).keep(first, top + math.ceil(high / _ROW_PX))
-    sheet.insert_chart(top, 0, chart, {"object_position": 1})
+    chart.set_size({"width": 820, "height": 360})
+    sheet.insert_chart(bottom + 2, 0, chart, {"object_position": 1})
 
 
 def _finish(chart: Any, titles: tuple[str, str, str]) -> None:

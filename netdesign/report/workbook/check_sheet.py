@@ -26,7 +26,6 @@ from netdesign.report.workbook.check_columns import (
 )
 from netdesign.report.workbook.check_line import CheckLine
 from netdesign.report.workbook.given_cells import GivenCells
-from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.widths import fit_headings
 from netdesign.report.workbook.writer import Book
 from netdesign.study.records import Study
@@ -70,9 +69,6 @@ def add_check_sheet(
     if line == HEAD_ROW + 1:
         text = book.words("heading.no_check")
         sheet.write_string(line, 0, text, book.text())
-    printed = [field.width for field in SHOWN if field not in FOLDED]
-    named = LEAD[2].index + 1
-    book.paper(sheet).height = find_height(printed, A4, _PAGES, named)
     _finish(book, sheet, max(line, HEAD_ROW + 2))
 
 
@@ -123,4 +119,4 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         decorate(sheet, (first - 1, field.index, last - 1, field.index))
     sheet.autofilter(HEAD_ROW, 0, last - 1, len(SHOWN) - 1)
     sheet.freeze_panes(HEAD_ROW + 1, 3)
-    book.paper(sheet).repeat(HEAD_ROW)
+    sheet.repeat_rows(HEAD_ROW)

@@ -128,7 +128,6 @@ def _add_sheets(book: Book, study: Study) -> None:
     book.add_table_sheet("provenance", words("heading.provenance"), made)
     cells.watch()
     link_sheets(book, SHEETS[1:])
-    book.end_pages()
 
 
 def _add_schedule(book: Book, study: Study) -> None:

@@ -27,7 +27,6 @@ from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_line import CHANGED, show_cached, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.formulas import write_merged
-from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.widths import count_lines, fit_headings
 from netdesign.report.workbook.writer import Book
 from netdesign.study.case_records import CasePoint
@@ -79,8 +78,7 @@ def add_summary_sheet(book: Book, study: Study) -> None:
     book.add_ratio_bars(sheet, (_HEAD_ROW + 1, _RATIO, last, _RATIO))
     sheet.autofilter(_HEAD_ROW, 0, last, len(_WIDTHS) - 1)
     sheet.freeze_panes(_HEAD_ROW + 1, 2)
-    book.paper(sheet).repeat(_HEAD_ROW)
-    book.paper(sheet).height = find_height(widths, A4, 1)
+    sheet.repeat_rows(_HEAD_ROW)
     rows, columns = (_HEAD_ROW + 1, last), (_RATIO, _LIMIT)
     unbounded = [
         _HEAD_ROW + number
@@ -349,7 +347,6 @@ def _write_below(book: Book, sheet: Any, study: Study, top: int) -> None:
         ),
     ]
     for title, pairs in blocks:
-        book.paper(sheet).keep(top, top + min(len(pairs), _LABELLED))
         for column in range(_LIMIT):
             shown = "" if column else book.words(title)
             sheet.write_string(top, column, shown, head)

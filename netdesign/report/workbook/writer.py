@@ -11,14 +11,7 @@ from typing import Any
 from netdesign.outcome import Verdict
 from netdesign.report.blocks.table import Cell, Column, Table
 from netdesign.report.words import Words, number_format, show_verdict
-from netdesign.report.workbook.bands import split_bands
-from netdesign.report.workbook.pages import (
-    A4,
-    NAMING,
-    Paper,
-    choose_paper,
-    find_height,
-)
+from netdesign.report.workbook.pages import A4, NAMING, choose_paper
 from netdesign.report.workbook.widths import (
     BOLD,
     count_lines,
@@ -45,8 +38,6 @@ _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 _LONGEST_LINK = 2000  # of its text too; older XlsxWriters leave longer links out
-_FIRST_LINES = 3  # of a long table, which stay with its heading
-_SHORT = 26  # lines of a table that stays whole
 
 
 def _show_literally(text: str) -> str:
@@ -64,7 +55,6 @@ class Book:
         self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
         self._forms: dict[tuple[bool, str | int | None], Any] = {}
-        self._papers: dict[str, Paper] = {}
 
     def format(self, **properties: Any) -> Any:
         """Format with the font of the workbook and these properties."""
@@ -79,21 +69,7 @@ class Book:
 
     def set_height(self, sheet: Any, row: int, lines: int) -> None:
         """Height for wrapped text: not every program finds it on its own."""
-        height = _LINE_PT * lines + 3
-        sheet.set_row(row, height)
-        self.paper(sheet).set_height(row, height)
-
-    def paper(self, sheet: Any) -> Paper:
-        """Lines of a sheet, for its pages."""
-        name = sheet.get_name()
-        if name not in self._papers:
-            self._papers[name] = Paper(sheet)
-        return self._papers[name]
-
-    def end_pages(self) -> None:
-        """Write where the pages of every sheet end, once all is on them."""
-        for paper in self._papers.values():
-            paper.end_pages()
+        sheet.set_row(row, _LINE_PT * lines + 3)
 
     def add_sheet(self, name: str, title: str, *, paper: int = A4) -> Any:
         """Sheet with a title in its first cell, ready to print on one page width."""
@@ -185,12 +161,8 @@ class Book:
         self.write_wide(sheet, (top, 0), table.caption, widths, italic=True)
         if not table.rows:
             self.write_wide(sheet, (top + 1, 0), table.empty, widths)
-            self.paper(sheet).keep(top, top + 1)
             return top + 3
         self.write_head(sheet, top + 1, table.columns, widths)
-        count = len(table.rows)
-        kept = count if count <= _SHORT else _FIRST_LINES
-        self.paper(sheet).keep(top, top + 1 + kept)
         last = len(table.columns) - 1
         own = [*widths[:last], sum(widths[last:])]
         for row, cells in enumerate(table.rows, top + 2):
@@ -229,24 +201,21 @@ class Book:
         Where there are several, no heading is repeated on each page of paper: it would
         stand above columns of another table.
         """
-        tables = [split_bands(table, self.words) for table in tables]
         widths = find_widths(tables)
         paper, pages = choose_paper(widths)
         sheet = self.add_sheet(name, title, paper=paper)
         if pages > 1:
             sheet.fit_to_pages(pages, 0)
             sheet.repeat_columns(0, NAMING - 1)
-        self.paper(sheet).height = find_height(widths, paper, pages)
         self.link_back(sheet)
         top = 2
-        self.paper(sheet).keep(0, top)
         for table in tables:
             top = self.write_table(sheet, table, top, widths)
         for index, width in enumerate(widths):
             sheet.set_column(index, index, width)
         first = tables[0]
         if len(tables) == 1:
-            self.paper(sheet).repeat(3)
+            sheet.repeat_rows(3)
         if len(tables) == 1 and first.rows:
             sheet.autofilter(3, 0, 3 + len(first.rows), len(first.columns) - 1)
         sheet.freeze_panes(4, 1)

@@ -10,8 +10,8 @@ import numpy as np
 from netdesign.coupling.face import Face
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
-from netdesign.report.drawing.envelope_figure import draw_envelope
 from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
+from netdesign.report.drawing.grid_record import record_grid
 from netdesign.report.drawing.monitoring_figure import draw_monitoring
 from netdesign.report.drawing.net_figures import draw_node_forces, draw_stick_slip
 from netdesign.report.drawing.panel_figure import draw_panel
@@ -67,9 +67,9 @@ def draw_slow(rng: random.Random, words) -> list[str]:
     face = build_face(rng)
     row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
     return [
-        draw_envelope(row, words),
-        draw_node_forces(face, "f", words),
-        draw_stick_slip(face, "t", words),
+        draw_maps(record_grid(row), words),
+        draw_node_forces(face, words),
+        draw_stick_slip(face, words),
     ]
 
 

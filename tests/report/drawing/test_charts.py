@@ -22,7 +22,7 @@ def panel(**changes):
 
 
 def draw(panels, title="t"):
-    return draw_panels(panels, "x", title, time_label="time")
+    return draw_panels(panels, title, time_label="time")
 
 
 def test_names_ticks_and_marks_are_readable():

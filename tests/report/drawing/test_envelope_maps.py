@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
+from netdesign.report.drawing.grid_record import record_grid
 from netdesign.report.drawing.plain_svg import Chart, Frame, list_ticks, shade
 from netdesign.study.case_records import (
     AxisRecord,
@@ -15,6 +16,7 @@ from netdesign.study.case_records import (
     LineRecord,
     MapRecord,
 )
+from tests.report.build_study import build_row
 
 NS = "{http://www.w3.org/2000/svg}"
 
@@ -135,3 +137,63 @@ def test_words_on_a_chart_are_escaped():
     chart.text(0.0, 0.0, "<script>")
     assert "&lt;script&gt;" in chart.write(10.0, 'a "title"')
     assert "<script>" not in chart.write(10.0, "<script>")
+
+
+@pytest.mark.parametrize("samples", [2, 3])
+def test_a_grid_has_the_same_maps_with_a_cross_where_a_case_has_no_result(samples):
+    row = build_row("A", samples, scale=0.72, failed_case=True)
+    svg = draw_maps(record_grid(row))
+    shown = [one.text for one in shapes(svg, "text")]
+    for extreme in row.extremes:
+        assert f"{extreme.max_kN:.1f}" in svg
+    assert len(shapes(svg, "circle")) == len(row.extremes)
+    assert f"θ = {row.extremes[0].case.inclination_deg:.0f}°" in shown
+    assert {"×", "× no result"} <= set(shown)
+    assert draw_maps(record_grid(row)) == svg
+
+
+def test_a_grid_shows_the_force_of_each_of_its_cases():
+    row = build_row("A", 3, scale=0.72)
+    record = record_grid(row)
+    for bound in record.bounds:
+        forces = {
+            force for one in bound.maps for line in one.force_kN for force in line
+        }
+        assert forces == {getattr(one, f"{bound.quantity}_kN") for one in row.cases}
+        assert max(forces) == bound.max_kN
+
+
+def test_a_grid_of_one_density_is_one_column():
+    row = build_row("A", 3, scale=0.72)
+    densest = row.extremes[0].case.density_kg_m3
+    cases = [one for one in row.cases if one.case.density_kg_m3 == densest]
+    (one, *_) = record_grid(replace(row, cases=cases)).bounds
+    assert [map_.density_kg_m3 for map_ in one.maps] == [[densest]] * 3
+    svg = draw_maps(record_grid(replace(row, cases=cases)))
+    assert "nan" not in svg
+    assert f"{densest:g}" in [one.text for one in shapes(svg, "text")]
+
+
+def test_a_fine_grid_shows_three_inclinations_with_the_governing_one():
+    row = build_row("A", 7, scale=0.72, failed_case=True)
+    for bound in record_grid(row).bounds:
+        angles = [one.inclination_deg for one in bound.maps]
+        assert len(angles) <= 3
+        assert bound.case["inclination_deg"] in angles
+
+
+def test_slack_members_of_a_grid_are_left_out():
+    row = build_row("A", 3, scale=0.72, failed_case=True)
+    extremes = [
+        replace(one, max_kN=0.0) if one.quantity == "downhill_guy" else one
+        for one in row.extremes
+    ]
+    shown = draw_maps(record_grid(replace(row, extremes=extremes)))
+    assert "Downhill guy [kN]" not in shown
+    assert "Post [kN]" in shown
+
+
+def test_a_grid_of_failed_cases_only_has_no_drawing():
+    row = build_row("A", 3, scale=0.72, failed_case=True)
+    failed = next(case for case in row.cases if case.foot_anchor_kN is None)
+    assert draw_maps(record_grid(replace(row, cases=[failed], extremes=[]))) == ""

@@ -52,20 +52,20 @@ def texts(svg):
 
 def test_stick_and_slip_are_counted_and_differ_without_colour():
     slides = np.arange(9) > 5
-    shown = texts(draw_stick_slip(build_face(slides=slides), "x"))
+    shown = texts(draw_stick_slip(build_face(slides=slides)))
     assert "sticks: 5 of 7 nodes" in shown  # without the two ends
     assert "slips: 2 of 7 nodes" in shown
 
 
 @pytest.mark.parametrize("friction", [0.0, None])
 def test_without_a_limit_there_is_no_drawing(friction):
-    assert draw_stick_slip(build_face(friction=friction), "x") == ""
+    assert draw_stick_slip(build_face(friction=friction)) == ""
 
 
 def test_longest_arrow_is_the_largest_force():
     face = build_face()
     largest = np.hypot(*face.forces).max() / 1e3
-    shown = texts(draw_node_forces(face, "x"))
+    shown = texts(draw_node_forces(face))
     assert f"{largest:.1f} kN/m" in shown
 
 
@@ -82,15 +82,15 @@ def picture(density):
 
 
 def test_density_scale_spans_the_densities():
-    shown = texts(draw_meshes([picture([300.0, 500.0])], "x"))
+    shown = texts(draw_meshes([picture([300.0, 500.0])]))
     assert {"300", "400", "500", "density [kg/m³]"} <= set(shown)
 
 
 def test_uniform_snow_needs_no_scale():
-    shown = texts(draw_meshes([picture([300.0, 300.0])], "x"))
+    shown = texts(draw_meshes([picture([300.0, 300.0])]))
     assert "density 300 kg/m³ throughout" in shown
 
 
 def test_drawings_hold_no_pictures_that_could_be_blocked():
-    svg = draw_meshes([picture([300.0, 500.0])], "x")
+    svg = draw_meshes([picture([300.0, 500.0])])
     assert not re.search(r"<image|base64|<script", svg)

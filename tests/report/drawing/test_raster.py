@@ -5,13 +5,13 @@ import io
 import pytest
 from PIL import Image
 
+from netdesign.report.drawing.plain_svg import Chart
 from netdesign.report.drawing.raster import (
     DOTS_PER_INCH,
     read_size,
     read_title,
     render_png,
 )
-from netdesign.report.drawing.sketch import Sketch
 
 
 def draw(sketch):
@@ -26,7 +26,7 @@ def look(picture, x, y):
 
 
 def test_shapes_stand_where_the_drawing_has_them():
-    sketch = Sketch()
+    sketch = Chart()
     sketch.rectangle(10.0, 10.0, 20.0, 10.0, "#b23a1e")
     sketch.area([(60.0, 10.0), (90.0, 10.0), (90.0, 40.0), (60.0, 40.0)], "#7d838b")
     sketch.line([(0.0, 61.3), (144.0, 61.3)], stroke="#1b1e22", width=4.0)
@@ -42,7 +42,7 @@ def test_shapes_stand_where_the_drawing_has_them():
 
 
 def test_an_area_bounds_loose_lines():
-    sketch = Sketch()
+    sketch = Chart()
     sketch.clip_area("half", [(0, 0), (72, 0), (72, 72), (0, 72)])
     ends = [((10.0, 36.2), (130.0, 36.2))]
     sketch.segments(ends, stroke="#1b1e22", width=5.0, clip="half")
@@ -56,15 +56,15 @@ def test_an_area_bounds_loose_lines():
 )
 def test_words_are_set_by_their_anchor(anchor, left):
     """A sign that the font lacks is a question mark, and no warning."""
-    sketch = Sketch()
-    sketch.words((72.0, 40.0), "MMMMM$_{\u4e2d", anchor=anchor, bold=True)
+    sketch = Chart()
+    sketch.text(72.0, 40.0, "MMMMM$_{\u4e2d", anchor=anchor, bold=True)
     picture = draw(sketch).convert("L").point(lambda level: 255 * (level < 128))
     found = picture.getbbox()[0] * 72.0 / DOTS_PER_INCH
     assert found == pytest.approx(left, abs=8.0)
 
 
 def test_bytes_words_and_size_of_a_drawing():
-    svg = Sketch().write(72.0, "A <title>", width=144.0)
+    svg = Chart().write(72.0, "A <title>", width=144.0)
     assert render_png(svg) == render_png(svg)
     assert read_title(svg) == "A <title>"
     assert read_size(svg) == (144.0, 72.0)
@@ -72,6 +72,6 @@ def test_bytes_words_and_size_of_a_drawing():
 
 @pytest.mark.parametrize("shape", ['<image x="1"/>', '<path d="M0 0Q1 1 2 2"/>'])
 def test_an_unknown_shape_is_a_fault_never_a_gap(shape):
-    svg = Sketch().write(72.0, "A", width=144.0).replace("</svg>", f"{shape}</svg>")
+    svg = Chart().write(72.0, "A", width=144.0).replace("</svg>", f"{shape}</svg>")
     with pytest.raises(ValueError, match="not known"):
         render_png(svg)

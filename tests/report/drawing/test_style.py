@@ -3,7 +3,6 @@ from xml.etree import ElementTree
 
 import pytest
 
-from netdesign.report.drawing.envelope_figure import draw_envelope
 from netdesign.report.drawing.section_figure import draw_section
 from tests.report.build_study import build_drawing, build_row
 
@@ -33,24 +32,6 @@ def test_stick_and_slip_differ_without_colour():
     assert both.count("stroke-dasharray") > stuck.count("stroke-dasharray")
 
 
-@pytest.mark.parametrize("samples", [2, 3, 7])
-def test_envelope_marks_each_governing_value(samples):
-    row = build_row("A", samples, scale=0.72, failed_case=True)
-    shown = texts(draw_envelope(row))
-    for extreme in row.extremes:
-        assert f"{extreme.max_kN:.1f}" in shown
-    assert "θ = 35°" in shown
-    assert "φ = 15°" in shown
-    assert "no result" in shown
-
-
-def test_slack_members_are_left_out_of_the_envelope():
-    slack = [replace(c, downhill_guy_kN=0.0 if c.post_kN else None) for c in ROW.cases]
-    shown = texts(draw_envelope(replace(ROW, cases=slack)))
-    assert "Downhill guy [kN]" not in shown
-    assert "Post [kN]" in shown
-
-
 def test_slack_anchor_keeps_its_place_in_the_section():
     arrows = [
         replace(a, force_x_kN=0.0, force_y_kN=0.0) for a in ROW.drawing.arrows[3:]
@@ -61,18 +42,9 @@ def test_slack_anchor_keeps_its_place_in_the_section():
     assert "0.0 kN" in shown
 
 
-def test_envelope_of_failed_cases_only_is_empty():
-    failed = next(case for case in ROW.cases if case.foot_anchor_kN is None)
-    assert draw_envelope(replace(ROW, cases=[failed], extremes=[])) == ""
-
-
 def test_drawings_repeat_byte_for_byte_without_a_date():
-    for draw in (
-        lambda: draw_section(ROW.drawing, "x"),
-        lambda: draw_envelope(ROW),
-    ):
-        svg = draw()
-        assert svg == draw()
-        assert "<metadata" not in svg
-        assert "<style" not in svg
-        assert "<script" not in svg
+    svg = draw_section(ROW.drawing, "x")
+    assert svg == draw_section(ROW.drawing, "x")
+    assert "<metadata" not in svg
+    assert "<style" not in svg
+    assert "<script" not in svg

@@ -1,11 +1,11 @@
-"""Checks worked out: lines of the governing one, and the annex of all."""
+"""Checks worked out: lines of the governing one, and the annex of all kinds."""
 
 from dataclasses import replace
 
 from netdesign.report.governing import find_shown
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.worked import work_out
-from netdesign.report.words import ENGLISH
+from netdesign.report.words import ENGLISH, show_check
 from tests.report.build_study import build_row, build_study
 from tests.report.reading import PageReader
 
@@ -50,12 +50,29 @@ def test_worked_steps_lead_from_the_solved_force_to_the_utilisation():
     assert list_lines(replace(ROW.checks[0], steps=[])) == []
 
 
-def test_the_annex_has_every_check_of_every_row():
+def test_the_annex_has_the_governing_check_of_every_kind():
     page = PageReader(render_html(STUDY))
-    for number, row in enumerate(STUDY.rows, 1):
-        (table,) = page.tables[f"row-{number}-calculation"]
-        told = " ".join(cell for line in table for cell in line)
-        wanted = [one for one in row.checks if one.is_of_force]
-        assert told.count("μ =") == sum("μ" in one.known for one in wanted)
-        for check in wanted:
-            assert check.resistance_cell in told
+    (table,) = page.tables["annex-checks"]
+    told = " ".join(cell for line in table for cell in line)
+    kinds = {}
+    for row in STUDY.rows:
+        for one in (one for one in row.checks if one.is_of_force):
+            way = one.resistance_derivation and one.resistance_derivation.key
+            kinds.setdefault((one.member, one.mode, one.position, way), []).append(one)
+    known = [any(one.used is not None for one in kind) for kind in kinds.values()]
+    assert told.count("μ =") == sum(known) > 5
+    for kind in kinds.values():
+        assert any(one.resistance_cell in told for one in kind)
+
+
+def test_the_annex_has_each_requirement_without_a_force_once():
+    page = " ".join(PageReader(render_html(STUDY)).text)
+    annex = page[page.rindex(ENGLISH("heading.annex_checks")) :]
+    wanted = {
+        show_check(ENGLISH, one)
+        for row in STUDY.rows
+        for one in row.checks
+        if not one.is_of_force
+    }
+    assert wanted
+    assert all(name in annex for name in wanted)
