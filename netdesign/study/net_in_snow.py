@@ -25,7 +25,7 @@ from netdesign.words.names import name_member
 def list_guy_notes(
     row: NetRow, ranges: Ranges, checks: Sequence[CheckRecord], standard: Standard
 ) -> Iterator[Message]:
-    """Width of snow that each working guy bears beside its design force.
+    """Note on the width of snow that working guys bear beside their design forces.
 
     Theory: structure/THEORY.md, (S23). Of several supports the least.
     """
@@ -35,6 +35,7 @@ def list_guy_notes(
     except ModelError:  # outside the guideline's closed forms
         return
     across = min(row.net_height, row.held_thickness)
+    widths = []
     for guy in GUYS:
         spare = [
             bear_snow(force, check.resistance_kN, _find_cosine(row, ranges, guy))
@@ -45,12 +46,10 @@ def list_guy_notes(
         ]
         if spare and on_action and min(spare) > 0.0:
             width = min(spare) / (on_action * pressure * across)
-            yield say(
-                "row.guy_in_snow",
-                member=name_member(guy),
-                pressure=pressure,
-                width=width,
-            )
+            named = name_member(guy)
+            widths.append(say("row.guy_in_snow", member=named, width=width))
+    if widths:
+        yield say("row.guys_in_snow", guys=tuple(widths), pressure=pressure)
 
 
 def bear_snow(force: float, resistance: float, cosine: float) -> float:
