@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
+    example_option,
     force_option,
     json_option,
     language_option,
@@ -21,7 +22,7 @@ from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from netdesign.terrain.coverage import Coverage
     from netdesign.terrain.geojson import Feature
@@ -32,11 +33,13 @@ if TYPE_CHECKING:
 _SITE = "site.xlsx"
 _GUIDELINE = "swiss-guideline-2007"
 _ROWS = "rows.geojson"
+_TYPES = "types.xlsx"
 
 
 @click.command()
-@click.argument("grid", type=click.Path(path_type=Path, dir_okay=False))
-@click.argument("rows", type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("grid", required=False, type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("rows", required=False, type=click.Path(path_type=Path, dir_okay=False))
+@example_option("Made-up starting zone; its grid, rows and types stand beside.")
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -51,7 +54,7 @@ _ROWS = "rows.geojson"
 @click.option(
     "--most",
     type=click.FloatRange(1.0, 500.0),
-    default=60.0,
+    default=50.0,
     show_default=True,
     help="Largest upslope length that is looked for [m].",
 )
@@ -66,10 +69,11 @@ _ROWS = "rows.geojson"
 @json_option("rows on the terrain")
 @force_option
 @quiet_option
-def terrain(grid: Path, rows: Path, **asked: Any) -> None:
+def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     """Read slope, length and posts of net rows off an elevation grid.
 
     \b
+    netdesign terrain --example
     netdesign terrain grid.asc rows.geojson --out site.xlsx
     netdesign terrain grid.asc rows.geojson --types types.xlsx --most 40
 
@@ -77,7 +81,65 @@ def terrain(grid: Path, rows: Path, **asked: Any) -> None:
     coordinates; their properties are columns of sheet Nets: id, net height, post
     spacing and any other. Each derived cell has a note with its band and its stretch.
     """
-    from netdesign.edge.output import require_free, write_files
+    language: Language = asked["language"]
+    folder, site = _place(asked)
+    if asked["example"]:
+        if grid is not None or folder is None:
+            raise UsageRefusal(say("terrain.example_alone"))
+        grid, rows, asked["types"] = _write_example(folder, overwrite=asked["force"])
+    if grid is None or rows is None:
+        raise UsageRefusal(say("terrain.no_input"))
+    _measure(grid, rows, folder, site, asked, language)
+
+
+def _place(asked: Mapping[str, Any]) -> tuple[Path | None, str]:
+    """Folder of the outputs, None of none, and the workbook's name."""
+    from netdesign.edge.output import require_free
+    from netdesign.report.page.terrain_page import PAGE_FILE
+
+    if asked["as_json"] and asked["out"] is None:
+        return None, ""
+    site = asked["out"] or Path(_SITE)
+    if site.suffix.lower() != ".xlsx":
+        raise UsageRefusal(say("terrain.no_xlsx", file=site.name))
+    names = (site.name, _ROWS, PAGE_FILE)
+    require_free([site.parent / one for one in names], overwrite=asked["force"])
+    return site.parent, site.name
+
+
+def _write_example(folder: Path, *, overwrite: bool) -> tuple[Path, Path, Path]:
+    """Grid, rows and types of the made-up starting zone, written to a folder."""
+    from netdesign.edge.output import write_files
+    from netdesign.site.template.workbook import write_site_workbook
+    from netdesign.terrain.example import (
+        GRID_FILE,
+        ROWS_FILE,
+        build_example,
+        write_grid,
+        write_rows,
+    )
+
+    ground = build_example()
+    places = {
+        folder / GRID_FILE: write_grid(ground),
+        folder / ROWS_FILE: write_rows(ground),
+    }
+    write_files(places, overwrite=overwrite)
+    types = folder / _TYPES
+    write_site_workbook(types, example=True, overwrite=overwrite)
+    return folder / GRID_FILE, folder / ROWS_FILE, types
+
+
+def _measure(
+    grid: Path,
+    rows: Path,
+    folder: Path | None,
+    name: str,
+    asked: Mapping[str, Any],
+    language: Language,
+) -> None:
+    """Measure the rows, tell what was found, and write it."""
+    from netdesign.edge.output import write_files
     from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
     from netdesign.terrain.geojson import list_row_features, write_features
     from netdesign.terrain.grid import read_grid
@@ -85,15 +147,6 @@ def terrain(grid: Path, rows: Path, **asked: Any) -> None:
     from netdesign.terrain.plan import read_plan
     from netdesign.terrain.site_lines import read_other_sheets, write_workbook
 
-    language: Language = asked["language"]
-    if asked["as_json"] and asked["out"] is None:
-        site = None
-    else:
-        site = asked["out"] or Path(_SITE)
-        if site.suffix.lower() != ".xlsx":
-            raise UsageRefusal(say("terrain.no_xlsx", file=site.name))
-        names = (site.name, _ROWS, PAGE_FILE)
-        require_free([site.parent / one for one in names], overwrite=asked["force"])
     ground, plan = read_grid(grid), read_plan(rows)
     others = read_other_sheets(asked["types"]) if asked["types"] else None
     surface, measured = measure_plan(ground, plan, most=asked["most"])
@@ -104,19 +157,20 @@ def terrain(grid: Path, rows: Path, **asked: Any) -> None:
         print_document(_describe(features, coverage, surface.noise))
     else:
         _tell_rows(measured, coverage, surface.noise, language)
-    if site is not None:
-        page = render_terrain(
-            *(surface, plan, measured, coverage, (grid.name, sha256), language)
-        )
-        places = {
-            site: write_workbook(measured, grid.name, others, language),
-            site.parent / _ROWS: write_features(features),
-            site.parent / PAGE_FILE: page,
-        }
-        write_files(places, overwrite=asked["force"])
+    if folder is None:
+        return
+    page = render_terrain(
+        *(surface, plan, measured, coverage, (grid.name, sha256), language)
+    )
+    places = {
+        folder / name: write_workbook(measured, grid.name, others, language),
+        folder / _ROWS: write_features(features),
+        folder / PAGE_FILE: page,
+    }
+    write_files(places, overwrite=asked["force"])
+    if not asked["quiet"]:
         for path in places:
-            if not asked["quiet"]:
-                tell(say("cli.wrote", path=str(path)), language, err=True)
+            tell(say("cli.wrote", path=str(path)), language, err=True)
 
 
 def _cover(
@@ -159,7 +213,7 @@ def _describe(
 def _tell_rows(
     rows: Sequence[MeasuredRow], coverage: Coverage, noise: float, language: Language
 ) -> None:
-    from netdesign.terrain.measure import describe_kinks
+    from netdesign.terrain.measure import LEAST_LENGTH, describe_kinks
 
     tell(say("terrain.noise", noise=noise), language)
     for row in rows:
@@ -178,6 +232,8 @@ def _tell_rows(
             ),
             language,
         )
+        if row.upslope.length.value < LEAST_LENGTH:
+            tell(say("terrain.flat_row", row=row.line.id), language)
         if kinks := describe_kinks(row):
             tell(kinks, language)
     if coverage.area:

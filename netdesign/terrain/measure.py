@@ -24,6 +24,7 @@ from netdesign.words.message import Message, say
 LEAST_STEEP = math.radians(25.0)  # below it the snow holds itself
 KINK, BROKEN = math.radians(5.0), math.radians(15.0)  # bends of a row at a post
 CARED_ANGLE, CARED_LENGTH = math.radians(0.5), 0.1  # a check cares about [rad, m]
+LEAST_LENGTH = 1.0  # of snow above a row; less is none [m]
 _ERRORS = 2.0  # standard errors of a band
 
 

@@ -33,6 +33,7 @@ from netdesign.site.template.workbook import (
 from netdesign.terrain.measure import (
     CARED_ANGLE,
     CARED_LENGTH,
+    LEAST_LENGTH,
     Band,
     MeasuredRow,
 )
@@ -97,7 +98,7 @@ def derive_cells(
         ),
         DerivedCell(
             key="upslope_length",
-            value=max(1.0, round(_choose(length, CARED_LENGTH), 2)),
+            value=round(_choose(length, CARED_LENGTH), 2),
             note=say(
                 "terrain.of_length",
                 grid=grid,
@@ -190,7 +191,7 @@ def write_workbook(
     for row in rows:
         derived = {one.key: one for one in derive_cells(row, rows, grid)}
         typed = dict(row.line.cells)
-        values = {key: one.value for key, one in derived.items()}
+        values = {key: one.value for key, one in derived.items() if _is_told(one)}
         lines.append({**values, **typed, "id": row.line.id})
         notes.append({key: _tell(one, typed) for key, one in derived.items()})
     content = BytesIO()
@@ -210,6 +211,11 @@ def write_workbook(
                 sheet.write_comment(number, columns[key], text, size)
     book.workbook.close()
     return content.getvalue()
+
+
+def _is_told(cell: DerivedCell) -> bool:
+    """A row without snow above it gets no length: its cell asks for one."""
+    return cell.key != "upslope_length" or cell.value >= LEAST_LENGTH
 
 
 def _tell(cell: DerivedCell, typed: Mapping[str, object]) -> Message:

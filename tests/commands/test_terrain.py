@@ -154,3 +154,36 @@ def test_what_cannot_be_done_is_refused(slope, call, options, said):
     ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
     assert ended.code == 2
     assert said in ended.err
+
+
+def test_the_example_is_measured_and_lacks_nothing_but_its_ends(tmp_path, call):
+    out = tmp_path / "site.xlsx"
+    assert call("terrain", "--example", "--out", out).code == 0
+    names = {one.name for one in tmp_path.iterdir()}
+    assert names == {
+        *("site.xlsx", "rows.geojson", "terrain.html"),
+        *("starting-zone.asc", "rows-drawn.geojson", "types.xlsx"),
+    }
+    ended = call("check", out, "--dry-run")
+    assert ended.code == 0
+    assert "types at the row's end (sheet Ends)" in ended.out
+    again = call("terrain", "--example", "--out", out)
+    assert again.code == 2
+
+
+@pytest.mark.parametrize("arguments", [(), ("grid.asc",), ("--example", "--json")])
+def test_a_grid_without_rows_or_an_example_without_files_is_refused(call, arguments):
+    assert call("terrain", *arguments).code == 2
+
+
+def test_a_row_on_flat_ground_gets_no_length(slope, tmp_path, call):
+    text = (slope / "slope.asc").read_text().split("\n")
+    flat = [" ".join(["1800"] * 160)] * 160
+    (tmp_path / "flat.asc").write_text("\n".join([*text[:5], *flat]) + "\n")
+    out = tmp_path / "site.xlsx"
+    ended = call("terrain", tmp_path / "flat.asc", slope / "rows.json", "--out", out)
+    assert ended.code == 0, ended.err
+    assert "stands on ground flatter than 25°" in ended.out
+    nets = openpyxl.load_workbook(out)["Nets"]
+    cells = {one.value: one.column for one in nets[1]}
+    assert nets.cell(2, cells["upslope length [m]"]).value is None
