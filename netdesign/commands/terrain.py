@@ -15,6 +15,7 @@ from netdesign.commands.options import (
     json_option,
     language_option,
     quiet_option,
+    refuse_without,
 )
 from netdesign.commands.running import print_document
 from netdesign.commands.usage import UsageRefusal, tell
@@ -52,6 +53,20 @@ _TYPES = "types.xlsx"
     help="Workbook whose other sheets are taken over: types, ranges, project.",
 )
 @click.option(
+    "--verdicts",
+    "study_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="STUDY",
+    help="Put the verdicts of a study on the map instead; with --rows and --out.",
+)
+@click.option(
+    "--rows",
+    "places_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="ROWS",
+    help="The rows.geojson of that study's site, with --verdicts.",
+)
+@click.option(
     "--most",
     type=click.FloatRange(1.0, 500.0),
     default=50.0,
@@ -76,12 +91,17 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     netdesign terrain --example
     netdesign terrain grid.asc rows.geojson --out site.xlsx
     netdesign terrain grid.asc rows.geojson --types types.xlsx --most 40
+    netdesign terrain --verdicts study.json --rows rows.geojson --out checked.geojson
 
     GRID is an ESRI ASCII grid in metres. ROWS are GeoJSON LineStrings in its
     coordinates; their properties are columns of sheet Nets: id, net height, post
     spacing and any other. Each derived cell has a note with its band and its stretch.
     """
     language: Language = asked["language"]
+    if asked["study_file"] is not None:
+        _map_study(asked["study_file"], asked["places_file"], asked, language)
+        return
+    refuse_without(("places_file",), ("--verdicts",), language)
     folder, site = _place(asked)
     if asked["example"]:
         if grid is not None or folder is None:
@@ -90,6 +110,38 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     if grid is None or rows is None:
         raise UsageRefusal(say("terrain.no_input"))
     _measure(grid, rows, folder, site, asked, language)
+
+
+def _map_study(
+    study_file: Path,
+    places_file: Path | None,
+    asked: Mapping[str, Any],
+    language: Language,
+) -> None:
+    """Verdicts and anchors of a stored study on the map."""
+    from netdesign.commands.stored_study import read_own_site, require_sound
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.files.verdict_map import map_verdicts, read_places, write_verdicts
+    from netdesign.study.document import load_study
+    from netdesign.study.record_provenance import load_own_profile
+    from netdesign.terrain.plan import read_text
+
+    out = asked["out"]
+    if places_file is None or out is None or out.suffix.lower() != ".geojson":
+        raise UsageRefusal(say("terrain.verdicts_need"))
+    study = load_study(study_file)
+    require_sound(study, study_file, None, None, language)
+    site = read_own_site(study, study_file, None)
+    places = read_places(read_text(places_file), places_file.name)
+    profile = load_own_profile(study.profile)
+    features = map_verdicts(study, site, profile, places, language)
+    contents = write_verdicts(features, out.name)
+    files = {out.parent / name: content for name, content in contents.items()}
+    require_free(list(files), overwrite=asked["force"])
+    write_files(files, overwrite=asked["force"])
+    if not asked["quiet"]:
+        for path in files:
+            tell(say("cli.wrote", path=str(path)), language, err=True)
 
 
 def _place(asked: Mapping[str, Any]) -> tuple[Path | None, str]:

@@ -155,29 +155,38 @@ def list_bores(
     row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
 ) -> Iterator[Bore]:
     """Anchors of some posts beside each other, and of the panels between them."""
-    spacing = row.layout.post_spacing
-    anchors = [one for one in ANCHORS if not _is_same_as_foot(row, one)]
-    for anchor in anchors:
+    for _, bore in place_anchors(row, points, pulls):
+        x, y, z = bore.start
+        for post in range(_POSTS):
+            yield replace(bore, start=(x, y, z + post * row.layout.post_spacing))
+
+
+def place_anchors(
+    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
+) -> Iterator[tuple[Member, Bore]]:
+    """Anchors of a post, of the panel behind it, and which each of them is.
+
+    The axes are those of the slope at the net's foot of that post.
+    """
+    for anchor in ANCHORS:
         pull = find_pull(pulls, anchor, "intermediate")
-        if pull is None:
+        if _is_same_as_foot(row, anchor) or pull is None:
             continue
+        place = _find_place(points, anchor)
+        heading = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
+        flat = math.cos(pull.axis)
         kind = row.find_anchor_type(anchor)
-        length = kind.drilled if kind else None
         for aside, turned in _spread(row, points, anchor):
-            start = (_find_place(points, anchor), 0.0)
-            heading = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
-            flat = math.cos(pull.axis)
             direction = (
                 -heading * flat * math.cos(turned),
                 -math.sin(pull.axis),
                 flat * math.sin(turned),
             )
-            for post in range(_POSTS):
-                yield Bore(
-                    start=(*start, post * spacing + aside),
-                    direction=direction,
-                    length=length,
-                )
+            length = kind.drilled if kind else None
+            yield (
+                anchor,
+                Bore(start=(place, 0.0, aside), direction=direction, length=length),
+            )
 
 
 def _is_same_as_foot(row: NetRow, anchor: Member) -> bool:

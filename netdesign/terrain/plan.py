@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from netdesign.edge.causes import explain
-from netdesign.edge.given_files import read_bounded
+from netdesign.edge.given_files import decode_utf8, read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 from netdesign.site.columns.all_tables import NETS
@@ -78,14 +78,30 @@ def read_plan(path: Path) -> Plan:
     TerrainError
         With all faults of the file at once.
     """
+    text = read_text(path)
     try:
-        content = read_bounded(path, MOST_BYTES)
-        document = json.loads(content, parse_constant=_refuse_constant)
-    except (OSError, ValueError, RecursionError) as error:
+        document = json.loads(text, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
         raise TerrainError(
             say("terrain.unreadable", file=path.name, cause=explain(error))
         ) from None
     return parse_plan(document, path.name)
+
+
+def read_text(path: Path) -> str:
+    """Text of a GeoJSON file.
+
+    Raises
+    ------
+    TerrainError
+        If it cannot be read.
+    """
+    try:
+        return decode_utf8(read_bounded(path, MOST_BYTES))
+    except (OSError, ValueError) as error:
+        raise TerrainError(
+            say("terrain.unreadable", file=path.name, cause=explain(error))
+        ) from None
 
 
 def _refuse_constant(text: str) -> float:

@@ -1,0 +1,336 @@
+"""Verdicts and anchors of a study on the map: GeoJSON, a QGIS style, setting out."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from netdesign.checks import Standard
+from netdesign.checks.routes import find_proof_factor
+from netdesign.outcome import StudyError, TerrainError
+from netdesign.site.model import NetRow, Site
+from netdesign.structure.anchor_distance import Bore
+from netdesign.study.bores import place_anchors
+from netdesign.study.pulls import read_pulls
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.sideways import place_row
+from netdesign.terrain.geojson import Feature, write_features
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import say
+from netdesign.words.names import name_check, name_member
+
+SETTING_OUT = (
+    *("row", "post", "part", "type", "east_m", "north_m", "height_m"),
+    *("azimuth_deg", "dip_deg", "length_m", "design_kN", "proof_kN", "verdict"),
+)
+_SHADES = {
+    "pass": "44,122,75,255",
+    "fail": "178,48,30,255",
+    "not_proven": "214,150,20,255",
+    "declared": "70,95,160,255",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasuredPlace:
+    """A row as ``netdesign terrain`` wrote it.
+
+    Attributes
+    ----------
+    feature : mapping
+        Its GeoJSON.
+    aspect, slope : float
+        Direction in which the ground falls, and its angle [rad].
+    posts : list of tuple of float
+        East, north, height [m].
+    """
+
+    feature: Feature
+    aspect: float
+    slope: float
+    posts: list[tuple[float, float, float]]
+
+
+def read_places(text: str, file: str) -> dict[str, MeasuredPlace]:
+    """Rows of ``rows.geojson`` by name.
+
+    Raises
+    ------
+    TerrainError
+        If the file is not one that ``netdesign terrain`` wrote.
+    """
+    try:
+        features = json.loads(text)["features"]
+        rows = [one for one in features if one["properties"]["kind"] == "net row"]
+        found = {str(one["properties"]["id"]): _read_place(one) for one in rows}
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise TerrainError(say("terrain.no_places", file=file)) from None
+    if not found:
+        raise TerrainError(say("terrain.no_places", file=file))
+    return found
+
+
+def _read_place(feature: Feature) -> MeasuredPlace:
+    properties, points = feature["properties"], feature["geometry"]["coordinates"]
+    posts = [(float(x), float(y), float(z)) for x, y, z in points]
+    aspect, slope = properties["aspect_deg"], properties["slope_mean_deg"]
+    if not all(math.isfinite(one) for post in posts for one in post):
+        raise ValueError(feature)
+    return MeasuredPlace(
+        feature=feature,
+        aspect=math.radians(float(aspect)),
+        slope=math.radians(float(slope)),
+        posts=posts,
+    )
+
+
+def map_verdicts(
+    study: Study,
+    site: Site,
+    standard: Standard,
+    places: Mapping[str, MeasuredPlace],
+    language: Language,
+) -> list[Feature]:
+    """Rows, posts and anchors of a study, with their verdicts.
+
+    Parameters
+    ----------
+    study, site : Study and Site
+        Of one workbook.
+    standard : Standard
+        Profile of the study, for proof loads.
+    places : mapping of str to MeasuredPlace
+        Rows by their names.
+    language : str
+        Of the names of checks and parts.
+
+    Raises
+    ------
+    StudyError
+        If a row of the study has no place, or another number of posts.
+    """
+    by_id = {row.id: row for row in site.rows}
+    missing = tuple(row.id for row in study.rows if row.id not in places)
+    if missing:
+        raise StudyError(say("terrain.no_place", rows=missing))
+    found = []
+    for row in study.rows:
+        place, given = places[row.id], by_id[row.id]
+        found.append(_map_row(row, place, language))
+        found += _map_posts(row, place)
+        found += _map_anchors(row, given, standard, place, language)
+    return found
+
+
+def _map_row(row: RowStudy, place: MeasuredPlace, language: Language) -> Feature:
+    rated = [one for one in row.checks if one.utilisation is not None]
+    worst = max(rated, key=lambda one: one.utilisation or 0.0, default=None)
+    told: dict[str, Any] = {"verdict": row.verdict.value}
+    if worst is not None:
+        title = name_check(worst.member, worst.mode, worst.position)
+        told["governing_check"] = render(title, language)
+        told["utilisation"] = round(worst.utilisation or 0.0, 3)
+    properties = {**place.feature["properties"], **told}
+    return {**place.feature, "properties": properties}
+
+
+def _map_posts(row: RowStudy, place: MeasuredPlace) -> Iterator[Feature]:
+    for number, post in enumerate(place.posts, 1):
+        checks = _list_checks(row, place, number)
+        yield _point(
+            post,
+            {
+                "kind": "post",
+                "row": row.id,
+                "post": number,
+                "verdict": _find_worst(checks),
+            },
+        )
+
+
+def _list_checks(row: RowStudy, place: MeasuredPlace, post: int) -> list[CheckRecord]:
+    """Checks of the members at a post: of the end ones those of the row's end."""
+    is_end = post in (1, len(place.posts))
+    at_end = [one for one in row.checks if one.position == "edge"]
+    inside = [one for one in row.checks if one.position == "intermediate"]
+    return (at_end or inside) if is_end else inside
+
+
+def _find_worst(checks: Sequence[CheckRecord]) -> str:
+    order = ("fail", "not_proven", "declared", "pass")
+    found = {one.verdict.value for one in checks}
+    return next((one for one in order if one in found), "not_proven")
+
+
+def _map_anchors(
+    row: RowStudy,
+    given: NetRow,
+    standard: Standard,
+    place: MeasuredPlace,
+    language: Language,
+) -> Iterator[Feature]:
+    """Heads of the anchors of each post, with direction and design force."""
+    middle = 0.5 * sum(_list_inclinations(row))
+    points = place_row(given, middle)
+    pulls, factor = read_pulls(given, row.pulls), find_proof_factor(standard)
+    for number, post in enumerate(place.posts, 1):
+        checks = _list_checks(row, place, number)
+        for anchor, bore in place_anchors(given, points, pulls):
+            if number == len(place.posts) and bore.start[2] > _HALF * _span(given):
+                continue  # of the bay behind the last post
+            own = [one for one in checks if one.member == anchor]
+            forces = [one.read_band("E_d")[1] for one in own if one.mode == "pull_out"]
+            design = max((one for one in forces if one is not None), default=None)
+            proof = None if design is None or factor is None else factor * design
+            types = [one.resistance_type for one in own if one.resistance_type]
+            head, azimuth, dip = turn_to_map(bore, post, place, number)
+            yield _point(
+                head,
+                {
+                    "kind": "anchor",
+                    "row": row.id,
+                    "post": number,
+                    "part": render(name_member(anchor), language),
+                    "type": types[0] if types else "",
+                    "azimuth_deg": round(azimuth, 1),
+                    "dip_deg": round(dip, 1),
+                    "length_m": bore.length,
+                    "design_kN": None if design is None else round(design, 1),
+                    "proof_kN": None if proof is None else round(proof, 1),
+                    "net_inclination_deg": round(math.degrees(middle), 1),
+                    "verdict": _find_worst(own),
+                },
+            )
+
+
+_HALF = 0.4  # of a bay: beyond it an anchor belongs to the bay, not to the post
+
+
+def _span(row: NetRow) -> float:
+    return row.layout.post_spacing
+
+
+def _list_inclinations(row: RowStudy) -> tuple[float, float]:
+    """Least and largest inclination of the net in the cases [rad]."""
+    found = [math.radians(one.case.inclination_deg) for one in row.cases]
+    return (min(found), max(found)) if found else (math.radians(30.0),) * 2
+
+
+def turn_to_map(
+    bore: Bore, post: tuple[float, float, float], place: MeasuredPlace, number: int
+) -> tuple[tuple[float, float, float], float, float]:
+    """Head of an anchor on the map [m], its azimuth and dip below horizontal [deg].
+
+    Parameters
+    ----------
+    bore : Bore
+        In the axes of the slope at the net's foot of a post.
+    post : tuple of float
+        That foot, east, north, height [m].
+    place : MeasuredPlace
+        The row.
+    number : int
+        Of the post, from 1 on.
+
+    Verified by
+    -----------
+    tests/files/test_verdict_map.py
+    """
+    down = (math.sin(place.aspect), math.cos(place.aspect))
+    other = place.posts[number if number < len(place.posts) else number - 2]
+    sign = 1.0 if number < len(place.posts) else -1.0
+    along = tuple(sign * (b - a) for a, b in zip(post, other, strict=True))
+    size = math.sqrt(sum(one**2 for one in along))
+    cosine, sine = math.cos(place.slope), math.sin(place.slope)
+    axes = (
+        (down[0] * cosine, down[1] * cosine, -sine),
+        (down[0] * sine, down[1] * sine, cosine),
+        tuple(one / size for one in along),
+    )
+    head, way = (
+        tuple(
+            sum(part * axis[k] for part, axis in zip(vector, axes, strict=True))
+            for k in range(3)
+        )
+        for vector in (bore.start, bore.direction)
+    )
+    azimuth = math.degrees(math.atan2(way[0], way[1])) % 360.0
+    dip = math.degrees(math.asin(max(-1.0, min(1.0, -way[2]))))
+    east, north, height = (a + b for a, b in zip(post, head, strict=True))
+    return (east, north, height), azimuth, dip
+
+
+def _point(place: Sequence[float], properties: dict[str, Any]) -> Feature:
+    coordinates = [round(one, 3) for one in place]
+    geometry = {"type": "Point", "coordinates": coordinates}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def write_verdicts(features: Sequence[Feature], name: str) -> dict[str, bytes]:
+    """Contents by file: GeoJSON, style for QGIS, setting-out table.
+
+    Parameters
+    ----------
+    features : sequence of dict
+        As ``map_verdicts`` gives them.
+    name : str
+        Of the GeoJSON file.
+    """
+    stem = name.rpartition(".")[0] or name
+    return {
+        name: write_features(features),
+        f"{stem}.qml": _write_style().encode(),
+        f"{stem}-setting-out.csv": _write_setting_out(features).encode(),
+    }
+
+
+def _write_setting_out(features: Sequence[Feature]) -> str:
+    """Posts and anchor heads, a line each."""
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(SETTING_OUT)
+    for one in features:
+        properties = one["properties"]
+        if properties["kind"] not in ("post", "anchor"):
+            continue
+        places = dict(
+            zip(
+                ("east_m", "north_m", "height_m"),
+                one["geometry"]["coordinates"],
+                strict=True,
+            )
+        )
+        values = {"part": properties["kind"], **properties, **places}
+        table.writerow(
+            ["" if values.get(k) is None else values[k] for k in SETTING_OUT]
+        )
+    return text.getvalue()
+
+
+def _write_style() -> str:
+    """Rules of QGIS that colour lines and points by their verdict."""
+    rules, symbols = [], []
+    for place, (verdict, colour) in enumerate(_SHADES.items()):
+        rules.append(
+            f'<rule key="{verdict}" symbol="{place}" label="{verdict}" '
+            f"filter=\"&quot;verdict&quot; = '{verdict}'\"/>"
+        )
+        layer = (
+            f'<layer class="SimpleLine"><prop k="line_color" v="{colour}"/>'
+            '<prop k="line_width" v="1"/></layer>'
+        )
+        symbols.append(f'<symbol type="line" name="{place}">{layer}</symbol>')
+    return (
+        "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+        '<qgis version="3.0" styleCategories="Symbology">'
+        '<renderer-v2 type="RuleRenderer"><rules key="verdicts">'
+        + "".join(rules)
+        + "</rules><symbols>"
+        + "".join(symbols)
+        + "</symbols></renderer-v2></qgis>\n"
+    )

@@ -1,0 +1,122 @@
+"""Anchors of a study on the map: places and directions by hand, files as written."""
+
+import csv
+import json
+import math
+from xml.etree import ElementTree
+
+import pytest
+
+from netdesign.files.verdict_map import MeasuredPlace, turn_to_map
+from netdesign.structure.anchor_distance import Bore
+
+SLOPE = math.radians(37.0)
+
+
+def place(aspect):
+    """Two posts 3 m apart along the contour, the ground falling to the aspect."""
+    along = (math.cos(aspect), -math.sin(aspect))
+    posts = [
+        (500.0 + 3.0 * k * along[0], 300.0 + 3.0 * k * along[1], 1800.0) for k in (0, 1)
+    ]
+    return MeasuredPlace(feature={}, aspect=aspect, slope=SLOPE, posts=posts)
+
+
+@pytest.mark.parametrize("aspect_deg", [0.0, 90.0, 180.0, 223.7])
+def test_an_uphill_anchor_lies_up_the_slope_and_dips_into_it(aspect_deg):
+    aspect, axis = math.radians(aspect_deg), math.radians(52.0)
+    bore = Bore(
+        start=(-4.0, 0.0, 0.0),
+        direction=(-math.cos(axis), -math.sin(axis), 0.0),
+        length=5.0,
+    )
+    where = place(aspect)
+    head, azimuth, dip = turn_to_map(bore, where.posts[0], where, 1)
+    out = 4.0 * math.cos(SLOPE)
+    assert head[0] == pytest.approx(500.0 - out * math.sin(aspect))
+    assert head[1] == pytest.approx(300.0 - out * math.cos(aspect))
+    assert head[2] == pytest.approx(1800.0 + 4.0 * math.sin(SLOPE))
+    # 52 degrees into a slope that rises at 37: 15 below the horizontal, uphill
+    assert dip == pytest.approx(15.0)
+    assert math.cos(math.radians(azimuth - aspect_deg - 180.0)) == pytest.approx(1.0)
+
+
+def test_an_anchor_of_the_bay_stands_half_way_to_the_next_post():
+    where = place(math.radians(150.0))
+    bore = Bore(start=(0.0, 0.0, 1.5), direction=(0.0, -1.0, 0.0), length=5.0)
+    head, _, dip = turn_to_map(bore, where.posts[0], where, 1)
+    middle = [(a + b) / 2 for a, b in zip(*where.posts, strict=True)]
+    assert head == pytest.approx(middle)
+    assert dip == pytest.approx(90.0 - 37.0)  # square to the slope
+    last, _, _ = turn_to_map(bore, where.posts[1], where, 2)
+    beyond = [b + (b - a) / 2 for a, b in zip(*where.posts, strict=True)]
+    assert last == pytest.approx(beyond)
+
+
+def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
+    site, study = tmp_path / "site.xlsx", tmp_path / "part-study.json"
+    assert call("terrain", "--example", "--out", site, "--quiet").code == 0
+    options = (
+        "--row",
+        "A1",
+        "--accuracy",
+        "0.05",
+        "--no-html",
+        "--no-excel",
+        "--quiet",
+    )
+    checked = call("check", site, "--out", tmp_path, *options)
+    assert checked.code == 1, checked.err
+    rows, out = tmp_path / "rows.geojson", tmp_path / "checked.geojson"
+    ended = call("terrain", "--verdicts", study, "--rows", rows, "--out", out)
+    assert ended.code == 0, ended.err
+    features = json.loads(out.read_text())["features"]
+    (row,) = (one for one in features if one["properties"]["kind"] == "net row")
+    stored = json.loads(study.read_text())["rows"][0]
+    assert row["properties"]["verdict"] == stored["verdict"]
+    largest = max(one["utilisation"] or 0.0 for one in stored["checks"])
+    assert row["properties"]["utilisation"] == pytest.approx(largest, abs=1e-3)
+    with (tmp_path / "checked-setting-out.csv").open() as file:
+        lines = list(csv.DictReader(file))
+    posts = [one for one in lines if one["part"] == "post"]
+    anchors = [one for one in lines if one["part"] != "post"]
+    count = len(row["geometry"]["coordinates"])
+    assert len(posts) == count
+    # foot, and shared anchors of the guys up and down the slope: one a bay of each
+    assert len(anchors) == count + 2 * (count - 1) + count_mid(anchors)
+    uphill = [one for one in anchors if one["part"] == "Uphill anchor"]
+    demand = {
+        one["position"]: max(
+            step["high"] for step in one["steps"] if step["symbol"] == "E_d"
+        )
+        for one in stored["checks"]
+        if one["id"].startswith("uphill_anchor.pull_out")
+    }
+    assert float(uphill[1]["design_kN"]) == pytest.approx(
+        demand["intermediate"], abs=0.06
+    )
+    assert float(uphill[0]["design_kN"]) == pytest.approx(demand["edge"], abs=0.06)
+    assert float(uphill[1]["proof_kN"]) > float(uphill[1]["design_kN"])
+    root = ElementTree.fromstring((tmp_path / "checked.qml").read_text())
+    assert len(root.findall(".//rule")) == len(root.findall(".//symbol")) == 4
+    again = call("terrain", "--verdicts", study, "--rows", rows, "--out", out)
+    assert again.code == 2
+
+
+def count_mid(anchors):
+    """Foot anchors between two posts."""
+    feet = [one for one in anchors if one["part"] == "Foot anchor"]
+    return len(feet) - len({one["post"] for one in feet})
+
+
+@pytest.mark.parametrize(
+    ("options", "code"),
+    [
+        (("--out", "checked.geojson"), 2),
+        (("--rows", "rows.geojson"), 2),
+        (("--rows", "rows.geojson", "--out", "checked.json"), 2),
+        (("--rows", "rows.geojson", "--out", "checked.geojson"), 3),
+    ],
+)
+def test_a_map_without_rows_a_place_or_a_study_is_refused(call, options, code):
+    assert call("terrain", "--verdicts", "study.json", *options).code == code
