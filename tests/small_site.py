@@ -117,6 +117,7 @@ def build_row(name, **changes):
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),
         "guys": Guys(count=2, splay=math.radians(29.0), are_shared=True),
+        "has_row_above": False,
         "design_life": 50,
         "edge_distance": 15.0,
         "resistances": resist(),

@@ -32,6 +32,7 @@ SHEETS = {
             "axes of the anchors",
             "panel system",
             "anchors of the guys",
+            "row above",
             "ground of the anchors",
             "design life in years",
             "distance to the next edge [m]",
@@ -41,7 +42,7 @@ SHEETS = {
             *("R1", 38, 2.5, 6, "free", 2.5, 8000, 3),
             *("A1", "A1", "A1", "G1", "G1", "P1", 2, 29),
             *(0.02, 15, 2.5, 2.5, "uniform", "along the pull", "none"),
-            *("shared", "till", 40, 30, 980),
+            *("shared", "none", "till", 40, 30, 980),
         ],
     ],
     "Ranges": [

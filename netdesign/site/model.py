@@ -288,6 +288,7 @@ class NetRow:
     design_life: int | None = None  # [years]; None where nobody gives it
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
+    has_row_above: bool = True  # built alike, the upslope length away
     axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]
     drills_along_pull: bool = False  # anchors without a given axis
     # those that have a type

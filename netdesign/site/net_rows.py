@@ -204,6 +204,7 @@ def _compose_net_row(
         ),
         glide_factor=row["glide_factor"].given_si,
         guys=read_guys(row),
+        has_row_above=row["row_above"].word != "none",
         axes=read_axes(row),
         drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=read_anchor_types(row, types),

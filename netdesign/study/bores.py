@@ -68,10 +68,10 @@ def _measure_least(
     upslope = row.upslope_length
     if "upslope_length" in ranges.further:
         upslope = ranges["upslope_length"].low
-    return min(
-        find_least_distance([*bores, *of_end]),
-        find_distance_to_row_above(bores, upslope),
-    )
+    least = find_least_distance([*bores, *of_end])
+    if not row.has_row_above:
+        return least
+    return min(least, find_distance_to_row_above(bores, upslope))
 
 
 def _list_of_end(row: NetRow, points: SupportPoints) -> Iterator[Bore]:

@@ -53,14 +53,14 @@ class DerivedCell:
     ----------
     key : str
         Of the column.
-    value : float or int
-        In the column's first unit.
+    value : float, int or str
+        In the column's first unit, or a word of the column.
     note : Message
         Stretch, band, and what was typed instead.
     """
 
     key: str
-    value: float | int
+    value: float | int | str
     note: Message
 
 
@@ -123,6 +123,14 @@ def derive_cells(
             note=say("terrain.of_row", grid=grid),
         ),
     ]
+    is_below = row.upslope.end == "row"
+    cells.append(
+        DerivedCell(
+            key="row_above",
+            value="alike" if is_below else "none",
+            note=say("terrain.of_row_above", grid=grid, end=end),
+        )
+    )
     gap = find_gap(row, rows)
     if gap is not None:
         note = say("terrain.of_gap", grid=grid)
@@ -215,11 +223,12 @@ def write_workbook(
 
 def _is_told(cell: DerivedCell) -> bool:
     """A row without snow above it gets no length: its cell asks for one."""
-    return cell.key != "upslope_length" or cell.value >= LEAST_LENGTH
+    is_length = cell.key == "upslope_length" and not isinstance(cell.value, str)
+    return not is_length or float(cell.value) >= LEAST_LENGTH
 
 
 def _tell(cell: DerivedCell, typed: Mapping[str, object]) -> Message:
     """Note on a cell; of one that the row's properties give, what the grid says."""
     if cell.key not in typed:
         return cell.note
-    return say("terrain.typed", value=cell.value, note=cell.note)
+    return say("terrain.typed", value=f"{cell.value}", note=cell.note)

@@ -172,6 +172,7 @@ WRITING = {
     ("verify",): "verify --out {}",
     ("standards", "copy"): "standards copy eurocode {}/mine",
     ("tests",): "tests {}/site.xlsx --plan --out {}/form.xlsx",
+    ("terrain",): "terrain --example --out {}/ground.xlsx",
 }
 
 
@@ -179,7 +180,7 @@ TAKEN = (
     "site.map.toml",
     *("study.json", "copy.xlsx", "solution.html", "envelope.json", "plot.svg"),
     *("paper.html", "index.html", "mine/document.toml"),
-    *("winter.json", "validation.html", "form.xlsx"),
+    *("winter.json", "validation.html", "form.xlsx", "rows.geojson"),
 )
 
 

@@ -71,6 +71,8 @@ def an_end(angle=40.0, value=1e7):
     )
     return RowEnd(
         guy_angle=None if angle is None else math.radians(angle),
+        lateral_distance=2.0,
+        lateral_axis=math.radians(80.0),
         resistances=resistances,
     )
 

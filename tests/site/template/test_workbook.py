@@ -254,7 +254,7 @@ def test_sheets_are_set_up_for_printing(example):
     assert nets.print_title_cols == "$A:$A"
     assert nets.page_setup.orientation == "landscape"
     assert "&P" in nets.oddFooter.right.text
-    assert nets.print_area == "'Nets'!$A$1:$AU$25"
+    assert nets.print_area == "'Nets'!$A$1:$AV$25"
 
 
 def test_profiles_and_quantities_are_offered(example):
