@@ -17,6 +17,8 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_member, name_mode
 
+_NET = "net"
+
 
 def judge(
     low: float, high: float, *, least: float, most: float, is_complete: bool = True
@@ -102,14 +104,37 @@ def check_member(
         verdict=verdict,
         reason=_explain(verdict, gaps, is_slack=action.high == 0.0),
         used=used,
-        assumed=_list_assumed_factors(resistance, standard),
         tested=find_tested(resistance, standard),
+    )
+
+
+def conclude(
+    mode: str,
+    verdict: Verdict,
+    reason: Message,
+    limit: StandardValue | None = None,
+    *,
+    member: str = _NET,
+) -> CheckResult:
+    """Check that compares no force with a resistance: of the geometry, or of a member.
+
+    ``limit`` is the value of the profile whose clause stands beside it.
+    """
+    subject = "geometry" if member == _NET else member
+    return CheckResult(
+        id=f"{subject}.{mode}",
+        clause=limit.clause if limit else "-",
+        member=member,
+        mode=mode,
+        verdict=verdict,
+        reason=reason,
     )
 
 
 def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
     """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
-    found = _find_first(standard, mode)
+    values = map(standard.find, list_action_factors(mode))
+    found = next((one for one in values if one), None)
     lack = None if found else lack_factor(ACTION_FACTOR)
     source = found.id if found else ACTION_FACTOR
     return given(
@@ -117,11 +142,6 @@ def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
         kind=Kind.PROFILE,
         lack=lack,
     )
-
-
-def _find_first(standard: Standard, mode: str) -> StandardValue | None:
-    found = map(standard.find, list_action_factors(mode))
-    return next((one for one in found if one), None)
 
 
 def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
@@ -235,13 +255,6 @@ def _is_usable(resistance: float) -> bool:
     return 0.0 < resistance < math.inf
 
 
-def _list_assumed_factors(
-    resistance: GivenResistance, standard: Standard
-) -> tuple[str, ...]:
-    factor = standard.find_resistance_factor(resistance.mode, resistance.basis)
-    return list_assumed(_find_first(standard, resistance.mode), factor)
-
-
 def lack_factor(factor: str) -> Message:
     """Lack of a profile's value, by its name and its id."""
     return say("check.no_factor", factor=name("factor", factor), id=factor)
@@ -288,8 +301,3 @@ def _explain(verdict: Verdict, also: Sequence[Message], *, is_slack: bool) -> Me
 def not_proven(*gaps: Message) -> Message:
     """The sentence of a check that is not proven, with what is missing."""
     return say("check.not_proven", gaps=gaps)
-
-
-def list_assumed(*values: StandardValue | None) -> tuple[str, ...]:
-    """Ids of those values of a profile that nobody has confirmed."""
-    return tuple(v.id for v in values if v is not None and v.status == "assumed")

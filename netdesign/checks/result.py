@@ -133,8 +133,6 @@ class CheckResult:
         Why, in one sentence.
     used : Quantity or None
         Utilisation with all that it follows from: of a check of a force.
-    assumed : tuple of str
-        Ids of the profile's values in this check that are only assumed.
     declaration : Declaration or None
         Where it is said to be proven, whatever the verdict.
     tested : TestedResistance or None
@@ -151,7 +149,6 @@ class CheckResult:
     verdict: Verdict
     reason: Message
     used: Quantity | None = None
-    assumed: tuple[str, ...] = ()
     declaration: Declaration | None = None
     is_unbounded: bool = False
     tested: TestedResistance | None = None

@@ -11,7 +11,6 @@ from netdesign.structure.row_position import (
     EndEffectRule,
     LoadedWidth,
     compute_edge_width,
-    compute_lateral_factor,
     list_supports,
 )
 
@@ -27,7 +26,6 @@ __all__ = [
     "compute_anchor_forces",
     "compute_edge_width",
     "compute_head_forces",
-    "compute_lateral_factor",
     "list_supports",
     "place_support",
 ]

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from netdesign.checks import CheckResult, Standard
-from netdesign.checks.check import list_assumed, not_proven
+from netdesign.checks.check import conclude, not_proven
 from netdesign.checks.schema import ANCHOR_DISTANCE
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
@@ -45,7 +44,7 @@ def check_anchor_distance(
         return None
     if limit is None:
         lack = say("check.no_limit", limit=ANCHOR_DISTANCE)
-        return _result("anchors", Verdict.NOT_PROVEN, not_proven(lack))
+        return conclude("anchors", Verdict.NOT_PROVEN, not_proven(lack))
     gap = gap or _find_lack(row, pulls)
     ends = ranges["inclination"]
     places = [place_row(row, one) for one in (ends.low, ends.high)]
@@ -55,8 +54,7 @@ def check_anchor_distance(
     if gap is not None or not least >= limit.value:
         reason = not_proven(gap or say("bores.near", **told))
     verdict = Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN
-    found = _result("anchors", verdict, reason)
-    return replace(found, clause=limit.clause, assumed=list_assumed(limit))
+    return conclude("anchors", verdict, reason, limit)
 
 
 def _measure_least(
@@ -90,17 +88,6 @@ def _list_of_end(row: NetRow, points: SupportPoints) -> Iterator[Bore]:
         yield Bore(start=start, direction=direction, length=drilled.get(member))
 
 
-def _result(mode: str, verdict: Verdict, reason: Message) -> CheckResult:
-    return CheckResult(
-        id=f"geometry.{mode}",
-        clause="-",
-        member=Member.NET,
-        mode=mode,
-        verdict=verdict,
-        reason=reason,
-    )
-
-
 def check_cover(
     row: NetRow, pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
 ) -> CheckResult | None:
@@ -121,10 +108,10 @@ def check_cover(
         gap = gap or say("bending.no_axis")
     short = None if unsaid else next(_list_short(row, pulls), None)
     if short is not None:
-        return _result("cover", Verdict.FAIL, short)
+        return conclude("cover", Verdict.FAIL, short)
     if gap is not None:
-        return _result("cover", Verdict.NOT_PROVEN, not_proven(gap))
-    return _result("cover", Verdict.PASS, say("bores.covered"))
+        return conclude("cover", Verdict.NOT_PROVEN, not_proven(gap))
+    return conclude("cover", Verdict.PASS, say("bores.covered"))
 
 
 def _list_short(row: NetRow, pulls: Sequence[AnchorPull]) -> Iterator[Message]:

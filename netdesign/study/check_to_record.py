@@ -16,7 +16,7 @@ from netdesign.checks import (
     declare,
     withhold,
 )
-from netdesign.checks.check import find_missing_force, not_proven
+from netdesign.checks.check import conclude, find_missing_force, not_proven
 from netdesign.checks.routes import TestedResistance
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
@@ -87,14 +87,7 @@ def _list_open(row: NetRow, standard: Standard) -> Iterator[CheckResult]:
 
 
 def _leave_open(name: str, mode: str, reason: Message) -> CheckResult:
-    return CheckResult(
-        id=name,
-        clause="-",
-        member=Member.NET,
-        mode=mode,
-        verdict=Verdict.NOT_PROVEN,
-        reason=reason,
-    )
+    return replace(conclude(mode, Verdict.NOT_PROVEN, reason), id=name)
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:

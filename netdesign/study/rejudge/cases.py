@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 
+from netdesign.calculation.steps import SAME, is_same
 from netdesign.coupling.solution import RELEASED
 from netdesign.outcome import NetDesignError, Outcome, Verdict
 from netdesign.structure.members import (
@@ -29,19 +30,10 @@ from netdesign.study.values import compare_values, show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-SAME = 1e-9  # relative; stored numbers that follow from each other differ by rounding
-_ZERO = 1e-12  # kN; what is left of a sum that must vanish
 _STEADY = "steady"
 _MOST = 5  # places of one part that are named
 
 Pair = tuple[str, float | None, float | None]
-
-
-def is_same(one: float | None, other: float | None) -> bool:
-    """Both are the same number, or both are missing."""
-    if one is None or other is None:
-        return one is other
-    return math.isclose(one, other, rel_tol=SAME, abs_tol=_ZERO)
 
 
 def is_of_steady_states(study: Study) -> bool:

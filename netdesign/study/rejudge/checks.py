@@ -10,7 +10,7 @@ from statistics import fmean
 from typing import Any
 
 from netdesign.calculation.quantity import Kind, Quantity
-from netdesign.calculation.steps import Step, evaluate, list_steps
+from netdesign.calculation.steps import SAME, Step, evaluate, list_steps
 from netdesign.checks.check import judge
 from netdesign.checks.forces import (
     GUYS_ON_ANCHOR,
@@ -56,7 +56,6 @@ from netdesign.study.records import (
     SingleTestRecord,
 )
 from netdesign.study.rejudge.cases import (
-    SAME,
     Pair,
     guard,
     is_complete,

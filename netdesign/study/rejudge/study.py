@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import asdict, replace
 
+from netdesign.calculation.steps import is_same
 from netdesign.checks import Standard
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import build_cases
@@ -34,7 +35,7 @@ from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import span_variants
 from netdesign.study.notes import list_judged_notes, list_reasons, list_site_notes
 from netdesign.study.parts import list_parts
-from netdesign.study.pulls import AnchorPull, build_pull, read_pulls, record_pulls
+from netdesign.study.pulls import build_pull_again, record_pulls
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.record_guideline import compare_case, find_row_floor, record_floor
 from netdesign.study.record_independent import compare_slab
@@ -52,7 +53,6 @@ from netdesign.study.rejudge.cases import (
     guard,
     is_complete,
     is_of_steady_states,
-    is_same,
     rejudge_cases,
     report_differences,
     report_value,
@@ -243,19 +243,13 @@ def _know_again(
     return Known(
         forces=forces,
         held=held or find_lack(basis.row) or _UNKNOWN_GAP,
-        pulls=tuple(_pull_again(row, basis.row, effects.lateral_share)),
+        pulls=tuple(
+            build_pull_again(basis.row, one, effects.lateral_share) for one in row.pulls
+        ),
         gap=None if is_complete(row) else _UNKNOWN_GAP,
         floor_gap=floor.reason if floor else None,
         panel_gap=_UNKNOWN_GAP if is_failed else None,
     )
-
-
-def _pull_again(row: RowStudy, given: NetRow, share: float) -> list[AnchorPull]:
-    """Axes, kinds and angles of the anchors, from the ranges of their pulls."""
-    return [
-        build_pull(given, one.anchor, one.pulls, share, one.position)
-        for one in read_pulls(given, row.pulls)
-    ]
 
 
 def _check_again(row: RowStudy, basis: Basis, known: Known) -> list[CheckRecord]:
