@@ -13,7 +13,7 @@ from netdesign.checks import CheckResult, Standard, withhold
 from netdesign.outcome import Verdict
 from netdesign.site.model import CONNECTED, NetRow, Resistance, Site
 from netdesign.snow.creep_law import CreepLaw
-from netdesign.structure.members import ROPE_OF, Member, name_in_panel
+from netdesign.structure.members import ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.calibration import find_doubt
@@ -107,12 +107,16 @@ class MemberCheck:
     doubt: Message | None
     result: CheckResult
     unsure: Message | None = None
-    is_of_end: bool = False  # of the ropes' pull along the row
 
     @property
     def name(self) -> tuple[str, str]:
         """Member and mode."""
         return self.given.member, self.given.mode
+
+    @property
+    def is_of_end(self) -> bool:
+        """A border rope, or what holds its pull along the row."""
+        return self.given.member in ROPE_OF
 
     @property
     def id(self) -> str:
@@ -158,11 +162,11 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     checked += [(at_end, given) for given in (*parts, *held)]
     judged = []
     for width, given in checked:
-        judged.append(_judge(basis, known, given, width))
+        judged.append(_judge_member(basis, known, given, width))
         is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
         if is_rope and "connections" not in not_checked:
             chain = _find_chain(basis, known, given, width)
-            judged.append(_judge(basis, known, chain, width))
+            judged.append(_judge_member(basis, known, chain, width))
     return judged
 
 
@@ -172,13 +176,6 @@ def _concerns(basis: Basis, known: Known, given: Resistance) -> bool:
         floor = known.forces.floor or {}
         return lifts(known.forces.largest.values(), floor.values())
     return given.mode != "wedge" or "anchor_ground" not in basis.standard.not_checked
-
-
-def _judge(
-    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
-) -> MemberCheck:
-    judge = _judge_end if given.member in ROPE_OF else _judge_member
-    return judge(basis, known, given, width)
 
 
 def _find_chain(
@@ -205,8 +202,8 @@ def _judge_member(
     unsaid = _find_unsaid(basis.row, known, given, width)
     if unsaid:
         return _leave_open(basis, given, width, unsaid)
-    row, forces = basis.row, known.forces
-    force = find_force(forces, given, width)
+    row = basis.row
+    force = find_force(known.forces, given, width)
     given, unsure = _find_lasting(basis, given)
     doubt = None
     if force is not None:
@@ -217,9 +214,9 @@ def _judge_member(
             pull=find_pull(known.pulls, given.member, width.position),
         )
         given = find_resistance_for_force(given, surroundings)
-        doubt = _find_doubt(basis, list_bringing(forces, given.member, force))
-    found = [forces.largest.get(given.member), *_list_panel(forces, given.member)]
-    gap = known.gap or known.floor_gap or _find_unseen(found)
+        doubt = _find_doubt(basis, list_bringing(known.forces, force))
+    gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
+    gap = gap or _find_unseen(force.solved if force else ())
     gap = gap or find_other_panel(row, given, width.position)
     standard = basis.standard
     result = judge_force(given, force, standard, gap=gap, doubt=doubt or unsure)
@@ -243,32 +240,6 @@ def _find_lasting(basis: Basis, given: Resistance) -> tuple[Resistance, Message 
     row = basis.row
     lasting, worn = corrode(given, row, basis.standard)
     return lasting, worn or doubt_ground(row, given) or doubt_sharing(row, given)
-
-
-def _judge_end(
-    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
-) -> MemberCheck:
-    """Check of a border rope, or of a member that holds its pull at the row's end."""
-    unsaid = _find_unsaid(basis.row, known, given, width)
-    if unsaid:
-        opened = _leave_open(basis, given, width, unsaid)
-        return replace(opened, is_of_end=True)
-    force = find_force(known.forces, given, width)
-    gap = known.gap or _find_unseen([force.largest] if force else [])
-    gap = gap or find_other_panel(basis.row, given, width.position)
-    doubt = _find_doubt(basis, [force.largest]) if force else None
-    given, unsure = _find_lasting(basis, given)
-    result = judge_force(given, force, basis.standard, gap=gap, doubt=doubt or unsure)
-    return MemberCheck(
-        given=given,
-        width=width,
-        force=force,
-        gap=gap,
-        doubt=doubt,
-        result=result,
-        unsure=unsure,
-        is_of_end=True,
-    )
 
 
 def _find_unsaid(
@@ -298,19 +269,12 @@ def _leave_open(
     )
 
 
-def _list_panel(forces: RowForces, member: str) -> list[ForceRecord]:
-    found = forces.largest.get(name_in_panel(member))
-    return [] if found is None else [found]
-
-
-def list_bringing(
-    forces: RowForces, member: str, force: MemberForce
-) -> list[ForceRecord]:
+def list_bringing(forces: RowForces, force: MemberForce) -> list[ForceRecord]:
     """Largest forces that a check rests on: its member's, and what adds to it.
 
     The net's pull on the head brings what is added, as it does the post's force.
     """
-    found = [forces.largest[member], *_list_panel(forces, member)]
+    found = list(force.solved)
     if force.added_high > 0.0:
         found.append(forces.largest[Member.POST])
     return found
@@ -329,9 +293,9 @@ def _find_doubt(basis: Basis, brings: Sequence[ForceRecord]) -> Message | None:
     return next((one for one in doubts if one is not None), None)
 
 
-def _find_unseen(forces: Sequence[ForceRecord | None]) -> Message | None:
+def _find_unseen(forces: Sequence[ForceRecord]) -> Message | None:
     """Quantities between whose samples nothing is known of some largest force."""
-    unknown = dict.fromkeys(axis for one in forces if one for axis in one.unknown)
+    unknown = dict.fromkeys(axis for one in forces for axis in one.unknown)
     if not unknown:
         return None
     return say("check.unseen_between", axes=tuple(name("axis", one) for one in unknown))

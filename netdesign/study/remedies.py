@@ -65,15 +65,6 @@ def list_remedies(
     return _complete(task, one, changes, check)
 
 
-def list_end_remedies(
-    task: RowToCheck, one: MemberCheck, check: CheckByCase | None
-) -> list[ChangeRecord]:
-    """Changes that flip a failing, unproven or close check of such a member."""
-    if not _is_worth_telling(task, one):
-        return []
-    return _complete(task, one, _list_resistance_remedies(task, one), check)
-
-
 def _complete(
     task: RowToCheck,
     one: MemberCheck,
