@@ -188,15 +188,15 @@ def declare(result: CheckResult, declaration: Declaration | None) -> CheckResult
     """
     if declaration is None:
         return result
-    told = {"reason": result.reason, "proof": declaration.proof}
+    told = {"reason": result.reason, "proof": declaration.proof.describe()}
     if result.verdict is Verdict.FAIL:
         reason = say("check.fails_though_declared", **told)
-        return replace(result, reason=reason, declaration=declaration)
+        return replace(result, reason=reason, declared=declaration.proof)
     return replace(
         result,
         verdict=Verdict.DECLARED,
         reason=say("check.declared", **told),
-        declaration=declaration,
+        declared=declaration.proof,
     )
 
 

@@ -8,7 +8,6 @@ from dataclasses import replace
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import (
     CheckResult,
-    Declaration,
     RowGeometry,
     Standard,
     check_geometry,
@@ -29,7 +28,6 @@ from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.member_force import MemberForce
 from netdesign.study.records import (
     CheckRecord,
-    DeclarationRecord,
     SingleTestRecord,
     TestsRecord,
 )
@@ -174,7 +172,6 @@ def record_result(
     force: MemberForce | None = None,
 ) -> CheckRecord:
     """Check as the study has it, without its case and what would change it."""
-    declared = result.declaration
     return CheckRecord(
         id=result.id,
         clause=result.clause,
@@ -193,7 +190,7 @@ def record_result(
         resistance_derivation=given.derivation if given else None,
         tests=_record_tests(given, result.tested) if given else None,
         steps=[] if result.used is None else list_steps(result.used),
-        declared=_record_declaration(declared) if declared else None,
+        declared=result.declared,
         is_unbounded=result.is_unbounded,
     )
 
@@ -224,13 +221,4 @@ def _record_single(test: SingleTest) -> SingleTestRecord:
         is_held=test.is_held,
         proof_load_kN=None if proof is None else kilonewton_from_newton(proof),
         displacement_mm=None if moved is None else 1e3 * moved,
-    )
-
-
-def _record_declaration(given: Declaration) -> DeclarationRecord:
-    return DeclarationRecord(
-        document=given.document,
-        author=given.author,
-        date=given.date,
-        cell=given.source,
     )

@@ -18,16 +18,14 @@ from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member, NetPart, RopeForce
 from netdesign.study.case_records import CasePoint, GuidelineLoadRecord
 from netdesign.study.record_envelope import record_point
+from netdesign.study.record_guideline import list_load
 from netdesign.study.sideways import (
     GUYS,
     GUYS_BY_PANEL,
     place_row,
 )
 from netdesign.study.support_records import StaticsRecord
-from netdesign.units import (
-    given_degree_from_radian,
-    kilonewton_from_newton,
-)
+from netdesign.units import kilonewton_from_newton
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -199,26 +197,14 @@ def _record_floor_state(state: FloorForce, keys: list[str]) -> StaticsRecord:
 
 def _record_load(state: FloorForce) -> GuidelineLoadRecord:
     net, case, load = state.at.net, state.case, state.load
-    along, across = load.resultant
     filled = case.height_vertical * math.cos(net.slope_angle) / net.net_height
     return GuidelineLoadRecord(
-        load_case=case.name,
-        inclination_deg=given_degree_from_radian(net.inclination),
-        snow_thickness_m=net.snow_thickness,
-        density_kg_m3=case.density,
-        height_vertical_m=case.height_vertical,
-        creep_factor=load.creep_factor,
-        glide_factor=load.glide_factor,
         rigid_kN_per_m=kilonewton_from_newton(load.rigid),
         parallel_kN_per_m=kilonewton_from_newton(load.parallel),
         normal_kN_per_m=kilonewton_from_newton(load.normal),
         prism_kN_per_m=kilonewton_from_newton(load.prism),
-        load_along_kN_per_m=kilonewton_from_newton(along),
-        load_across_kN_per_m=kilonewton_from_newton(across),
         loaded_share=min(1.0, filled),
-        stiffness_kN_per_m=kilonewton_from_newton(net.stiffness),
-        slack=net.slack,
-        chord_tension_kN_per_m=kilonewton_from_newton(state.pull.chord_tension),
+        **list_load(state),
     )
 
 
