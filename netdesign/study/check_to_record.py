@@ -61,7 +61,7 @@ def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRe
         *([ends] if ends else []),
         *_list_open(row, standard),
     ]
-    return [record_result(apply_declaration(site, row, one)) for one in results]
+    return [record_result(site, row, one) for one in results]
 
 
 def _leave_default_open(row: NetRow, result: CheckResult) -> CheckResult:
@@ -101,8 +101,8 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def apply_declaration(
-    site: Site, row: NetRow, result: CheckResult, position: Position | None = None
+def _apply_declaration(
+    site: Site, row: NetRow, result: CheckResult, position: str
 ) -> CheckResult:
     """Check on a support, if it has one, with what the workbook says of it.
 
@@ -111,7 +111,7 @@ def apply_declaration(
     """
     if row.is_overtopped and result.member != Member.NET:
         result = withhold(result, say("check.overtopped"))
-    declaration = site.find_declaration(row, result.member, result.mode, position or "")
+    declaration = site.find_declaration(row, result.member, result.mode, position)
     return declare(result, declaration)
 
 
@@ -160,20 +160,22 @@ def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
     return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
 
 
-def place_check(check: CheckRecord, position: Position) -> CheckRecord:
-    """Check of a member, named by its support."""
-    name_of_end = ".end" if position == "edge" else ""
-    return replace(check, id=f"{check.id}{name_of_end}", position=position)
-
-
 def record_result(
+    site: Site,
+    row: NetRow,
     result: CheckResult,
+    position: Position | None = None,
     given: Resistance | None = None,
     force: MemberForce | None = None,
 ) -> CheckRecord:
-    """Check as the study has it, without its case and what would change it."""
+    """Check as the study has it, without its case and what would change it.
+
+    That of a member on a support has its ``position``; what is declared of it holds.
+    """
+    result = _apply_declaration(site, row, result, position or "")
     return CheckRecord(
-        id=result.id,
+        id=f"{result.id}.end" if position == "edge" else result.id,
+        position=position or "",
         clause=result.clause,
         member=result.member,
         mode=result.mode,

@@ -19,7 +19,7 @@ from netdesign.study.case_records import CaseRecord, EnvelopeRecord, ExtremeReco
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import record_end_effects
-from netdesign.study.judgement import Basis, Known
+from netdesign.study.judgement import Known
 from netdesign.study.measured_pulls import record_monitoring
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
@@ -41,9 +41,7 @@ from netdesign.study.record_independent import record_independent, record_slab
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_statics import record_statics
 from netdesign.study.record_support import (
-    record_anchors,
-    record_drawing,
-    record_head,
+    record_drawn,
     record_panel,
 )
 from netdesign.study.records import (
@@ -56,7 +54,7 @@ from netdesign.study.records import (
     merge_rows,
 )
 from netdesign.study.row_checks import check_row, distrust
-from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.row_to_check import Basis, RowToCheck
 from netdesign.study.solved_forces import know_row
 from netdesign.study.support_records import PanelRecord
 from netdesign.units import newton_from_kilonewton
@@ -159,9 +157,9 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(_find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
-    head = record_head(row, governing)
-    independent = record_independent(governing, head)
     effects, held = known.forces.effects, known.held
+    drawing, anchors, head = record_drawn(row, governing, effects.lateral_share)
+    independent = record_independent(governing, head)
     panel = record_panel(row, solved.results, extremes, governing)
     return RowStudy(
         id=row.id,
@@ -171,12 +169,12 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         cases=cases,
         inputs=list(row.inputs),
         parts=list_parts(row, site.ranges["inclination"]),
-        drawing=record_drawing(row, governing),
+        drawing=drawing,
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
         questions=list(row.questions),
         monitoring=record_monitoring(site, row),
-        anchors=record_anchors(governing, effects),
+        anchors=anchors,
         pulls=record_pulls(known.pulls),
         head=head,
         independent=independent,
@@ -218,10 +216,9 @@ def _list_notes(
     cases: Sequence[CaseRecord],
     panel: PanelRecord | None,
 ) -> list[Message]:
-    basis = task.basis
     return [
         *list_judged_notes(
-            *(basis.site, basis.row, basis.standard, basis.law),
+            task.basis,
             effects=known.forces.effects,
             pulls=known.pulls,
             checks=checks,

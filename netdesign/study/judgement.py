@@ -9,29 +9,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import CheckResult, Standard, withhold
+from netdesign.checks import CheckResult, withhold
 from netdesign.outcome import Verdict
-from netdesign.site.model import CONNECTED, NetRow, Resistance, Site
-from netdesign.snow.creep_law import CreepLaw
+from netdesign.site.model import CONNECTED, NetRow, Resistance
 from netdesign.structure.members import ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.calibration import find_doubt
 from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.check_to_record import (
-    apply_declaration,
     doubt_ground,
     doubt_sharing,
     judge_force,
     list_checked,
-    place_check,
     record_geometry,
     record_result,
 )
 from netdesign.study.connection import connect
 from netdesign.study.corrosion import corrode
 from netdesign.study.dependent import (
-    Circumstances,
     find_resistance_for_force,
     find_short_post,
 )
@@ -47,20 +43,11 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.pulls import AnchorPull, check_directions, find_pull
 from netdesign.study.records import CheckRecord
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import check_sideways
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Basis:
-    """Ground of the checks of a net row, beside its forces."""
-
-    site: Site
-    row: NetRow
-    standard: Standard
-    law: CreepLaw
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -207,13 +194,8 @@ def _judge_member(
     given, unsure = _find_lasting(basis, given)
     doubt = None
     if force is not None:
-        surroundings = Circumstances(
-            row=row,
-            ranges=basis.site.ranges,
-            standard=basis.standard,
-            pull=find_pull(known.pulls, given.member, width.position),
-        )
-        given = find_resistance_for_force(given, surroundings)
+        pull = find_pull(known.pulls, given.member, width.position)
+        given = find_resistance_for_force(given, basis, pull)
         doubt = _find_doubt(basis, list_bringing(known.forces, force))
     gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
     gap = gap or _find_unseen(force.solved if force else ())
@@ -318,8 +300,9 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
     """Check of a force as the study has it, without what a solve adds to it."""
     position = one.width.position
-    settled = apply_declaration(basis.site, basis.row, one.result, position)
-    check = place_check(record_result(settled, one.given, one.force), position)
+    check = record_result(
+        basis.site, basis.row, one.result, position, one.given, one.force
+    )
     if one.unsure is None:
         check = replace(
             check,
@@ -337,7 +320,7 @@ def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
         load_case=least.load_case if least else "",
         load_inclination_deg=least.inclination_deg if least else None,
         reason=name_governing(
-            settled.reason, one.force, least.load_case if least else ""
+            check.reason, one.force, least.load_case if least else ""
         ),
     )
 
@@ -353,11 +336,9 @@ def record_others(
     site, row, standard = basis.site, basis.row, basis.standard
     gap = find_open(row, judged)
     lateral = check_sideways(row, known.held, standard, gap)
-    yield record_result(apply_declaration(site, row, lateral))
+    yield record_result(site, row, lateral)
     for place, one in check_directions(known.pulls, standard, gap):
-        yield place_check(
-            record_result(apply_declaration(site, row, one, place)), place
-        )
+        yield record_result(site, row, one, place)
     pulls = known.pulls
     of_ground = (
         check_anchor_distance(row, site.ranges, pulls, standard, gap),
@@ -365,5 +346,5 @@ def record_others(
     )
     for found in of_ground:
         if found is not None:
-            yield record_result(apply_declaration(site, row, found))
+            yield record_result(site, row, found)
     yield from record_geometry(site, row, standard)

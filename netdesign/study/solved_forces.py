@@ -11,11 +11,12 @@ from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.effects import find_effects
-from netdesign.study.judgement import Basis, Known
+from netdesign.study.judgement import Known
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import list_pulls
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import record_floor
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say

@@ -23,7 +23,6 @@ from netdesign.study.effects import (
     record_end_effects,
 )
 from netdesign.study.judgement import (
-    Basis,
     Known,
     MemberCheck,
     judge_members,
@@ -61,6 +60,7 @@ from netdesign.study.rejudge.cases import (
 )
 from netdesign.study.rejudge.checks import is_held_back, rejudge_checks
 from netdesign.study.rejudge.statics import rejudge_drawn, rejudge_statics
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import find_lack
 from netdesign.study.support_records import PanelRecord
 from netdesign.study.values import compare_values
@@ -202,7 +202,7 @@ def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Mess
         for checks in (row.checks, _check_again(row, basis, known))
     )
     notes = list_judged_notes(
-        *(basis.site, given, standard, basis.law),
+        basis,
         effects=effects,
         pulls=known.pulls,
         checks=row.checks,
