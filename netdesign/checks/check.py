@@ -172,12 +172,15 @@ def _find_resistance_factor(
             *("γ_R", found.value_si, "-", found.id), kind=Kind.PROFILE, lack=None
         )
         return factor, found.clause
-    # without a resistance there is no basis yet, and no factor to miss
-    is_basis_open = _has_factor_of_some_basis(resistance, standard)
-    lack = _lack_resistance_factor(resistance, standard)
-    if is_basis_open and strength.lacks:
-        lack = strength.lacks[0]
     source = f"resistance.{resistance.mode}"
+    ids = (value.id for value in standard.values)
+    bases = [
+        one.removeprefix(f"{source}.") for one in ids if one.startswith(f"{source}.")
+    ]
+    lack = _lack_resistance_factor(resistance, bases)
+    # without a resistance there is no basis yet, and no factor to miss
+    if bases and not resistance.basis and strength.lacks:
+        lack = strength.lacks[0]
     return given("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
 
 
@@ -260,30 +263,20 @@ def lack_factor(factor: str) -> Message:
     return say("check.no_factor", factor=name("factor", factor), id=factor)
 
 
-def _lack_resistance_factor(resistance: GivenResistance, standard: Standard) -> Message:
-    """Lack of a factor of a mode; it may have one on another basis."""
+def _lack_resistance_factor(
+    resistance: GivenResistance, known: Sequence[str]
+) -> Message:
+    """Lack of a factor of a mode; it may have one on other bases, which are known."""
     mode = name_mode(resistance.mode)
-    of_mode = f"resistance.{resistance.mode}"
-    ids = (value.id for value in standard.values)
-    known = [
-        one.removeprefix(f"{of_mode}.") for one in ids if one.startswith(f"{of_mode}.")
-    ]
     if not known:
         factor = say("factor.resistance", mode=mode)
+        of_mode = f"resistance.{resistance.mode}"
         return say("check.no_factor", factor=factor, id=of_mode)
     return say(
         "check.no_factor_of_basis",
         mode=mode,
         basis=name("basis", resistance.basis),
         known=tuple(name("basis", one) for one in known),
-    )
-
-
-def _has_factor_of_some_basis(resistance: GivenResistance, standard: Standard) -> bool:
-    """Without a resistance there is no basis yet, and no factor to miss."""
-    prefix = f"resistance.{resistance.mode}."
-    return not resistance.basis and any(
-        value.id.startswith(prefix) for value in standard.values
     )
 
 

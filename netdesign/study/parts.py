@@ -13,7 +13,6 @@ from netdesign.structure.members import Member, NetPart
 from netdesign.structure.row_position import Position
 from netdesign.study.member_force import is_shared
 
-_INCLINATION = "inclination"
 _PER_SUPPORT = (
     *(Member.FOOT_ANCHOR, Member.UPHILL_GUY, Member.UPHILL_ANCHOR),
     *(Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR, Member.POST),

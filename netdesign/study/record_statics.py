@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme
@@ -26,6 +27,8 @@ from netdesign.study.sideways import (
 )
 from netdesign.study.support_records import StaticsRecord
 from netdesign.units import kilonewton_from_newton
+
+_Any = TypeVar("_Any")  # state of a row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,7 +81,7 @@ def _record_cases(
         found += [
             (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS
         ]
-    for state, keys in _group(found):
+    for state, keys in _group(found, _is_same):
         pulls = _read_pulls(row, state)
         if pulls is not None:
             case = record_point(state.result.case)
@@ -141,11 +144,13 @@ def _measure(state: _State) -> dict[str, float]:
     return dict(zip(SPANS, sizes, strict=True))
 
 
-def _group(found: Iterable[tuple[str, _State]]) -> list[tuple[_State, list[str]]]:
+def _group(
+    found: Iterable[tuple[str, _Any]], is_same: Callable[[_Any, _Any], bool]
+) -> list[tuple[_Any, list[str]]]:
     """States in the order of what they bring, each with all of it."""
-    groups: list[tuple[_State, list[str]]] = []
+    groups: list[tuple[_Any, list[str]]] = []
     for key, state in found:
-        keys = next((keys for known, keys in groups if _is_same(known, state)), None)
+        keys = next((keys for known, keys in groups if is_same(known, state)), None)
         if keys is None:
             groups.append((state, [key]))
         else:
@@ -157,18 +162,17 @@ def _is_same(one: _State, other: _State) -> bool:
     return one.result is other.result and one.panel is other.panel
 
 
+def _is_same_load(one: FloorForce, other: FloorForce) -> bool:
+    return one.at == other.at and one.case == other.case
+
+
 def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:
-    groups: list[tuple[FloorForce, list[str]]] = []
-    for one in (*floor.forces, *floor.spans) if floor else ():
-        if one.member not in SPANS and one.force == 0.0:
-            continue
-        same = (g for g in groups if g[0].at == one.at and g[0].case == one.case)
-        group = next(same, None)
-        if group is None:
-            groups.append((one, [one.member]))
-        else:
-            group[1].append(one.member)
-    for state, keys in groups:
+    found = [
+        (one.member, one)
+        for one in ((*floor.forces, *floor.spans) if floor else ())
+        if one.member in SPANS or one.force != 0.0
+    ]
+    for state, keys in _group(found, _is_same_load):
         yield _record_floor_state(state, keys)
 
 

@@ -198,7 +198,9 @@ def _rejudge_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
 def _rejudge_extreme(
     place: Message, extreme: ExtremeRecord, largest: CaseRecord
 ) -> Iterator[Message]:
-    forces = {one: read_force(largest, one) or 0.0 for one in REPORTED_MEMBERS}
+    forces: dict[str, float] = {
+        one: read_force(largest, one) or 0.0 for one in REPORTED_MEMBERS
+    }
     again = replace(
         extreme,
         max_kN=forces.pop(extreme.quantity),
