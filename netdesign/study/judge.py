@@ -157,7 +157,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(_find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
-    effects, held = known.forces.effects, known.held
+    effects, held = known.effects, known.held
     drawing, anchors, head = record_drawn(row, governing, effects.lateral_share)
     independent = record_independent(governing, head)
     panel = record_panel(row, solved.results, extremes, governing)
@@ -178,7 +178,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         pulls=record_pulls(known.pulls),
         head=head,
         independent=independent,
-        forces=list(known.forces.largest.values()),
+        forces=list(known.largest.values()),
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor, row),
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
@@ -188,7 +188,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         statics=record_statics(row, solved.results, extremes, floor),
         end_effects=record_end_effects(row, site.ranges, run.creep_law, standard),
         held_sideways=None if isinstance(held, Message) else held,
-        tilt=known.forces.tilt,
+        tilt=known.tilt,
         envelope=_record_search(solved, checks),
     )
 
@@ -219,7 +219,7 @@ def _list_notes(
     return [
         *list_judged_notes(
             task.basis,
-            effects=known.forces.effects,
+            effects=known.effects,
             pulls=known.pulls,
             checks=checks,
             cases=cases,

@@ -45,21 +45,16 @@ from netdesign.study.pulls import AnchorPull, check_directions, find_pull
 from netdesign.study.records import CheckRecord
 from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import check_sideways
-from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Known:
-    """Knowledge of a row by its solved cases, or by its study.
+class Known(RowForces):
+    """Knowledge of a row by its solved cases, or by its study: forces and directions.
 
     Attributes
     ----------
-    forces : RowForces
-        Largest forces.
-    held : HeldSidewaysRecord or Message
-        Load along the row, or why it is not held.
     pulls : tuple of AnchorPull
         Directions at the anchors.
     gap : Message or None
@@ -70,8 +65,6 @@ class Known:
         Why an assumed panel fails, so that nothing is known of the row.
     """
 
-    forces: RowForces
-    held: HeldSidewaysRecord | Message
     pulls: tuple[AnchorPull, ...]
     gap: Message | None = None
     floor_gap: Message | None = None
@@ -137,7 +130,7 @@ def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
 
 def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     """Checks of both supports' members, then of the net and what holds its ropes."""
-    effects, row = known.forces.effects, basis.row
+    effects, row = known.effects, basis.row
     at_end, not_checked = effects.find_support("edge"), basis.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
     parts = () if "mesh" in not_checked else row.net_parts
@@ -160,8 +153,8 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
 def _concerns(basis: Basis, known: Known, given: Resistance) -> bool:
     """The check is one of this row and profile: some case lifts a foot that is held."""
     if given.member == Member.POST_FOOT:
-        floor = known.forces.floor or {}
-        return lifts(known.forces.largest.values(), floor.values())
+        floor = known.floor or {}
+        return lifts(known.largest.values(), floor.values())
     return given.mode != "wedge" or "anchor_ground" not in basis.standard.not_checked
 
 
@@ -190,13 +183,13 @@ def _judge_member(
     if unsaid:
         return _leave_open(basis, given, width, unsaid)
     row = basis.row
-    force = find_force(known.forces, given, width)
+    force = find_force(known, given, width)
     given, unsure = _find_lasting(basis, given)
     doubt = None
     if force is not None:
         pull = find_pull(known.pulls, given.member, width.position)
         given = find_resistance_for_force(given, basis, pull)
-        doubt = _find_doubt(basis, list_bringing(known.forces, force))
+        doubt = _find_doubt(basis, list_bringing(known, force))
     gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
     gap = gap or _find_unseen(force.solved if force else ())
     gap = gap or find_other_panel(row, given, width.position)
@@ -314,7 +307,7 @@ def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
     check = replace(check, case=one.force.largest.case)
     if one.is_of_end:
         return replace(check, governs="panel")
-    least = _find_floor(known.forces, one.given.member)
+    least = _find_floor(known, one.given.member)
     return replace(
         check,
         load_case=least.load_case if least else "",

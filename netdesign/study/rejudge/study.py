@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 from netdesign.calculation.steps import is_same
 from netdesign.checks import Standard
@@ -30,7 +30,6 @@ from netdesign.study.judgement import (
     record_member,
     record_others,
 )
-from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import span_variants
 from netdesign.study.notes import list_judged_notes, list_reasons, list_site_notes
 from netdesign.study.parts import list_parts
@@ -38,6 +37,7 @@ from netdesign.study.pulls import build_pull_again, record_pulls
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.record_guideline import compare_case, find_row_floor, record_floor
 from netdesign.study.record_independent import compare_slab
+from netdesign.study.record_provenance import record_profile
 from netdesign.study.record_support import record_panel
 from netdesign.study.records import (
     CheckRecord,
@@ -228,21 +228,16 @@ def _know_again(
     row: RowStudy, basis: Basis, effects: RowEffects, floor: FloorRecord | None
 ) -> Known:
     """Knowledge of a row by what the study states of its solved cases."""
-    held = row.held_sideways
     panel = row.panel
     is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)
-    forces = RowForces(
+    return Known(
         row=basis.row,
         standard=basis.standard,
         effects=effects,
         largest={one.quantity: one for one in row.forces},
         floor={one.member: one for one in floor.forces} if floor else None,
-        held=held,
+        held=row.held_sideways or find_lack(basis.row) or _UNKNOWN_GAP,
         tilt=row.tilt,
-    )
-    return Known(
-        forces=forces,
-        held=held or find_lack(basis.row) or _UNKNOWN_GAP,
         pulls=tuple(
             build_pull_again(basis.row, one, effects.lateral_share) for one in row.pulls
         ),
@@ -375,8 +370,6 @@ def rejudge(
         for part in parts:
             found += guard(place, part)
     if site is not None and site.sha256 == study.provenance.site_sha256:
-        from netdesign.study.rejudge.study import judge_again
-
         found += judge_again(study, site, standard)
     verdict = merge_rows(study.rows, study.left_out)
     if study.verdict is not verdict:
@@ -391,11 +384,9 @@ def _rejudge_profile(study: Study, standard: Standard | None) -> Iterator[Messag
         yield say("audit.value_twice")
     if standard is None or standard.sha256 != study.profile.sha256:
         return
-    from netdesign.study.record_provenance import record_profile
-
     again = record_profile(standard)
-    stored = {value.id: asdict(value) for value in study.profile.values}
-    listed = {value.id: asdict(value) for value in again.values}
+    stored = {value.id: value for value in study.profile.values}
+    listed = {value.id: value for value in again.values}
     for name in dict.fromkeys((*stored, *listed)):
         if stored.get(name) != listed.get(name):
             yield say("audit.other_profile", name=name)
