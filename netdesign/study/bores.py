@@ -151,7 +151,7 @@ def list_bores(
         kind = row.find_anchor_type(anchor)
         length = kind.drilled if kind else None
         for aside, turned in _spread(row, points, anchor):
-            start = (_find_place(points, anchor), 0.0)
+            start = points.find_anchor(anchor)
             heading = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
             flat = math.cos(pull.axis)
             direction = (
@@ -169,13 +169,6 @@ def list_bores(
 
 def _is_same_as_foot(row: NetRow, anchor: Member) -> bool:
     return row.layout.is_foot_shared and anchor == Member.UPHILL_ANCHOR
-
-
-def _find_place(points: SupportPoints, anchor: Member) -> float:
-    if anchor == Member.FOOT_ANCHOR:
-        return points.net_foot[0]
-    is_uphill = anchor == Member.UPHILL_ANCHOR
-    return (points.uphill_anchor if is_uphill else points.downhill_anchor)[0]
 
 
 def _spread(
@@ -197,7 +190,7 @@ def _spread(
     elif row.guys.are_shared:
         yield half, 0.0
     else:
-        reach = points.head[0] - _find_place(points, anchor)
+        reach = points.head[0] - points.find_anchor(anchor)[0]
         aside = math.hypot(reach, points.head[1]) * math.tan(splay)
         turned = math.atan2(aside, abs(reach))
         yield aside, turned

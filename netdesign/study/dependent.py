@@ -50,12 +50,12 @@ from netdesign.site.model import (
     NetRow,
     Resistance,
 )
-from netdesign.structure.layout import place_support
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
 from netdesign.study.member_force import MemberForce
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.row_to_check import Basis
+from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 
@@ -88,11 +88,7 @@ def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message |
     if given.buckling_length is None:
         return None
     span = ranges["inclination"]
-    heads = [
-        (row.net_height * math.tan(angle), row.net_height)
-        for angle in (span.low, span.high)
-    ]
-    longest = max(place_support(row.layout, head).post_length for head in heads)
+    longest = max(place_row(row, one).post_length for one in (span.low, span.high))
     if given.buckling_length >= (1.0 - _ROUNDED) * longest:
         return None
     return say(

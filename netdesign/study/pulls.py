@@ -138,8 +138,7 @@ def find_pull(
 
 def _measure_guy(points: SupportPoints, anchor: Member, guys: Guys) -> float:
     """Direction of a guy's line at its anchor, slack or not; in its own plane."""
-    is_uphill = anchor == Member.UPHILL_ANCHOR
-    end = points.uphill_anchor if is_uphill else points.downhill_anchor
+    end = points.find_anchor(anchor)
     x, y = points.head[0] - end[0], points.head[1] - end[1]
     turned = 0.0 if _may_share(guys) else guys.splay or 0.0
     return turn_by_splay(measure_pull(x, y, anchor), turned)

@@ -175,27 +175,34 @@ _SENTENCES = {
 }
 
 
+def find_solved(result: CaseResult) -> tuple[float, float] | None:
+    """Load along the slope [N/m] and force of the foot anchor [N] of a solved case.
+
+    None where it has no solution.
+    """
+    if result.solution is None or not result.is_converged:
+        return None
+    load = result.solution.foot.x + result.solution.head.x
+    return load, result.member_forces[Member.FOOT_ANCHOR].value
+
+
 def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
     """Record the guideline's load cases against one solved case of a row.
 
     None where the case has no solution to compare with.
     """
-    solution = result.solution
-    if solution is None or not result.is_converged:
+    solution, solved = result.solution, find_solved(result)
+    if solution is None or solved is None:
         return None
-    load = solution.foot.x + solution.head.x
-    foot = result.member_forces[Member.FOOT_ANCHOR].value
     heights = solution.net_curve[1].round(_DECIMALS).tolist()
     pairs = zip(heights, list_pressures(solution), strict=True)
     return replace(
-        compare_case(row, result.case, load=load, foot=foot),
+        compare_case(row, result.case, *solved),
         along_net=[(y, pressure) for y, pressure in pairs if pressure is not None],
     )
 
 
-def compare_case(
-    row: NetRow, case: Case, *, load: float, foot: float
-) -> GuidelineRecord:
+def compare_case(row: NetRow, case: Case, load: float, foot: float) -> GuidelineRecord:
     """Record the guideline's load cases against the forces of one case.
 
     Parameters

@@ -29,9 +29,8 @@ from netdesign.solving.state import SolvedState
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import place_support
-from netdesign.structure.members import Member
 from netdesign.study.record_envelope import record_point
-from netdesign.study.record_guideline import build_geometry, compare_forces
+from netdesign.study.record_guideline import build_geometry, compare_forces, find_solved
 from netdesign.study.records import IndependentRecord, SlabCase, SlabRecord
 from netdesign.study.support_records import HeadForce
 from netdesign.units import kilonewton_from_newton
@@ -43,16 +42,12 @@ def record_slab(row: NetRow, result: CaseResult, law: CreepLaw) -> SlabRecord | 
 
     None where the case has no solution to compare with, or its snow no closed form.
     """
-    solution = result.solution
-    if solution is None or not result.is_converged:
-        return None
-    load = solution.foot.x + solution.head.x
-    foot = result.member_forces[Member.FOOT_ANCHOR].value
-    return compare_slab(row, result.case, law, load=load, foot=foot)
+    solved = find_solved(result)
+    return None if solved is None else compare_slab(row, result.case, law, *solved)
 
 
 def compare_slab(
-    row: NetRow, case: Case, law: CreepLaw, *, load: float, foot: float
+    row: NetRow, case: Case, law: CreepLaw, load: float, foot: float
 ) -> SlabRecord | None:
     """Record the closed form against the forces of one case.
 

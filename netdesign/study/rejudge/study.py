@@ -299,8 +299,8 @@ def _list_opinions(
     if slab is not None:
         again = compare_slab(
             *(given, read_point(slab.case), law),
-            load=newton_from_kilonewton(slab.solved_load_kN_per_m),
-            foot=newton_from_kilonewton(slab.solved_foot_anchor_kN),
+            newton_from_kilonewton(slab.solved_load_kN_per_m),
+            newton_from_kilonewton(slab.solved_foot_anchor_kN),
         )
         yield "audit.other_slab", slab, again
     if form is not None:
@@ -308,8 +308,8 @@ def _list_opinions(
     if guideline is not None and guideline.sha256 == load_guideline().sha256:
         compared = compare_case(
             *(given, read_point(guideline.case)),
-            load=newton_from_kilonewton(guideline.solved_load_kN_per_m),
-            foot=newton_from_kilonewton(guideline.solved_foot_anchor_kN),
+            newton_from_kilonewton(guideline.solved_load_kN_per_m),
+            newton_from_kilonewton(guideline.solved_foot_anchor_kN),
         )
         stored = replace(guideline, along_net=[])  # of a solve
         yield "audit.other_guideline", stored, compared
