@@ -343,8 +343,3 @@ def at_value(quantity: Quantity) -> Quantity:
 def above_zero(quantity: Quantity) -> Quantity:
     """The quantity where it is positive, else zero."""
     return apply("max", quantity, 0.0)
-
-
-def find_governing(quantity: Quantity) -> Quantity:
-    """Operand of a ``max`` that its value takes: of equal ones the first."""
-    return next(one for one in quantity.of if one.value == quantity.value)

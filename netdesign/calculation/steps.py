@@ -7,7 +7,7 @@ from its leaves, so that a number that does not follow is found.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -147,11 +147,6 @@ def is_same(one: float | None, other: float | None) -> bool:
     if one is None or other is None:
         return one is other
     return math.isclose(one, other, rel_tol=SAME, abs_tol=1e-12)
-
-
-def find_step(steps: Iterable[Step], symbol: str) -> Step | None:
-    """Step of a symbol; None where a calculation does without it."""
-    return next((one for one in steps if one.symbol == symbol), None)
 
 
 def find_level(

@@ -15,13 +15,20 @@ from netdesign.checks.loader import (
     list_standards,
     load_standard,
 )
-from netdesign.checks.result import Band, CheckResult, Declaration, GivenResistance
+from netdesign.checks.result import (
+    Band,
+    CheckResult,
+    Declaration,
+    GivenResistance,
+    Proof,
+)
 
 __all__ = [
     "Band",
     "CheckResult",
     "Declaration",
     "GivenResistance",
+    "Proof",
     "RowGeometry",
     "Standard",
     "StandardTable",

@@ -17,6 +17,8 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_member, name_mode
 
+_NET = "net"
+
 
 def judge(
     low: float, high: float, *, least: float, most: float, is_complete: bool = True
@@ -102,14 +104,37 @@ def check_member(
         verdict=verdict,
         reason=_explain(verdict, gaps, is_slack=action.high == 0.0),
         used=used,
-        assumed=_list_assumed_factors(resistance, standard),
         tested=find_tested(resistance, standard),
+    )
+
+
+def conclude(
+    mode: str,
+    verdict: Verdict,
+    reason: Message,
+    limit: StandardValue | None = None,
+    *,
+    member: str = _NET,
+) -> CheckResult:
+    """Check that compares no force with a resistance: of the geometry, or of a member.
+
+    ``limit`` is the value of the profile whose clause stands beside it.
+    """
+    subject = "geometry" if member == _NET else member
+    return CheckResult(
+        id=f"{subject}.{mode}",
+        clause=limit.clause if limit else "-",
+        member=member,
+        mode=mode,
+        verdict=verdict,
+        reason=reason,
     )
 
 
 def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
     """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
-    found = _find_first(standard, mode)
+    values = map(standard.find, list_action_factors(mode))
+    found = next((one for one in values if one), None)
     lack = None if found else lack_factor(ACTION_FACTOR)
     source = found.id if found else ACTION_FACTOR
     return given(
@@ -117,11 +142,6 @@ def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
         kind=Kind.PROFILE,
         lack=lack,
     )
-
-
-def _find_first(standard: Standard, mode: str) -> StandardValue | None:
-    found = map(standard.find, list_action_factors(mode))
-    return next((one for one in found if one), None)
 
 
 def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
@@ -152,12 +172,15 @@ def _find_resistance_factor(
             *("γ_R", found.value_si, "-", found.id), kind=Kind.PROFILE, lack=None
         )
         return factor, found.clause
-    # without a resistance there is no basis yet, and no factor to miss
-    is_basis_open = _has_factor_of_some_basis(resistance, standard)
-    lack = _lack_resistance_factor(resistance, standard)
-    if is_basis_open and strength.lacks:
-        lack = strength.lacks[0]
     source = f"resistance.{resistance.mode}"
+    ids = (value.id for value in standard.values)
+    bases = [
+        one.removeprefix(f"{source}.") for one in ids if one.startswith(f"{source}.")
+    ]
+    lack = _lack_resistance_factor(resistance, bases)
+    # without a resistance there is no basis yet, and no factor to miss
+    if bases and not resistance.basis and strength.lacks:
+        lack = strength.lacks[0]
     return given("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
 
 
@@ -168,15 +191,15 @@ def declare(result: CheckResult, declaration: Declaration | None) -> CheckResult
     """
     if declaration is None:
         return result
-    told = {"reason": result.reason, "proof": declaration.proof}
+    told = {"reason": result.reason, "proof": declaration.proof.describe()}
     if result.verdict is Verdict.FAIL:
         reason = say("check.fails_though_declared", **told)
-        return replace(result, reason=reason, declaration=declaration)
+        return replace(result, reason=reason, declared=declaration.proof)
     return replace(
         result,
         verdict=Verdict.DECLARED,
         reason=say("check.declared", **told),
-        declaration=declaration,
+        declared=declaration.proof,
     )
 
 
@@ -235,42 +258,25 @@ def _is_usable(resistance: float) -> bool:
     return 0.0 < resistance < math.inf
 
 
-def _list_assumed_factors(
-    resistance: GivenResistance, standard: Standard
-) -> tuple[str, ...]:
-    factor = standard.find_resistance_factor(resistance.mode, resistance.basis)
-    return list_assumed(_find_first(standard, resistance.mode), factor)
-
-
 def lack_factor(factor: str) -> Message:
     """Lack of a profile's value, by its name and its id."""
     return say("check.no_factor", factor=name("factor", factor), id=factor)
 
 
-def _lack_resistance_factor(resistance: GivenResistance, standard: Standard) -> Message:
-    """Lack of a factor of a mode; it may have one on another basis."""
+def _lack_resistance_factor(
+    resistance: GivenResistance, known: Sequence[str]
+) -> Message:
+    """Lack of a factor of a mode; it may have one on other bases, which are known."""
     mode = name_mode(resistance.mode)
-    of_mode = f"resistance.{resistance.mode}"
-    ids = (value.id for value in standard.values)
-    known = [
-        one.removeprefix(f"{of_mode}.") for one in ids if one.startswith(f"{of_mode}.")
-    ]
     if not known:
         factor = say("factor.resistance", mode=mode)
+        of_mode = f"resistance.{resistance.mode}"
         return say("check.no_factor", factor=factor, id=of_mode)
     return say(
         "check.no_factor_of_basis",
         mode=mode,
         basis=name("basis", resistance.basis),
         known=tuple(name("basis", one) for one in known),
-    )
-
-
-def _has_factor_of_some_basis(resistance: GivenResistance, standard: Standard) -> bool:
-    """Without a resistance there is no basis yet, and no factor to miss."""
-    prefix = f"resistance.{resistance.mode}."
-    return not resistance.basis and any(
-        value.id.startswith(prefix) for value in standard.values
     )
 
 
@@ -288,8 +294,3 @@ def _explain(verdict: Verdict, also: Sequence[Message], *, is_slack: bool) -> Me
 def not_proven(*gaps: Message) -> Message:
     """The sentence of a check that is not proven, with what is missing."""
     return say("check.not_proven", gaps=gaps)
-
-
-def list_assumed(*values: StandardValue | None) -> tuple[str, ...]:
-    """Ids of those values of a profile that nobody has confirmed."""
-    return tuple(v.id for v in values if v is not None and v.status == "assumed")

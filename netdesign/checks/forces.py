@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
 
 from netdesign.calculation.quantity import (
     Quantity,
@@ -23,8 +22,6 @@ from netdesign.calculation.quantity import (
     tan,
 )
 
-Position = Literal["intermediate", "edge"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Support:
@@ -32,15 +29,12 @@ class Support:
 
     Attributes
     ----------
-    position : str
-        "intermediate" or "edge".
     spacing, width : Quantity or None
         b and b_e [m]; None inside the row, where one is the other.
     end_factor, end_length : Quantity or None
         f_R [-] and its length [m]; None inside the row.
     """
 
-    position: Position
     spacing: Quantity | None = None
     width: Quantity | None = None
     end_factor: Quantity | None = None
@@ -80,7 +74,6 @@ def place_end_support(
     if is_shared:
         width = largest(width, (width + spacing) / 2)
     return Support(
-        position="edge",
         spacing=spacing,
         width=width.named("b_e", "m", "(S20)" if is_shared else "(S9)"),
         end_factor=factor,
@@ -346,9 +339,9 @@ def _calculate_end(leaves: Leaves, support: Support) -> SupportForce:
 
 def _find_support(leaves: Leaves) -> Support:
     if "f_R" not in leaves:
-        return Support(position="intermediate")
+        return Support()
     if "Δl" not in leaves:  # of a rope whose pull grows by f_R alone
-        return Support(position="edge", end_factor=leaves["f_R"])
+        return Support(end_factor=leaves["f_R"])
     return place_end_support(
         leaves["b"],
         leaves["f_R"],

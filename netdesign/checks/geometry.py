@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.checks.check import judge, list_assumed, not_proven
+from netdesign.checks.check import conclude, judge, not_proven
 from netdesign.checks.loader import Standard, StandardValue
 from netdesign.checks.result import CheckResult
 from netdesign.checks.schema import (
@@ -22,7 +22,7 @@ from netdesign.checks.schema import (
 )
 from netdesign.outcome import Verdict
 from netdesign.units import degree_from_radian, radian_from_percent
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 # Sentences by verdict, or by whether a limit is kept.
 _INCLINATIONS = {
@@ -101,7 +101,7 @@ def check_inclination(low: float, high: float, standard: Standard) -> CheckResul
     least, most = standard.find(MIN_INCLINATION), standard.find(MAX_INCLINATION)
     if least is None or most is None:
         reason = not_proven(say("geometry.no_inclination_limits"))
-        return _result("inclination", Verdict.NOT_PROVEN, reason)
+        return conclude("inclination", Verdict.NOT_PROVEN, reason)
     verdict = judge(low, high, least=least.value_si, most=most.value_si)
     reason = say(
         _INCLINATIONS[verdict],
@@ -110,7 +110,7 @@ def check_inclination(low: float, high: float, standard: Standard) -> CheckResul
         least=least.value,
         most=most.value,
     )
-    return _result("inclination", verdict, reason, least, most)
+    return conclude("inclination", verdict, reason, least)
 
 
 def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
@@ -128,7 +128,7 @@ def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
     plausible = _judge_slope(slope_angle, least, most)
     if least is None or most is None or plausible is None:
         reason = not_proven(say("geometry.no_plausible_slope"))
-        return _result("slope", Verdict.NOT_PROVEN, reason)
+        return conclude("slope", Verdict.NOT_PROVEN, reason)
     if plausible.verdict is Verdict.PASS:
         return limits or plausible
     number = degree_from_radian(slope_angle)
@@ -142,7 +142,7 @@ def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
     reason = not_proven(gap)
     if slope_angle > most.value_si:
         reason = say("geometry.percentage", reason=reason, slope=number, meant=meant)
-    return _result("slope", Verdict.NOT_PROVEN, reason, least, most)
+    return conclude("slope", Verdict.NOT_PROVEN, reason, least)
 
 
 def _judge_slope(
@@ -157,7 +157,7 @@ def _judge_slope(
         least=least.value,
         most=most.value,
     )
-    return _result("slope", verdict, reason, least, most)
+    return conclude("slope", verdict, reason, least)
 
 
 def check_height(
@@ -171,12 +171,11 @@ def check_height(
     ratio = standard.find(HEIGHT_RATIO)
     if ratio is None and net_height >= snow_thickness:
         return None
-    limits = [ratio] if ratio else []
-    needed = max([1.0, *(limit.value for limit in limits)]) * snow_thickness
+    needed = max(1.0, ratio.value if ratio else 0.0) * snow_thickness
     verdict = judge(net_height, net_height, least=needed, most=math.inf)
     key = _HEIGHTS[verdict is Verdict.PASS]
     reason = say(key, height=net_height, needed=needed)
-    return _result("height", verdict, reason, *limits)
+    return conclude("height", verdict, reason, ratio)
 
 
 def compute_largest_row_spacing(
@@ -225,8 +224,7 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> CheckResult | Non
     if verdict is Verdict.NOT_PROVEN:
         capped = say("geometry.spacing_capped", length=length, most=proven)
         reason = not_proven(capped if cap else say("geometry.no_cap"))
-    limits = [friction, *([cap] if cap else [])]
-    return _result("spacing", verdict, reason, *limits)
+    return conclude("spacing", verdict, reason, friction)
 
 
 def check_gap(gap: float, standard: Standard) -> CheckResult | None:
@@ -239,18 +237,4 @@ def check_gap(gap: float, standard: Standard) -> CheckResult | None:
         reason = not_proven(say("geometry.no_gap"))
     else:
         reason = say(_GAPS[verdict is Verdict.PASS], gap=gap, most=most.value)
-    return _result("gap", verdict, reason, most)
-
-
-def _result(
-    mode: str, verdict: Verdict, reason: Message, *values: StandardValue
-) -> CheckResult:
-    return CheckResult(
-        id=f"geometry.{mode}",
-        clause=values[0].clause if values else "-",
-        member="net",
-        mode=mode,
-        verdict=verdict,
-        reason=reason,
-        assumed=list_assumed(*values),
-    )
+    return conclude("gap", verdict, reason, most)

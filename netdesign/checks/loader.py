@@ -39,8 +39,6 @@ from netdesign.outcome import StandardError
 from netdesign.units import radian_from_degree
 from netdesign.words.message import Message, say
 
-CONFIRM = "assumed: confirm in your copy of the standard"
-
 EntryT = TypeVar("EntryT", FactorEntry, TableEntry)
 
 _FILES = ("document.toml", "limits.toml", "factors.toml")
@@ -79,11 +77,6 @@ class StandardValue:
     def value_si(self) -> float:
         """The value with degrees as radians; all else as printed."""
         return radian_from_degree(self.value) if self.unit == "deg" else self.value
-
-    @property
-    def note(self) -> str:
-        """Task left to the reader of the value; "" if none."""
-        return CONFIRM if self.status == "assumed" else ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

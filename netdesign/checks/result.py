@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.steps import list_named
@@ -42,47 +41,56 @@ class Band:
         )
 
 
-class GivenResistance(Protocol):
-    """Resistance as a check reads it; ``site.model.Resistance`` is one."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GivenResistance:
+    """Characteristic resistance of one member in one mode, as a check reads it.
 
-    @property
-    def member(self) -> str:
-        """Member, as in "foot_anchor"."""
+    Attributes
+    ----------
+    member, mode : str
+        Member, as in "foot_anchor", and mode of failure, such as "pull_out".
+    source : str
+        Cell where it stands or should stand.
+    value : float or None
+        [N]; None where none is given.
+    basis : str
+        Way in which it was found: "tested", "computed", "declared", or "".
+    type_id : str
+        Id of the anchor, rope or post type, or "".
+    tests : PullOutTests or None
+        Pull-out tests in the place of a value.
+    lack : Message or None
+        Reason for a missing value, where "none is given" does not say it.
+    """
 
-    @property
-    def mode(self) -> str:
-        """Mode of failure, such as "pull_out"."""
-
-    @property
-    def value(self) -> float | None:
-        """Characteristic resistance [N]; None where none is given."""
-
-    @property
-    def basis(self) -> str:
-        """Way in which it was found: "tested", "computed", "declared", or ""."""
-
-    @property
-    def type_id(self) -> str:
-        """Id of the anchor, rope or post type, or ""."""
-
-    @property
-    def source(self) -> str:
-        """Cell where it stands or should stand."""
-
-    @property
-    def tests(self) -> PullOutTests | None:
-        """Pull-out tests in the place of a value [N]; None without."""
-
-    @property
-    def lack(self) -> Message | None:
-        """Reason for a missing value, where "none is given" does not say it."""
+    member: str
+    mode: str
+    source: str
+    value: float | None = None
+    basis: str = ""
+    type_id: str = ""
+    tests: PullOutTests | None = None
+    lack: Message | None = None
 
 
-def describe_proof(document: str, author: str, date: str, cell: str) -> Message:
-    """Document, author, date ("" for none) and cell of a declaration as one phrase."""
-    if not date:
-        return say("check.proof_undated", document=document, author=author, cell=cell)
-    return say("check.proof", document=document, author=author, date=date, cell=cell)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Proof:
+    """Place of a proof elsewhere: document, author, date ("" for none) and cell.
+
+    A study has it as it is; its cell is that of the declaration, ``Declared!B2``.
+    """
+
+    document: str
+    author: str
+    date: str
+    cell: str
+
+    def describe(self) -> Message:
+        """All of it as one phrase."""
+        told = {"document": self.document, "author": self.author, "cell": self.cell}
+        if not self.date:
+            return say("check.proof_undated", **told)
+        return say("check.proof", **told, date=self.date)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,25 +106,15 @@ class Declaration:
     position : str
         "edge": on a row's first and last support only. "": inside the row, and there
         too where its member is of the same type.
-    document, author, date : str
-        Where it is proven, by whom and when; the date may be "".
-    source : str
-        Cell, as in "Declared!B2".
+    proof : Proof
+        Where it is proven, by whom and when.
     """
 
     row_id: str
     member: str
     mode: str
-    document: str
-    author: str
-    date: str
-    source: str
     position: str = ""
-
-    @property
-    def proof(self) -> Message:
-        """The place of the proof, as one phrase."""
-        return describe_proof(self.document, self.author, self.date, self.source)
+    proof: Proof
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -133,9 +131,7 @@ class CheckResult:
         Why, in one sentence.
     used : Quantity or None
         Utilisation with all that it follows from: of a check of a force.
-    assumed : tuple of str
-        Ids of the profile's values in this check that are only assumed.
-    declaration : Declaration or None
+    declared : Proof or None
         Where it is said to be proven, whatever the verdict.
     tested : TestedResistance or None
         Resistance from tests by every way; None where it is not from tests.
@@ -151,8 +147,7 @@ class CheckResult:
     verdict: Verdict
     reason: Message
     used: Quantity | None = None
-    assumed: tuple[str, ...] = ()
-    declaration: Declaration | None = None
+    declared: Proof | None = None
     is_unbounded: bool = False
     tested: TestedResistance | None = None
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal, TypeVar, get_args
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Literal, Self, TypeVar, get_args
 
 from pydantic import (
     AfterValidator,
@@ -130,26 +130,16 @@ def list_action_factors(mode: str) -> tuple[str, ...]:
     return (UPLIFT_FACTOR, ACTION_FACTOR) if mode == "tension" else (ACTION_FACTOR,)
 
 
-def _limit_id(text: str) -> str:
-    return _known(text, LIMIT_IDS)
+def _is_one_of(accepted: Iterable[str]) -> AfterValidator:
+    """Refuse an id that is none of those that are accepted."""
+    known = tuple(accepted)
 
+    def check(text: str) -> str:
+        if text not in known:
+            raise ContentError(say("standard.one_of", accepted=known))
+        return text
 
-def _factor_id(text: str) -> str:
-    return _known(text, FACTOR_IDS)
-
-
-def _model_id(text: str) -> str:
-    return _known(text, tuple(MODEL_UNITS))
-
-
-def _table_id(text: str) -> str:
-    return _known(text, tuple(TABLE_COUNTS))
-
-
-def _known(text: str, accepted: Sequence[str]) -> str:
-    if text not in accepted:
-        raise ContentError(say("standard.one_of", accepted=tuple(accepted)))
-    return text
+    return AfterValidator(check)
 
 
 class _Table(BaseModel):
@@ -228,7 +218,7 @@ class Entry(_Table):
 class LimitEntry(Entry):
     """A limit of geometry."""
 
-    id: Annotated[str, AfterValidator(_limit_id)]
+    id: Annotated[str, _is_one_of(LIMIT_IDS)]
 
     @model_validator(mode="after")
     def _check(self) -> LimitEntry:
@@ -239,7 +229,7 @@ class LimitEntry(Entry):
 class FactorEntry(Entry):
     """A partial factor on actions or resistances; below 1 only with a reason."""
 
-    id: Annotated[str, AfterValidator(_factor_id)]
+    id: Annotated[str, _is_one_of(FACTOR_IDS)]
     unit: Literal["-"]
     reason_below_one: str = ""
 
@@ -252,7 +242,7 @@ class FactorEntry(Entry):
 class ModelEntry(Entry):
     """A number of a guideline's load model."""
 
-    id: Annotated[str, AfterValidator(_model_id)]
+    id: Annotated[str, _is_one_of(MODEL_UNITS)]
     # some coefficients of a polynomial are negative
     value: FiniteFloat
 
@@ -279,7 +269,7 @@ class TableEntry(_Table):
     Counts below those of the first row have no value.
     """
 
-    id: Annotated[str, AfterValidator(_table_id)]
+    id: Annotated[str, _is_one_of(TABLE_COUNTS)]
     clause: Text
     text: Text
     over: Text
@@ -319,17 +309,29 @@ class ChoiceEntry(_Table):
     text: Text
     factor: list[FactorEntry]
     table: list[TableEntry] = []
-    without: list[Annotated[str, AfterValidator(_factor_id)]] = []
+    without: list[Annotated[str, _is_one_of(FACTOR_IDS)]] = []
 
 
-class LimitsFile(_Table):
+class _ListFile(_Table):
+    """A file with one list, whose entries have ids or names of their own."""
+
+    @model_validator(mode="after")
+    def _require_unique(self) -> Self:
+        (entries,) = (getattr(self, key) for key in type(self).model_fields)
+        ids = [getattr(one, "id", None) or one.name for one in entries]
+        twice = tuple(sorted({name for name in ids if ids.count(name) > 1}))
+        if twice:
+            raise ContentError(say("standard.twice", ids=twice))
+        return self
+
+
+class LimitsFile(_ListFile):
     """``limits.toml``: ``[[limit]]`` tables; ``limit = []`` if there are none."""
 
     limit: list[LimitEntry]
 
     @model_validator(mode="after")
     def _check(self) -> LimitsFile:
-        _require_unique([entry.id for entry in self.limit])
         by_id = {entry.id: entry.value for entry in self.limit}
         for least, most in _PAIRS:
             if (least in by_id) != (most in by_id):
@@ -341,18 +343,13 @@ class LimitsFile(_Table):
         return self
 
 
-class FactorsFile(_Table):
+class FactorsFile(_ListFile):
     """``factors.toml``: ``[[factor]]`` tables; ``factor = []`` if there are none."""
 
     factor: list[FactorEntry]
 
-    @model_validator(mode="after")
-    def _check(self) -> FactorsFile:
-        _require_unique([entry.id for entry in self.factor])
-        return self
 
-
-class ModelFile(_Table):
+class ModelFile(_ListFile):
     """``model.toml``, optional: ``[[value]]`` tables of a guideline's load model."""
 
     value: list[ModelEntry]
@@ -360,7 +357,6 @@ class ModelFile(_Table):
     @model_validator(mode="after")
     def _check(self) -> ModelFile:
         given = [entry.id for entry in self.value]
-        _require_unique(given)
         for group in ("snow.", "end."):
             needed = [name for name in MODEL_UNITS if name.startswith(group)]
             missing = tuple(name for name in needed if name not in given)
@@ -371,26 +367,16 @@ class ModelFile(_Table):
         return self
 
 
-class TablesFile(_Table):
+class TablesFile(_ListFile):
     """``tables.toml``, optional: ``[[table]]`` tables of values by a count."""
 
     table: list[TableEntry]
 
-    @model_validator(mode="after")
-    def _check(self) -> TablesFile:
-        _require_unique([entry.id for entry in self.table])
-        return self
 
-
-class ChoicesFile(_Table):
+class ChoicesFile(_ListFile):
     """``choices.toml``, optional: ``[[choice]]`` tables, sets of factors by name."""
 
     choice: list[ChoiceEntry]
-
-    @model_validator(mode="after")
-    def _check(self) -> ChoicesFile:
-        _require_unique([entry.name for entry in self.choice])
-        return self
 
 
 def _require_unit(entry: Entry, unit: str) -> None:
@@ -405,12 +391,6 @@ def _require_reason(name: str, value: float, reason: str) -> None:
     if value < 1.0 and not reason:
         key = "reason_below_one"
         raise ContentError(say("standard.below_one", id=name, value=value, key=key))
-
-
-def _require_unique(ids: Sequence[str]) -> None:
-    twice = tuple(sorted({name for name in ids if ids.count(name) > 1}))
-    if twice:
-        raise ContentError(say("standard.twice", ids=twice))
 
 
 def _describe_gap(number: int, start: int, expected: float) -> Message:

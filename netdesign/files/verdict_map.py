@@ -16,7 +16,7 @@ from netdesign.outcome import StudyError, TerrainError
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.anchor_distance import Bore
 from netdesign.study.bores import place_anchors
-from netdesign.study.pulls import read_pulls
+from netdesign.study.pulls import build_pull_again
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.sideways import place_row
 from netdesign.terrain.geojson import Feature, write_features
@@ -177,7 +177,8 @@ def _map_anchors(
     """Heads of the anchors of each post, with direction and design force."""
     middle = 0.5 * sum(_list_inclinations(row))
     points = place_row(given, middle)
-    pulls, factor = read_pulls(given, row.pulls), find_proof_factor(standard)
+    factor = find_proof_factor(standard)
+    pulls = [build_pull_again(given, one, 0.0) for one in row.pulls]
     for number, post in enumerate(place.posts, 1):
         checks = _list_checks(row, place, number)
         for anchor, bore in place_anchors(given, points, pulls):

@@ -47,10 +47,6 @@ class Product:
     assumed: frozenset[str]
     sources: tuple[Message, ...]
 
-    def describe_status(self, quantity: str) -> str:
-        """Status of a quantity, "secondary" or "assumed", as in the limit profiles."""
-        return "assumed" if quantity in self.assumed else "secondary"
-
 
 @lru_cache(maxsize=1)
 def load_products() -> dict[str, Any]:

@@ -70,8 +70,6 @@ class BentBar:
     ----------
     angle, lever : float
         Between pull and axis [rad]; free length over which it bends [m].
-    without_shear : float
-        Resistance to axial force and bending alone [N].
     shear_ratio : float
         Shear over V_Rk at the resistance [-]; above 1/2 it takes part of it.
     value : float
@@ -80,7 +78,6 @@ class BentBar:
 
     angle: float
     lever: float
-    without_shear: float
     shear_ratio: float
     value: float
 
@@ -151,7 +148,6 @@ def compute_bent_bar_resistance(
     return BentBar(
         angle=angle,
         lever=lever,
-        without_shear=1.0 / used,
         shear_ratio=0.5 * sheared * value,
         value=value,
     )

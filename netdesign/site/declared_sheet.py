@@ -11,7 +11,7 @@ from datetime import date
 from functools import lru_cache
 from itertools import product
 
-from netdesign.checks import Declaration
+from netdesign.checks import Declaration, Proof
 from netdesign.site.cells.cells import Cell, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
@@ -111,7 +111,7 @@ def read_declared(
             continue
         twice = next((one for one in declared if _meet(one, found)), None)
         if twice:
-            rule = say("declared.twice", place=twice.source)
+            rule = say("declared.twice", place=twice.proof.cell)
             refuse(line["check"], rule, say("declared.once"), findings)
         else:
             declared.append(found)
@@ -148,10 +148,12 @@ def _read_line(
         member=subject[0],
         mode=subject[1],
         position=subject[2],
-        document=line["document"].word,
-        author=line["author"].word,
-        date=day.word,
-        source=check.place,
+        proof=Proof(
+            document=line["document"].word,
+            author=line["author"].word,
+            date=day.word,
+            cell=check.place,
+        ),
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import get_args
 
-from netdesign.checks import Declaration
+from netdesign.checks import Declaration, GivenResistance
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
@@ -16,7 +16,6 @@ from netdesign.panel.inputs import Panel
 from netdesign.resistance.connection import Link
 from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
-from netdesign.resistance.pull_out import PullOutTests
 from netdesign.resistance.steel import RoundSection
 from netdesign.resistance.wedge import Soil
 from netdesign.site.cells.findings import Finding
@@ -166,25 +165,18 @@ class BaseFriction:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Resistance:
+class Resistance(GivenResistance):
     """Characteristic resistance of one member in one mode.
 
-    ``value`` [N] is None where the workbook gives none, and where it follows the
-    demand, from ``dimensions``; ``source`` is its cell.
+    ``value`` is None where the workbook gives none, and where it follows the demand,
+    from ``dimensions``.
     """
 
     member: Member | EndMember | NetPart
-    mode: str
-    source: str
-    value: float | None = None
-    basis: str = ""  # "tested", "computed", "declared"; "" where nothing is given
-    type_id: str = ""  # id of the anchor, rope or post type; "" where none is named
     derivation: Message | None = None  # how it follows from dimensions
-    tests: PullOutTests | None = None  # instead of a value
     dimensions: AnchorType | GroundAround | PostSection | BaseFriction | Link | None = (
         None
     )
-    lack: Message | None = None  # why there is no value, where that needs more words
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown

@@ -13,6 +13,7 @@ from netdesign.structure.axis import measure_pull
 from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
+    MemberSizes,
     Vector,
     compute_head_forces,
     find_direction,
@@ -115,18 +116,9 @@ class AnchorForces:
         foot : float
             Size of that pull [N].
         """
-        head = self.head
         return _list_forces(
+            self.head,
             foot=foot,
-            uphill=(
-                head.guy_demands[0],
-                max(self.uphill_anchor.size, head.loose_uphill),
-            ),
-            downhill=(
-                head.guy_demands[1],
-                max(self.downhill_anchor.size, head.loose_downhill),
-            ),
-            post=(head.post_compression, head.post_tension),
             out_of_ground=self.post_base.y,
             is_foot_shared=self.is_foot_shared,
         )
@@ -187,14 +179,10 @@ def compute_many_forces(
         find_direction(head, (ground - layout.uphill_anchor_distance, ground)),
         find_direction(head, (x_base + layout.downhill_anchor_distance, ground)),
     )
-    uphill = take_larger(held.uphill_guy_tension, held.loose_uphill)
-    downhill = take_larger(held.downhill_guy_tension, held.loose_downhill)
     return ManyForces(
         of_members=_list_forces(
+            held,
             foot=measure_length(*foot),
-            uphill=(uphill, uphill),
-            downhill=(downhill, downhill),
-            post=(held.post_compression, held.post_tension),
             out_of_ground=held.post_compression * post[1],
             is_foot_shared=layout.is_foot_shared,
         ),
@@ -205,27 +193,24 @@ def compute_many_forces(
 
 
 def _list_forces(
+    head: MemberSizes[Number],
     *,
     foot: Number,
-    uphill: Vector[Number],
-    downhill: Vector[Number],
-    post: Vector[Number],
     out_of_ground: Number,
     is_foot_shared: bool,
 ) -> dict[str, Number]:
-    """Forces by (S7) and (S8): guy and anchor in pairs; the base across its plate."""
-    (uphill_guy, uphill_anchor), (downhill_guy, downhill_anchor) = uphill, downhill
-    if is_foot_shared:
-        foot = uphill_anchor = foot + uphill_anchor
+    """Forces by (S7) and (S8): an anchor has its guy's; the base across its plate."""
+    uphill, downhill = head.guy_demands
+    on_foot = foot + uphill if is_foot_shared else foot
     return {
-        Member.FOOT_ANCHOR: foot,
-        Member.UPHILL_GUY: uphill_guy,
-        Member.UPHILL_ANCHOR: uphill_anchor,
-        Member.DOWNHILL_GUY: downhill_guy,
-        Member.DOWNHILL_ANCHOR: downhill_anchor,
-        Member.POST: post[0],
+        Member.FOOT_ANCHOR: on_foot,
+        Member.UPHILL_GUY: uphill,
+        Member.UPHILL_ANCHOR: on_foot if is_foot_shared else uphill,
+        Member.DOWNHILL_GUY: downhill,
+        Member.DOWNHILL_ANCHOR: downhill,
+        Member.POST: head.post_compression,
         Member.POST_BASE: take_larger(-out_of_ground, 0.0),
-        Member.POST_FOOT: post[1],
+        Member.POST_FOOT: head.post_tension,
     }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import chain
 from typing import ClassVar, Generic, TypeAlias
 
@@ -30,27 +30,42 @@ _ROUNDING = 64 * sys.float_info.epsilon  # relative to the pull
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HeadForces:
-    """Forces in the members that hold one post head; no guy has the wrong sign.
+class MemberSizes(Generic[Number]):
+    """Forces in the members that hold a post head, or each of many [N].
 
     Attributes
     ----------
-    post_compression, uphill_guy_tension, downhill_guy_tension : float
-        Size of each member's force, at least 0; a slack guy has 0 [N].
-    post_tension : float
-        Pull of the post on its foot, at least 0; 0 where it is pressed [N].
-    loose_uphill, loose_downhill : float
-        Tension of each guy at most, should the foot of a pulling post give way [N].
-    reason : Message
-        Which members carry.
+    post_compression, uphill_guy_tension, downhill_guy_tension : float or ndarray
+        Size of each member's force, at least 0; a slack guy has 0.
+    post_tension : float or ndarray
+        Pull of the post on its foot, at least 0; 0 where it is pressed.
+    loose_uphill, loose_downhill : float or ndarray
+        Tension of each guy at most, should the foot of a pulling post give way.
     """
 
-    post_compression: float
-    post_tension: float = 0.0
-    uphill_guy_tension: float = 0.0
-    downhill_guy_tension: float = 0.0
-    loose_uphill: float = 0.0
-    loose_downhill: float = 0.0
+    post_compression: Number
+    post_tension: Number
+    uphill_guy_tension: Number
+    downhill_guy_tension: Number
+    loose_uphill: Number
+    loose_downhill: Number
+
+    @property
+    def guy_demands(self) -> tuple[Number, Number]:
+        """Largest tension of uphill and downhill guy, whatever the foot does [N]."""
+        return (
+            take_larger(self.uphill_guy_tension, self.loose_uphill),
+            take_larger(self.downhill_guy_tension, self.loose_downhill),
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeadForces(MemberSizes[float]):
+    """Forces in the members that hold one post head; no guy has the wrong sign.
+
+    ``reason`` says which members carry.
+    """
+
     reason: Message
     outcome: ClassVar[Outcome] = Outcome.CONVERGED
 
@@ -60,14 +75,6 @@ class HeadForces:
         require_within("post tension", self.post_tension, 0.0, math.inf)
         require_within("uphill guy tension", self.uphill_guy_tension, 0.0, math.inf)
         require_within("downhill guy tension", self.downhill_guy_tension, 0.0, math.inf)
-
-    @property
-    def guy_demands(self) -> tuple[float, float]:
-        """Largest tension of uphill and downhill guy, whatever the foot does [N]."""
-        return (
-            max(self.uphill_guy_tension, self.loose_uphill),
-            max(self.downhill_guy_tension, self.loose_downhill),
-        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,15 +126,8 @@ def compute_head_forces(
     held = hold_head(pull, post, uphill, downhill)
     if not held.is_held:
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
-    return HeadForces(
-        post_compression=held.post_compression,
-        post_tension=held.post_tension,
-        uphill_guy_tension=held.uphill_guy_tension,
-        downhill_guy_tension=held.downhill_guy_tension,
-        loose_uphill=held.loose_uphill,
-        loose_downhill=held.loose_downhill,
-        reason=say(_describe_carriers(held)),
-    )
+    sizes = {one.name: getattr(held, one.name) for one in fields(MemberSizes)}
+    return HeadForces(**sizes, reason=say(_describe_carriers(held)))
 
 
 def hold_head(
@@ -295,27 +295,17 @@ class _Pair(Generic[Number]):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HeldHead(Generic[Number]):
-    """Forces of post and guys at a head, or at each of many [N].
+class HeldHead(MemberSizes[Number]):
+    """The same with what they follow from; of use only where the head is held.
 
     Attributes
     ----------
-    post_compression, uphill_guy_tension, downhill_guy_tension : float or ndarray
-        Of use only where the head is held.
-    post_tension, loose_uphill, loose_downhill : float or ndarray
-        As `HeadForces` has them.
     is_alone, is_held : bool or ndarray
         The post carries alone; some members can hold the head.
     uphill, downhill : _Pair
         Post and each guy.
     """
 
-    post_compression: Number
-    post_tension: Number
-    uphill_guy_tension: Number
-    downhill_guy_tension: Number
-    loose_uphill: Number
-    loose_downhill: Number
     is_alone: Truth
     is_held: Truth
     uphill: _Pair[Number]

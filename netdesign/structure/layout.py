@@ -91,6 +91,13 @@ class SupportPoints:
         """From base to head [m]."""
         return math.dist(self.post_base, self.head)
 
+    def find_anchor(self, member: str) -> Point:
+        """Point on the ground of an anchor, or of the anchor of a guy [m]."""
+        if member == Member.FOOT_ANCHOR:
+            return self.net_foot
+        is_uphill = member in (Member.UPHILL_GUY, Member.UPHILL_ANCHOR)
+        return self.uphill_anchor if is_uphill else self.downhill_anchor
+
 
 def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
     """Points of a support, its net's foot at the origin.

@@ -161,25 +161,3 @@ def list_supports(
     """
     inside = LoadedWidth(position="intermediate", width=post_spacing)
     return (inside,) if edge is None else (inside, edge)
-
-
-def compute_lateral_factor(share: float) -> float:
-    """Size of a force with its sideways part, over its size in the section.
-
-    Parameters
-    ----------
-    share : float
-        Of the force, that acts along the row, 0 to 1 [-].
-
-    Returns
-    -------
-    float
-        (S11), an upper bound [-].
-
-    Raises
-    ------
-    ModelError
-        If the share is out of its range.
-    """
-    require_within("lateral share", share, 0.0, 1.0)
-    return math.hypot(1.0, share)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from netdesign.checks import CheckResult, Standard
-from netdesign.checks.check import list_assumed, not_proven
+from netdesign.checks.check import conclude, not_proven
 from netdesign.checks.schema import ANCHOR_DISTANCE
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
@@ -45,7 +45,7 @@ def check_anchor_distance(
         return None
     if limit is None:
         lack = say("check.no_limit", limit=ANCHOR_DISTANCE)
-        return _result("anchors", Verdict.NOT_PROVEN, not_proven(lack))
+        return conclude("anchors", Verdict.NOT_PROVEN, not_proven(lack))
     gap = gap or _find_lack(row, pulls)
     ends = ranges["inclination"]
     places = [place_row(row, one) for one in (ends.low, ends.high)]
@@ -55,8 +55,7 @@ def check_anchor_distance(
     if gap is not None or not least >= limit.value:
         reason = not_proven(gap or say("bores.near", **told))
     verdict = Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN
-    found = _result("anchors", verdict, reason)
-    return replace(found, clause=limit.clause, assumed=list_assumed(limit))
+    return conclude("anchors", verdict, reason, limit)
 
 
 def _measure_least(
@@ -90,17 +89,6 @@ def _list_of_end(row: NetRow, points: SupportPoints) -> Iterator[Bore]:
         yield Bore(start=start, direction=direction, length=drilled.get(member))
 
 
-def _result(mode: str, verdict: Verdict, reason: Message) -> CheckResult:
-    return CheckResult(
-        id=f"geometry.{mode}",
-        clause="-",
-        member=Member.NET,
-        mode=mode,
-        verdict=verdict,
-        reason=reason,
-    )
-
-
 def check_cover(
     row: NetRow, pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
 ) -> CheckResult | None:
@@ -121,10 +109,10 @@ def check_cover(
         gap = gap or say("bending.no_axis")
     short = None if unsaid else next(_list_short(row, pulls), None)
     if short is not None:
-        return _result("cover", Verdict.FAIL, short)
+        return conclude("cover", Verdict.FAIL, short)
     if gap is not None:
-        return _result("cover", Verdict.NOT_PROVEN, not_proven(gap))
-    return _result("cover", Verdict.PASS, say("bores.covered"))
+        return conclude("cover", Verdict.NOT_PROVEN, not_proven(gap))
+    return conclude("cover", Verdict.PASS, say("bores.covered"))
 
 
 def _list_short(row: NetRow, pulls: Sequence[AnchorPull]) -> Iterator[Message]:
@@ -172,7 +160,7 @@ def place_anchors(
         pull = find_pull(pulls, anchor, "intermediate")
         if _is_same_as_foot(row, anchor) or pull is None:
             continue
-        place = _find_place(points, anchor)
+        place = points.find_anchor(anchor)[0]
         heading = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
         flat = math.cos(pull.axis)
         kind = row.find_anchor_type(anchor)
@@ -191,13 +179,6 @@ def place_anchors(
 
 def _is_same_as_foot(row: NetRow, anchor: Member) -> bool:
     return row.layout.is_foot_shared and anchor == Member.UPHILL_ANCHOR
-
-
-def _find_place(points: SupportPoints, anchor: Member) -> float:
-    if anchor == Member.FOOT_ANCHOR:
-        return points.net_foot[0]
-    is_uphill = anchor == Member.UPHILL_ANCHOR
-    return (points.uphill_anchor if is_uphill else points.downhill_anchor)[0]
 
 
 def _spread(
@@ -219,7 +200,7 @@ def _spread(
     elif row.guys.are_shared:
         yield half, 0.0
     else:
-        reach = points.head[0] - _find_place(points, anchor)
+        reach = points.head[0] - points.find_anchor(anchor)[0]
         aside = math.hypot(reach, points.head[1]) * math.tan(splay)
         turned = math.atan2(aside, abs(reach))
         yield aside, turned

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 
 from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
-from netdesign.structure.members import NetPart, RopeForce, name_in_panel
+from netdesign.structure.members import ROPE_OF, NetPart, RopeForce, name_in_panel
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
@@ -36,9 +36,9 @@ def list_checks_by_case(
     """Checks as functions of a solved case; None of those that no solve may turn.
 
     Of several supports that one which uses a member most: where that holds, the
-    others do.
+    others do. What the ropes load has to be known as a whole.
     """
-    if _is_open(task):
+    if task.solver is None or task.solved.gap or task.basis.row.is_overtopped:
         return [None] * len(judged)
     return [
         _build_check(task, one, extremes)
@@ -46,10 +46,6 @@ def list_checks_by_case(
         else None
         for one in judged
     ]
-
-
-def _is_open(task: RowToCheck) -> bool:
-    return task.solver is None or bool(task.solved.gap) or task.basis.row.is_overtopped
 
 
 def find_row_margins(
@@ -86,31 +82,6 @@ def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:
     return found
 
 
-def build_end_check(
-    task: RowToCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
-) -> CheckByCase | None:
-    """Check of a rope, or of what holds its pull, as a function of a case.
-
-    None where a solve tells nothing of it.
-    """
-    force, use = one.force, one.use
-    is_open = _is_open(task) or one.gap is not None or one.doubt is not None
-    if is_open or one.given.dimensions or force is None or use is None:
-        return None
-    if not force.largest.high_kN > 0.0:
-        return None
-    member = force.largest.quantity
-    return CheckByCase(
-        row=task.basis.row,
-        ranges=task.basis.site.ranges,
-        member=member,
-        scale=use * _widen(force.largest, task.solved.results) / 1e3,
-        governing=extremes[member].governing.case,
-        results=task.solved.results,
-        widen=cache(partial(_find_end_growth, task, one)),
-    )
-
-
 def _find_end_growth(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
     """Growth of a rope's force by the end effect, over some ranges [-]."""
     if one.given.member not in tuple(NetPart):
@@ -138,6 +109,8 @@ def _follows_cases(one: MemberCheck) -> bool:
         return False
     if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
         return False
+    if one.is_of_end and (one.gap is not None or one.doubt is not None):
+        return False
     return force.largest.high_kN > 0.0 or force.added_high == 0.0
 
 
@@ -157,7 +130,7 @@ def _build_check(
         for record in force.solved
     }
     followed = force.largest.quantity
-    use_floor = (task, member, force, use)
+    floor = (task, member, force, use)
     return CheckByCase(
         row=task.basis.row,
         ranges=task.basis.site.ranges,
@@ -168,11 +141,20 @@ def _build_check(
         rise=use * force.rise,
         governing=extremes[followed].governing.case,
         results=results,
-        use_floor=partial(_use_floor, *use_floor),
-        bound_floor=partial(_bound_floor, *use_floor),
-        widen=cache(partial(_find_load if force.on.push else _find_tilted, task, one)),
+        widen=cache(partial(_choose_load(one, force), task, one)),
         push=_find_push(task, one, force),
+        use_floor=partial(_use_floor, *floor),
+        bound_floor=partial(_bound_floor, *floor),
     )
+
+
+def _choose_load(
+    one: MemberCheck, force: MemberForce
+) -> Callable[[RowToCheck, MemberCheck, Ranges], float]:
+    """Function that tells how the load of a check's support follows the ranges."""
+    if one.is_of_end:
+        return _find_end_growth
+    return _find_load if force.on.push else _find_tilted
 
 
 def _use_floor(
@@ -180,7 +162,7 @@ def _use_floor(
 ) -> float:
     """Utilisation of a member by the guideline's load alone [-]."""
     floor = task.find_floor(ranges)
-    if floor is None:
+    if floor is None or member in ROPE_OF:
         return 0.0
     least = floor.find(member)
     if least is None:
@@ -193,7 +175,7 @@ def _bound_floor(
     task: RowToCheck, member: str, force: MemberForce, use: float, ranges: Ranges
 ) -> tuple[float, float]:
     """Ends of what `_use_floor` gives; no upper one where the bound is not known."""
-    ends = task.bound_floor(ranges)
+    ends = None if member in ROPE_OF else task.bound_floor(ranges)
     if ends is None:
         return 0.0, math.inf
     least, most = (

@@ -196,22 +196,31 @@ class ForceRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class GuidelineCase:
-    """One load case of the guideline on this row; characteristic, inside a row."""
+class ClosedForm:
+    """Load of a closed form on a net, its forces, and how the coupled solve differs."""
 
-    name: str  # "same_snow", "load_case_1", "load_case_2"
-    density_kg_m3: float
-    height_vertical_m: float
-    creep_factor: float | None
-    glide_factor: float | None
-    rigid_kN_per_m: float | None  # S'_N on a rigid wall
-    load_kN_per_m: float | None  # along the slope on the net, with the prism
+    name: str
+    load_kN_per_m: float | None  # along the slope on the net
     foot_anchor_kN: float | None
     uphill_guy_kN: float | None
     post_kN: float | None
     load_difference_percent: float | None  # of the coupled solve against this
     foot_difference_percent: float | None
-    reason: Text | None = None
+    reason: Text | None = None  # why a force is None
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineCase(ClosedForm):
+    """One load case of the guideline on this row; characteristic, inside a row.
+
+    Named "same_snow", "load_case_1" or "load_case_2"; its load has the prism.
+    """
+
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float | None
+    glide_factor: float | None
+    rigid_kN_per_m: float | None  # S'_N on a rigid wall
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -230,23 +239,29 @@ class GuidelineRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FloorForceRecord:
-    """Largest force of the guideline's load in one member, inside the row."""
+class LoadOnNet:
+    """The guideline's load on a net, for each metre of width."""
 
-    member: str
-    force_kN: float  # characteristic
     load_case: str  # "load_case_1" or "load_case_2"
-    inclination_deg: float  # of the net, where the force is largest
+    inclination_deg: float  # of the net, where a force is largest
     snow_thickness_m: float  # of the snow that is held, there as well
-    slack: float
-    stiffness_kN_per_m: float
     density_kg_m3: float
     height_vertical_m: float
     creep_factor: float
     glide_factor: float
     load_along_kN_per_m: float  # on the net, downslope, with the prism
     load_across_kN_per_m: float  # out of the ground
+    stiffness_kN_per_m: float
+    slack: float
     chord_tension_kN_per_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloorForceRecord(LoadOnNet):
+    """Largest force of the guideline's load in one member, inside the row."""
+
+    member: str
+    force_kN: float  # characteristic
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -262,23 +277,11 @@ class FloorRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class GuidelineLoadRecord:
-    """The guideline's load on a net, for each metre of width: (G1) to (G9)."""
+class GuidelineLoadRecord(LoadOnNet):
+    """The guideline's load with its parts: (G1) to (G9)."""
 
-    load_case: str  # "load_case_1" or "load_case_2"
-    inclination_deg: float
-    snow_thickness_m: float
-    density_kg_m3: float
-    height_vertical_m: float
-    creep_factor: float
-    glide_factor: float
     rigid_kN_per_m: float
     parallel_kN_per_m: float
     normal_kN_per_m: float
     prism_kN_per_m: float
-    load_along_kN_per_m: float
-    load_across_kN_per_m: float
     loaded_share: float  # of the chord, from the foot
-    stiffness_kN_per_m: float
-    slack: float
-    chord_tension_kN_per_m: float

@@ -8,7 +8,6 @@ from dataclasses import replace
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import (
     CheckResult,
-    Declaration,
     RowGeometry,
     Standard,
     check_geometry,
@@ -16,7 +15,7 @@ from netdesign.checks import (
     declare,
     withhold,
 )
-from netdesign.checks.check import find_missing_force, not_proven
+from netdesign.checks.check import conclude, find_missing_force, not_proven
 from netdesign.checks.routes import TestedResistance
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
@@ -29,7 +28,6 @@ from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.member_force import MemberForce
 from netdesign.study.records import (
     CheckRecord,
-    DeclarationRecord,
     SingleTestRecord,
     TestsRecord,
 )
@@ -63,7 +61,7 @@ def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRe
         *([ends] if ends else []),
         *_list_open(row, standard),
     ]
-    return [record_result(apply_declaration(site, row, one)) for one in results]
+    return [record_result(site, row, one) for one in results]
 
 
 def _leave_default_open(row: NetRow, result: CheckResult) -> CheckResult:
@@ -87,14 +85,7 @@ def _list_open(row: NetRow, standard: Standard) -> Iterator[CheckResult]:
 
 
 def _leave_open(name: str, mode: str, reason: Message) -> CheckResult:
-    return CheckResult(
-        id=name,
-        clause="-",
-        member=Member.NET,
-        mode=mode,
-        verdict=Verdict.NOT_PROVEN,
-        reason=reason,
-    )
+    return replace(conclude(mode, Verdict.NOT_PROVEN, reason), id=name)
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
@@ -110,8 +101,8 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def apply_declaration(
-    site: Site, row: NetRow, result: CheckResult, position: Position | None = None
+def _apply_declaration(
+    site: Site, row: NetRow, result: CheckResult, position: str
 ) -> CheckResult:
     """Check on a support, if it has one, with what the workbook says of it.
 
@@ -120,7 +111,7 @@ def apply_declaration(
     """
     if row.is_overtopped and result.member != Member.NET:
         result = withhold(result, say("check.overtopped"))
-    declaration = site.find_declaration(row, result.member, result.mode, position or "")
+    declaration = site.find_declaration(row, result.member, result.mode, position)
     return declare(result, declaration)
 
 
@@ -169,21 +160,22 @@ def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
     return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
 
 
-def place_check(check: CheckRecord, position: Position) -> CheckRecord:
-    """Check of a member, named by its support."""
-    name_of_end = ".end" if position == "edge" else ""
-    return replace(check, id=f"{check.id}{name_of_end}", position=position)
-
-
 def record_result(
+    site: Site,
+    row: NetRow,
     result: CheckResult,
+    position: Position | None = None,
     given: Resistance | None = None,
     force: MemberForce | None = None,
 ) -> CheckRecord:
-    """Check as the study has it, without its case and what would change it."""
-    declared = result.declaration
+    """Check as the study has it, without its case and what would change it.
+
+    That of a member on a support has its ``position``; what is declared of it holds.
+    """
+    result = _apply_declaration(site, row, result, position or "")
     return CheckRecord(
-        id=result.id,
+        id=f"{result.id}.end" if position == "edge" else result.id,
+        position=position or "",
         clause=result.clause,
         member=result.member,
         mode=result.mode,
@@ -200,7 +192,7 @@ def record_result(
         resistance_derivation=given.derivation if given else None,
         tests=_record_tests(given, result.tested) if given else None,
         steps=[] if result.used is None else list_steps(result.used),
-        declared=_record_declaration(declared) if declared else None,
+        declared=result.declared,
         is_unbounded=result.is_unbounded,
     )
 
@@ -231,13 +223,4 @@ def _record_single(test: SingleTest) -> SingleTestRecord:
         is_held=test.is_held,
         proof_load_kN=None if proof is None else kilonewton_from_newton(proof),
         displacement_mm=None if moved is None else 1e3 * moved,
-    )
-
-
-def _record_declaration(given: Declaration) -> DeclarationRecord:
-    return DeclarationRecord(
-        document=given.document,
-        author=given.author,
-        date=given.date,
-        cell=given.source,
     )

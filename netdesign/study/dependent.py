@@ -50,11 +50,12 @@ from netdesign.site.model import (
     NetRow,
     Resistance,
 )
-from netdesign.structure.layout import place_support
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
 from netdesign.study.member_force import MemberForce
 from netdesign.study.pulls import AnchorPull
+from netdesign.study.row_to_check import Basis
+from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 
@@ -63,33 +64,17 @@ _LARGEST_ANGLE = math.radians(89.0)
 _ROUNDED = 0.01
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Circumstances:
-    """Surroundings that a resistance may depend on.
-
-    Attributes
-    ----------
-    row, ranges, standard
-        Net row, its envelope's ranges, the profile.
-    pull : AnchorPull or None
-        On the anchor.
-    """
-
-    row: NetRow
-    ranges: Ranges
-    standard: Standard
-    pull: AnchorPull | None
-
-
-def find_resistance_for_force(given: Resistance, known: Circumstances) -> Resistance:
-    """Resistance with the value that its circumstances give it; others as they are."""
+def find_resistance_for_force(
+    given: Resistance, basis: Basis, pull: AnchorPull | None
+) -> Resistance:
+    """Resistance with the value that row, profile and pull give it; others as is."""
     match given.dimensions:
         case AnchorType():
-            return _find_bent_resistance(given, given.dimensions, known.pull)
+            return _find_bent_resistance(given, given.dimensions, pull)
         case GroundAround():
-            return _find_ground_resistance(given, given.dimensions, known)
+            return _find_ground_resistance(given, given.dimensions, basis, pull)
         case PostSection():
-            return _find_post_resistance(given, given.dimensions, known)
+            return _find_post_resistance(given, given.dimensions, basis)
         case _:
             return given
 
@@ -103,11 +88,7 @@ def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message |
     if given.buckling_length is None:
         return None
     span = ranges["inclination"]
-    heads = [
-        (row.net_height * math.tan(angle), row.net_height)
-        for angle in (span.low, span.high)
-    ]
-    longest = max(place_support(row.layout, head).post_length for head in heads)
+    longest = max(place_row(row, one).post_length for one in (span.low, span.high))
     if given.buckling_length >= (1.0 - _ROUNDED) * longest:
         return None
     return say(
@@ -165,15 +146,15 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
 
 
 def _find_ground_resistance(
-    given: Resistance, around: GroundAround, known: Circumstances
+    given: Resistance, around: GroundAround, basis: Basis, pull: AnchorPull | None
 ) -> Resistance:
     """Resistance of the weakest wedge of ground in front of an anchor's bond."""
-    factors = [known.standard.find(key) for key in (SOIL_COHESION, SOIL_FRICTION)]
+    row, standard = basis.row, basis.standard
+    factors = [standard.find(key) for key in (SOIL_COHESION, SOIL_FRICTION)]
     for key, factor in zip((SOIL_COHESION, SOIL_FRICTION), factors, strict=True):
         if factor is None:
             return replace(given, lack=lack_factor(key))
     on_cohesion, on_friction = (one.value for one in factors if one)
-    pull, row = known.pull, known.row
     if pull is None:
         return given
     if not pull.is_axis_known:
@@ -220,18 +201,19 @@ def _find_ground_width(row: NetRow, pull: AnchorPull) -> float:
 
 
 def _find_post_resistance(
-    given: Resistance, section: PostSection, known: Circumstances
+    given: Resistance, section: PostSection, basis: Basis
 ) -> Resistance:
-    efficiency = known.standard.find(POST_EFFICIENCY)
-    on_action = known.standard.find(ACTION_FACTOR)
-    on_post = known.standard.find_resistance_factor(given.mode, given.basis)
+    row, standard = basis.row, basis.standard
+    efficiency = standard.find(POST_EFFICIENCY)
+    on_action = standard.find(ACTION_FACTOR)
+    on_post = standard.find_resistance_factor(given.mode, given.basis)
     if efficiency is None:
         lack = lack_factor(POST_EFFICIENCY)
         return replace(given, lack=lack)
     if on_action is None or on_post is None:
         return given
     try:
-        pressure = find_snow_pressure(known.row, known.ranges)
+        pressure = find_snow_pressure(row, basis.site.ranges)
     except ModelError as error:  # outside the guideline's closed forms
         return replace(given, lack=error.message)
     moment = compute_post_moment(
@@ -248,7 +230,7 @@ def _find_post_resistance(
         "height": pressure.height_vertical,
         "creep": pressure.load.creep_factor,
         "glide": pressure.load.glide_factor,
-        "slope": degree_from_radian(known.row.slope_angle),
+        "slope": degree_from_radian(row.slope_angle),
         "modulus": 1e6 * section.modulus,
         "strength": section.strength / 1e6,
         "width": 1e3 * section.width,

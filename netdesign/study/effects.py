@@ -8,7 +8,7 @@ from functools import lru_cache
 from itertools import product
 
 from netdesign.checks import CheckResult, Standard, load_standard
-from netdesign.checks.check import not_proven
+from netdesign.checks.check import conclude, not_proven
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.envelope.ranges import USUAL, Case, Ranges
 from netdesign.guideline.comparison import find_glide_factor
@@ -28,7 +28,6 @@ from netdesign.structure.members import Member
 from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
-    compute_lateral_factor,
     list_supports,
 )
 from netdesign.study.support_records import EndEffectRecord
@@ -74,17 +73,6 @@ class RowEffects:
     lateral_share: float
     missing: tuple[Message, ...]
     at_foot: tuple[Member, ...]
-
-    def factor(self, member: str, width: LoadedWidth) -> float:
-        """Force on a support of that width over the solved one [-]."""
-        ratio = width.width / self.post_spacing
-        return ratio * self.lateral_factor(member)
-
-    def lateral_factor(self, member: str) -> float:
-        """Part of the factor that the load along the row brings [-]."""
-        if member not in self.at_foot:
-            return 1.0  # what the load does at the head: study/sideways.py
-        return compute_lateral_factor(self.lateral_share)
 
     def find_support(self, position: str) -> LoadedWidth:
         """Support at a position; the one inside the row where it has no other."""
@@ -176,14 +164,7 @@ def check_ends(effects: RowEffects) -> CheckResult | None:
     """Not proven where the profile does not say how the ends of a row are loaded."""
     if not effects.missing:
         return None
-    return CheckResult(
-        id="geometry.ends",
-        clause="-",
-        member=Member.NET,
-        mode="ends",
-        verdict=Verdict.NOT_PROVEN,
-        reason=not_proven(*effects.missing),
-    )
+    return conclude("ends", Verdict.NOT_PROVEN, not_proven(*effects.missing))
 
 
 # Of the table beside the note; the row's own gap [m] and glide factor join them.

@@ -19,7 +19,7 @@ from netdesign.study.case_records import CaseRecord, EnvelopeRecord, ExtremeReco
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import record_end_effects
-from netdesign.study.judgement import Basis, Known
+from netdesign.study.judgement import Known
 from netdesign.study.measured_pulls import record_monitoring
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
@@ -41,9 +41,7 @@ from netdesign.study.record_independent import record_independent, record_slab
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_statics import record_statics
 from netdesign.study.record_support import (
-    record_anchors,
-    record_drawing,
-    record_head,
+    record_drawn,
     record_panel,
 )
 from netdesign.study.records import (
@@ -56,7 +54,7 @@ from netdesign.study.records import (
     merge_rows,
 )
 from netdesign.study.row_checks import check_row, distrust
-from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.row_to_check import Basis, RowToCheck
 from netdesign.study.solved_forces import know_row
 from netdesign.study.support_records import PanelRecord
 from netdesign.units import newton_from_kilonewton
@@ -159,9 +157,9 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(_find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
-    head = record_head(row, governing)
+    effects, held = known.effects, known.held
+    drawing, anchors, head = record_drawn(row, governing, effects.lateral_share)
     independent = record_independent(governing, head)
-    effects, held = known.forces.effects, known.held
     panel = record_panel(row, solved.results, extremes, governing)
     return RowStudy(
         id=row.id,
@@ -171,16 +169,16 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         cases=cases,
         inputs=list(row.inputs),
         parts=list_parts(row, site.ranges["inclination"]),
-        drawing=record_drawing(row, governing),
+        drawing=drawing,
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
         questions=list(row.questions),
         monitoring=record_monitoring(site, row),
-        anchors=record_anchors(governing, effects),
+        anchors=anchors,
         pulls=record_pulls(known.pulls),
         head=head,
         independent=independent,
-        forces=list(known.forces.largest.values()),
+        forces=list(known.largest.values()),
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor, row),
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
@@ -190,7 +188,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         statics=record_statics(row, solved.results, extremes, floor),
         end_effects=record_end_effects(row, site.ranges, run.creep_law, standard),
         held_sideways=None if isinstance(held, Message) else held,
-        tilt=known.forces.tilt,
+        tilt=known.tilt,
         envelope=_record_search(solved, checks),
     )
 
@@ -218,11 +216,10 @@ def _list_notes(
     cases: Sequence[CaseRecord],
     panel: PanelRecord | None,
 ) -> list[Message]:
-    basis = task.basis
     return [
         *list_judged_notes(
-            *(basis.site, basis.row, basis.standard, basis.law),
-            effects=known.forces.effects,
+            task.basis,
+            effects=known.effects,
             pulls=known.pulls,
             checks=checks,
             cases=cases,

@@ -9,29 +9,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import CheckResult, Standard, withhold
+from netdesign.checks import CheckResult, withhold
 from netdesign.outcome import Verdict
-from netdesign.site.model import CONNECTED, NetRow, Resistance, Site
-from netdesign.snow.creep_law import CreepLaw
-from netdesign.structure.members import ROPE_OF, Member, name_in_panel
+from netdesign.site.model import CONNECTED, NetRow, Resistance
+from netdesign.structure.members import ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.calibration import find_doubt
 from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.check_to_record import (
-    apply_declaration,
     doubt_ground,
     doubt_sharing,
     judge_force,
     list_checked,
-    place_check,
     record_geometry,
     record_result,
 )
 from netdesign.study.connection import connect
 from netdesign.study.corrosion import corrode
 from netdesign.study.dependent import (
-    Circumstances,
     find_resistance_for_force,
     find_short_post,
 )
@@ -47,32 +43,18 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.pulls import AnchorPull, check_directions, find_pull
 from netdesign.study.records import CheckRecord
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import check_sideways
-from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Basis:
-    """Ground of the checks of a net row, beside its forces."""
-
-    site: Site
-    row: NetRow
-    standard: Standard
-    law: CreepLaw
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Known:
-    """Knowledge of a row by its solved cases, or by its study.
+class Known(RowForces):
+    """Knowledge of a row by its solved cases, or by its study: forces and directions.
 
     Attributes
     ----------
-    forces : RowForces
-        Largest forces.
-    held : HeldSidewaysRecord or Message
-        Load along the row, or why it is not held.
     pulls : tuple of AnchorPull
         Directions at the anchors.
     gap : Message or None
@@ -83,8 +65,6 @@ class Known:
         Why an assumed panel fails, so that nothing is known of the row.
     """
 
-    forces: RowForces
-    held: HeldSidewaysRecord | Message
     pulls: tuple[AnchorPull, ...]
     gap: Message | None = None
     floor_gap: Message | None = None
@@ -107,12 +87,16 @@ class MemberCheck:
     doubt: Message | None
     result: CheckResult
     unsure: Message | None = None
-    is_of_end: bool = False  # of the ropes' pull along the row
 
     @property
     def name(self) -> tuple[str, str]:
         """Member and mode."""
         return self.given.member, self.given.mode
+
+    @property
+    def is_of_end(self) -> bool:
+        """A border rope, or what holds its pull along the row."""
+        return self.given.member in ROPE_OF
 
     @property
     def id(self) -> str:
@@ -146,7 +130,7 @@ def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
 
 def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     """Checks of both supports' members, then of the net and what holds its ropes."""
-    effects, row = known.forces.effects, basis.row
+    effects, row = known.effects, basis.row
     at_end, not_checked = effects.find_support("edge"), basis.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
     parts = () if "mesh" in not_checked else row.net_parts
@@ -158,27 +142,20 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     checked += [(at_end, given) for given in (*parts, *held)]
     judged = []
     for width, given in checked:
-        judged.append(_judge(basis, known, given, width))
+        judged.append(_judge_member(basis, known, given, width))
         is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
         if is_rope and "connections" not in not_checked:
             chain = _find_chain(basis, known, given, width)
-            judged.append(_judge(basis, known, chain, width))
+            judged.append(_judge_member(basis, known, chain, width))
     return judged
 
 
 def _concerns(basis: Basis, known: Known, given: Resistance) -> bool:
     """The check is one of this row and profile: some case lifts a foot that is held."""
     if given.member == Member.POST_FOOT:
-        floor = known.forces.floor or {}
-        return lifts(known.forces.largest.values(), floor.values())
+        floor = known.floor or {}
+        return lifts(known.largest.values(), floor.values())
     return given.mode != "wedge" or "anchor_ground" not in basis.standard.not_checked
-
-
-def _judge(
-    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
-) -> MemberCheck:
-    judge = _judge_end if given.member in ROPE_OF else _judge_member
-    return judge(basis, known, given, width)
 
 
 def _find_chain(
@@ -205,21 +182,16 @@ def _judge_member(
     unsaid = _find_unsaid(basis.row, known, given, width)
     if unsaid:
         return _leave_open(basis, given, width, unsaid)
-    row, forces = basis.row, known.forces
-    force = find_force(forces, given, width)
+    row = basis.row
+    force = find_force(known, given, width)
     given, unsure = _find_lasting(basis, given)
     doubt = None
     if force is not None:
-        surroundings = Circumstances(
-            row=row,
-            ranges=basis.site.ranges,
-            standard=basis.standard,
-            pull=find_pull(known.pulls, given.member, width.position),
-        )
-        given = find_resistance_for_force(given, surroundings)
-        doubt = _find_doubt(basis, list_bringing(forces, given.member, force))
-    found = [forces.largest.get(given.member), *_list_panel(forces, given.member)]
-    gap = known.gap or known.floor_gap or _find_unseen(found)
+        pull = find_pull(known.pulls, given.member, width.position)
+        given = find_resistance_for_force(given, basis, pull)
+        doubt = _find_doubt(basis, list_bringing(known, force))
+    gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
+    gap = gap or _find_unseen(force.solved if force else ())
     gap = gap or find_other_panel(row, given, width.position)
     standard = basis.standard
     result = judge_force(given, force, standard, gap=gap, doubt=doubt or unsure)
@@ -243,32 +215,6 @@ def _find_lasting(basis: Basis, given: Resistance) -> tuple[Resistance, Message 
     row = basis.row
     lasting, worn = corrode(given, row, basis.standard)
     return lasting, worn or doubt_ground(row, given) or doubt_sharing(row, given)
-
-
-def _judge_end(
-    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
-) -> MemberCheck:
-    """Check of a border rope, or of a member that holds its pull at the row's end."""
-    unsaid = _find_unsaid(basis.row, known, given, width)
-    if unsaid:
-        opened = _leave_open(basis, given, width, unsaid)
-        return replace(opened, is_of_end=True)
-    force = find_force(known.forces, given, width)
-    gap = known.gap or _find_unseen([force.largest] if force else [])
-    gap = gap or find_other_panel(basis.row, given, width.position)
-    doubt = _find_doubt(basis, [force.largest]) if force else None
-    given, unsure = _find_lasting(basis, given)
-    result = judge_force(given, force, basis.standard, gap=gap, doubt=doubt or unsure)
-    return MemberCheck(
-        given=given,
-        width=width,
-        force=force,
-        gap=gap,
-        doubt=doubt,
-        result=result,
-        unsure=unsure,
-        is_of_end=True,
-    )
 
 
 def _find_unsaid(
@@ -298,19 +244,12 @@ def _leave_open(
     )
 
 
-def _list_panel(forces: RowForces, member: str) -> list[ForceRecord]:
-    found = forces.largest.get(name_in_panel(member))
-    return [] if found is None else [found]
-
-
-def list_bringing(
-    forces: RowForces, member: str, force: MemberForce
-) -> list[ForceRecord]:
+def list_bringing(forces: RowForces, force: MemberForce) -> list[ForceRecord]:
     """Largest forces that a check rests on: its member's, and what adds to it.
 
     The net's pull on the head brings what is added, as it does the post's force.
     """
-    found = [forces.largest[member], *_list_panel(forces, member)]
+    found = list(force.solved)
     if force.added_high > 0.0:
         found.append(forces.largest[Member.POST])
     return found
@@ -329,9 +268,9 @@ def _find_doubt(basis: Basis, brings: Sequence[ForceRecord]) -> Message | None:
     return next((one for one in doubts if one is not None), None)
 
 
-def _find_unseen(forces: Sequence[ForceRecord | None]) -> Message | None:
+def _find_unseen(forces: Sequence[ForceRecord]) -> Message | None:
     """Quantities between whose samples nothing is known of some largest force."""
-    unknown = dict.fromkeys(axis for one in forces if one for axis in one.unknown)
+    unknown = dict.fromkeys(axis for one in forces for axis in one.unknown)
     if not unknown:
         return None
     return say("check.unseen_between", axes=tuple(name("axis", one) for one in unknown))
@@ -354,8 +293,9 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
     """Check of a force as the study has it, without what a solve adds to it."""
     position = one.width.position
-    settled = apply_declaration(basis.site, basis.row, one.result, position)
-    check = place_check(record_result(settled, one.given, one.force), position)
+    check = record_result(
+        basis.site, basis.row, one.result, position, one.given, one.force
+    )
     if one.unsure is None:
         check = replace(
             check,
@@ -367,13 +307,13 @@ def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
     check = replace(check, case=one.force.largest.case)
     if one.is_of_end:
         return replace(check, governs="panel")
-    least = _find_floor(known.forces, one.given.member)
+    least = _find_floor(known, one.given.member)
     return replace(
         check,
         load_case=least.load_case if least else "",
         load_inclination_deg=least.inclination_deg if least else None,
         reason=name_governing(
-            settled.reason, one.force, least.load_case if least else ""
+            check.reason, one.force, least.load_case if least else ""
         ),
     )
 
@@ -389,11 +329,9 @@ def record_others(
     site, row, standard = basis.site, basis.row, basis.standard
     gap = find_open(row, judged)
     lateral = check_sideways(row, known.held, standard, gap)
-    yield record_result(apply_declaration(site, row, lateral))
+    yield record_result(site, row, lateral)
     for place, one in check_directions(known.pulls, standard, gap):
-        yield place_check(
-            record_result(apply_declaration(site, row, one, place)), place
-        )
+        yield record_result(site, row, one, place)
     pulls = known.pulls
     of_ground = (
         check_anchor_distance(row, site.ranges, pulls, standard, gap),
@@ -401,5 +339,5 @@ def record_others(
     )
     for found in of_ground:
         if found is not None:
-            yield record_result(apply_declaration(site, row, found))
+            yield record_result(site, row, found)
     yield from record_geometry(site, row, standard)

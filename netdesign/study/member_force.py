@@ -64,8 +64,8 @@ class RowForces:
         Largest solved forces by their keys, with what may hide.
     floor : mapping of str to FloorForceRecord, or None
         Forces by the guideline's load; None where it is no floor.
-    held : HeldSidewaysRecord or None
-        Load along the row at the head; None where nothing holds it.
+    held : HeldSidewaysRecord or Message
+        Load along the row at the head, or why nothing holds it.
     tilt : float
         Largest force along the slope at a post's base over that across, (S19) [-].
     """
@@ -75,8 +75,13 @@ class RowForces:
     effects: RowEffects
     largest: Mapping[str, ForceRecord]
     floor: Mapping[str, FloorForceRecord] | None
-    held: HeldSidewaysRecord | None
+    held: HeldSidewaysRecord | Message
     tilt: float
+
+    @property
+    def along_row(self) -> HeldSidewaysRecord | None:
+        """Load along the row at the head; None where nothing holds it."""
+        return self.held if isinstance(self.held, HeldSidewaysRecord) else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -210,13 +215,13 @@ def find_force(
     if is_sliding:
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
     force = calculate_force({one.symbol: one for one in leaves})
-    is_by_panel = _high(force.by_panel) > _high(force.coupled)
+    is_by_panel, held = _high(force.by_panel) > _high(force.coupled), forces.along_row
     has_no_pull = member in (Member.FOOT_ANCHOR, NetPart.MESH, *forces.effects.at_foot)
     return MemberForce(
         on=force,
         solved=(section,) if panel is None else (section, panel),
         largest=panel if panel is not None and is_by_panel else section,
-        pull=forces.held.pull_kN if forces.held and not has_no_pull else 0.0,
+        pull=held.pull_kN if held and not has_no_pull else 0.0,
         rise=rise,
     )
 
@@ -267,7 +272,7 @@ def _list_support_leaves(
 def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], float]:
     """Leaves of what the load along the row adds, and how that may grow [kN]."""
     share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
-    held = forces.held
+    held = forces.along_row
     if member in forces.effects.at_foot:
         return ([share] if share.is_known else []), 0.0
     if held is None or member in (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH):

@@ -77,8 +77,7 @@ def _find_cosine(row: NetRow, ranges: Ranges, guy: Member) -> float:
     """Largest cosine of a guy's angle to the line of fall [-]."""
     span, found = ranges["inclination"], []
     for points in (place_row(row, one) for one in (span.low, span.high)):
-        is_uphill = guy == Member.UPHILL_GUY
-        anchor = points.uphill_anchor if is_uphill else points.downhill_anchor
+        anchor = points.find_anchor(guy)
         along = abs(points.head[0] - anchor[0])
         found.append(along / math.dist(points.head, anchor))
     return max(found) * math.cos(row.guys.splay or 0.0)

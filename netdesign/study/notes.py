@@ -20,6 +20,7 @@ from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
 from netdesign.study.net_in_snow import list_guy_notes, list_sag_notes
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CheckRecord, IndependentRecord
+from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import PanelRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.winter.model_code import find_model_code_density
@@ -114,10 +115,7 @@ def _layer_notes(site: Site) -> list[Message]:
 
 
 def list_judged_notes(
-    site: Site,
-    row: NetRow,
-    standard: Standard,
-    law: CreepLaw,
+    basis: Basis,
     *,
     effects: RowEffects,
     pulls: Sequence[AnchorPull],
@@ -126,14 +124,15 @@ def list_judged_notes(
     panel: PanelRecord | None,
 ) -> list[Message]:
     """Notes of a row that follow from its inputs, its checks and its cases."""
+    row, ranges, standard = basis.row, basis.site.ranges, basis.standard
     return [
         *list_row_notes(row, effects, pulls),
-        *list_end_notes(row, site.ranges, law, effects),
-        describe_model_code(row, site.ranges["density"]),
+        *list_end_notes(row, ranges, basis.law, effects),
+        describe_model_code(row, ranges["density"]),
         *_list_sharing_notes(row, standard),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
-        *list_guy_notes(row, site.ranges, checks, standard),
+        *list_guy_notes(row, ranges, checks, standard),
         *list_sag_notes(row, panel),
         *list_case_notes(cases),
     ]

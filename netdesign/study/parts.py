@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 from netdesign.envelope.ranges import Interval
 from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.layout import SupportPoints, place_support
+from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member, NetPart
 from netdesign.structure.row_position import Position
 from netdesign.study.member_force import is_shared
+from netdesign.study.sideways import place_row
 
-_INCLINATION = "inclination"
 _PER_SUPPORT = (
     *(Member.FOOT_ANCHOR, Member.UPHILL_GUY, Member.UPHILL_ANCHOR),
     *(Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR, Member.POST),
@@ -57,10 +57,7 @@ def list_parts(row: NetRow, inclination: Interval) -> list[PartRecord]:
     inclination : Interval
         Of the net, from the slope normal [rad]: the longest guys and the largest net.
     """
-    heads = [
-        place_support(row.layout, (row.net_height * math.tan(one), row.net_height))
-        for one in (inclination.low, inclination.high)
-    ]
+    heads = [place_row(row, one) for one in (inclination.low, inclination.high)]
     found: dict[tuple[str, str, float | None], int | None] = {}
     for position, supports in _count_supports(row):
         for one in _list_of_support(row, heads, position, supports):
@@ -126,11 +123,7 @@ def _measure(row: NetRow, member: str, heads: list[SupportPoints]) -> float | No
         return max(one.post_length for one in heads)
     if member not in (Member.UPHILL_GUY, Member.DOWNHILL_GUY):
         return None
-    is_uphill = member == Member.UPHILL_GUY
-    flat = max(
-        math.dist(one.head, one.uphill_anchor if is_uphill else one.downhill_anchor)
-        for one in heads
-    )
+    flat = max(math.dist(one.head, one.find_anchor(member)) for one in heads)
     return flat / math.cos(row.guys.splay or 0.0)
 
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from netdesign.checks import CheckResult, Standard
-from netdesign.checks.check import judge, list_assumed, not_proven
+from netdesign.checks.check import conclude, judge, not_proven
 from netdesign.checks.schema import ROPE_ANGLE
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
-from netdesign.site.model import AnchorType, NetRow
+from netdesign.site.model import NetRow
 from netdesign.structure.anchors import GroundForce
 from netdesign.structure.axis import (
     PullRange,
@@ -54,8 +54,6 @@ class AnchorPull:
         It has, or says that the anchor is drilled along the pull.
     kind : str
         Of the anchor, or "".
-    lever : float or None
-        Its free length [m].
     angle : float
         Largest between pull and axis, with the part along the row at the foot [rad].
     """
@@ -67,7 +65,6 @@ class AnchorPull:
     is_axis_given: bool
     is_axis_known: bool
     kind: str
-    lever: float | None
     angle: float
 
     @property
@@ -141,8 +138,7 @@ def find_pull(
 
 def _measure_guy(points: SupportPoints, anchor: Member, guys: Guys) -> float:
     """Direction of a guy's line at its anchor, slack or not; in its own plane."""
-    is_uphill = anchor == Member.UPHILL_ANCHOR
-    end = points.uphill_anchor if is_uphill else points.downhill_anchor
+    end = points.find_anchor(anchor)
     x, y = points.head[0] - end[0], points.head[1] - end[1]
     turned = 0.0 if _may_share(guys) else guys.splay or 0.0
     return turn_by_splay(measure_pull(x, y, anchor), turned)
@@ -171,35 +167,14 @@ def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:
     ]
 
 
-def read_pulls(row: NetRow, records: Sequence[PullRecord]) -> list[AnchorPull]:
-    """Pulls on a row's anchors from their records; the levers are the row's."""
-    return [_read_pull(row, one) for one in records]
-
-
-def _read_pull(row: NetRow, one: PullRecord) -> AnchorPull:
-    anchor, position = Member(one.anchor), _read_position(one.position)
-    return AnchorPull(
-        anchor=anchor,
-        position=position,
-        pulls=PullRange(
-            least=radian_from_degree(one.least_deg),
-            largest=radian_from_degree(one.largest_deg),
-        ),
-        axis=radian_from_degree(one.axis_deg),
-        is_axis_given=one.is_axis_given,
-        is_axis_known=one.is_axis_known,
-        kind=one.kind,
-        lever=_find_lever(row.find_anchor_type(anchor, position)),
-        angle=radian_from_degree(one.angle_deg),
+def build_pull_again(row: NetRow, stored: PullRecord, share: float) -> AnchorPull:
+    """Pull on an anchor from the directions of a record, as ``build_pull`` makes it."""
+    position: Position = "edge" if stored.position == "edge" else "intermediate"
+    pulls = PullRange(
+        least=radian_from_degree(stored.least_deg),
+        largest=radian_from_degree(stored.largest_deg),
     )
-
-
-def _read_position(text: str) -> Position:
-    return "edge" if text == "edge" else "intermediate"
-
-
-def _find_lever(kind: AnchorType | None) -> float | None:
-    return kind.lever if kind else None
+    return build_pull(row, Member(stored.anchor), pulls, share, position)
 
 
 def build_pull(
@@ -238,7 +213,6 @@ def build_pull(
         is_axis_given=given is not None,
         is_axis_known=given is not None or row.drills_along_pull,
         kind=kind.kind if kind else "",
-        lever=_find_lever(kind),
         angle=turned,
     )
 
@@ -263,7 +237,9 @@ def _check_direction(
     limit = standard.find(ROPE_ANGLE)
     if limit is None:
         lack = say("check.no_limit", limit=ROPE_ANGLE)
-        return _result(pull, Verdict.NOT_PROVEN, not_proven(lack))
+        return conclude(
+            "direction", Verdict.NOT_PROVEN, not_proven(lack), member=pull.anchor
+        )
     gap = gap or (None if pull.is_axis_known else say("bending.no_axis"))
     most, angle = limit.value_si, pull.angle
     is_complete = gap is None
@@ -274,15 +250,4 @@ def _check_direction(
     told = say(key, angle=degree_from_radian(angle), most=limit.value)
     if verdict is Verdict.NOT_PROVEN and gap is not None:
         told = not_proven(gap)
-    return replace(_result(pull, verdict, told), assumed=list_assumed(limit))
-
-
-def _result(pull: AnchorPull, verdict: Verdict, reason: Message) -> CheckResult:
-    return CheckResult(
-        id=f"{pull.anchor}.direction",
-        clause="-",
-        member=pull.anchor,
-        mode="direction",
-        verdict=verdict,
-        reason=reason,
-    )
+    return conclude("direction", verdict, told, member=pull.anchor)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case, Ranges
-from netdesign.envelope.rows import Confirmation, RowEnvelope
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.search.sensitivity import (
@@ -231,7 +231,7 @@ def _find_flips(
         FlipRecord(
             check=check,
             key=PARAMETERS[name].key,
-            value=show_parameter(name, _value(ranges, name, share)),
+            value=_show_place(ranges, name, share),
         )
         for number, (check, _) in enumerate(levels)
         for name in ranges.axes
@@ -239,9 +239,10 @@ def _find_flips(
     ]
 
 
-def _value(ranges: Ranges, name: str, share: float) -> float:
-    span = dict(ranges.intervals)[name]
-    return (1.0 - share) * span.low + share * span.high
+def _show_place(ranges: Ranges, name: str, share: float) -> float:
+    """Value of a parameter at a share of its range, in the unit of its key."""
+    span = ranges[name]
+    return PARAMETERS[name].show((1.0 - share) * span.low + share * span.high)
 
 
 def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
@@ -258,7 +259,7 @@ def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
         found.append(
             LineRecord(
                 key=PARAMETERS[name].key,
-                values=[show_parameter(name, _value(ranges, name, s)) for s in shares],
+                values=[_show_place(ranges, name, s) for s in shares],
                 force_kN=_show_drawn(force),
                 bound_kN=_show_drawn(bound),
             )
@@ -291,13 +292,8 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
         found.append(
             MapRecord(
                 inclination_deg=show_parameter("inclination", inclination),
-                density_kg_m3=[_value(ranges, "density", s) for s in shares],
-                friction_deg=[
-                    show_parameter(
-                        "friction_angle", _value(ranges, "friction_angle", s)
-                    )
-                    for s in shares
-                ],
+                density_kg_m3=[_show_place(ranges, "density", s) for s in shares],
+                friction_deg=[_show_place(ranges, "friction_angle", s) for s in shares],
                 force_kN=_show_drawn(force.reshape(_MAP_POINTS, _MAP_POINTS)),
             )
         )
@@ -313,21 +309,14 @@ def _record_confirmation(
     envelope: RowEnvelope, member: str
 ) -> ConfirmationRecord | None:
     one = next((c for c in envelope.confirmations if c.member == member), None)
-    return None if one is None else _show_confirmation(one)
-
-
-def _show_confirmation(one: Confirmation) -> ConfirmationRecord:
+    if one is None:
+        return None
     screened, confirmed = one.screened.solution, one.confirmed.solution
-    difference = one.difference
-    forces = one.confirmed.member_forces
+    difference, forces = one.difference, one.confirmed.member_forces
     return ConfirmationRecord(
         method=confirmed.method if confirmed else "",
-        screened_kN=kilonewton_from_newton(
-            one.screened.member_forces[one.member].value
-        ),
-        confirmed_kN=(
-            kilonewton_from_newton(forces[one.member].value) if forces else None
-        ),
+        screened_kN=kilonewton_from_newton(one.screened.member_forces[member].value),
+        confirmed_kN=kilonewton_if_known(forces[member].value if forces else None),
         difference_percent=None if difference is None else 100.0 * difference,
         elements=confirmed.elements if confirmed else None,
         screened_elements=screened.elements if screened else 0,

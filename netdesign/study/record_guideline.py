@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Literal
+from typing import Any, Literal
 
 from netdesign.checks import Standard
 from netdesign.envelope.ranges import Case, Ranges
@@ -123,23 +123,46 @@ def record_floor(floor: Floor | None, row: NetRow) -> FloorRecord | None:
 
 
 def _record_force(one: FloorForce) -> FloorForceRecord:
-    along, across = one.load.resultant
     return FloorForceRecord(
-        member=one.member,
-        force_kN=kilonewton_from_newton(one.force),
-        load_case=one.case.name,
-        inclination_deg=given_degree_from_radian(one.at.net.inclination),
-        snow_thickness_m=one.at.net.snow_thickness,
-        slack=one.at.net.slack,
-        stiffness_kN_per_m=kilonewton_from_newton(one.at.net.stiffness),
-        density_kg_m3=one.case.density,
-        height_vertical_m=one.case.height_vertical,
-        creep_factor=one.load.creep_factor,
-        glide_factor=one.load.glide_factor,
-        load_along_kN_per_m=kilonewton_from_newton(along),
-        load_across_kN_per_m=kilonewton_from_newton(across),
-        chord_tension_kN_per_m=kilonewton_from_newton(one.pull.chord_tension),
+        member=one.member, force_kN=kilonewton_from_newton(one.force), **list_load(one)
     )
+
+
+def list_load(one: FloorForce) -> dict[str, Any]:
+    """Load that brings a force, by the keys of a ``LoadOnNet``."""
+    net, (along, across) = one.at.net, one.load.resultant
+    return {
+        "load_case": one.case.name,
+        "inclination_deg": given_degree_from_radian(net.inclination),
+        "snow_thickness_m": net.snow_thickness,
+        "density_kg_m3": one.case.density,
+        "height_vertical_m": one.case.height_vertical,
+        "creep_factor": one.load.creep_factor,
+        "glide_factor": one.load.glide_factor,
+        "load_along_kN_per_m": kilonewton_from_newton(along),
+        "load_across_kN_per_m": kilonewton_from_newton(across),
+        "stiffness_kN_per_m": kilonewton_from_newton(net.stiffness),
+        "slack": net.slack,
+        "chord_tension_kN_per_m": kilonewton_from_newton(one.pull.chord_tension),
+    }
+
+
+def compare_forces(
+    load: float | None, forces: Mapping[str, float], solved: tuple[float, float]
+) -> dict[str, float | None]:
+    """Load [N/m] and forces [N] of a closed form, by the keys of a ``ClosedForm``.
+
+    ``solved`` are load and force of the foot anchor of the coupled solve.
+    """
+    foot = forces.get(Member.FOOT_ANCHOR)
+    return {
+        "load_kN_per_m": kilonewton_if_known(load),
+        "foot_anchor_kN": kilonewton_if_known(foot),
+        "uphill_guy_kN": kilonewton_if_known(forces.get(Member.UPHILL_GUY)),
+        "post_kN": kilonewton_if_known(forces.get(Member.POST)),
+        "load_difference_percent": _compare(solved[0], load),
+        "foot_difference_percent": _compare(solved[1], foot),
+    }
 
 
 _DECIMALS = 3  # of heights on the net [m]
@@ -152,27 +175,34 @@ _SENTENCES = {
 }
 
 
+def find_solved(result: CaseResult) -> tuple[float, float] | None:
+    """Load along the slope [N/m] and force of the foot anchor [N] of a solved case.
+
+    None where it has no solution.
+    """
+    if result.solution is None or not result.is_converged:
+        return None
+    load = result.solution.foot.x + result.solution.head.x
+    return load, result.member_forces[Member.FOOT_ANCHOR].value
+
+
 def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
     """Record the guideline's load cases against one solved case of a row.
 
     None where the case has no solution to compare with.
     """
-    solution = result.solution
-    if solution is None or not result.is_converged:
+    solution, solved = result.solution, find_solved(result)
+    if solution is None or solved is None:
         return None
-    load = solution.foot.x + solution.head.x
-    foot = result.member_forces[Member.FOOT_ANCHOR].value
     heights = solution.net_curve[1].round(_DECIMALS).tolist()
     pairs = zip(heights, list_pressures(solution), strict=True)
     return replace(
-        compare_case(row, result.case, load=load, foot=foot),
+        compare_case(row, result.case, *solved),
         along_net=[(y, pressure) for y, pressure in pairs if pressure is not None],
     )
 
 
-def compare_case(
-    row: NetRow, case: Case, *, load: float, foot: float
-) -> GuidelineRecord:
+def compare_case(row: NetRow, case: Case, load: float, foot: float) -> GuidelineRecord:
     """Record the guideline's load cases against the forces of one case.
 
     Parameters
@@ -257,9 +287,8 @@ def _list_causes(
 
 
 def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCase:
-    snow = case.load
-    forces = case.anchors.member_forces if case.anchors else {}
-    own_foot = forces.get(Member.FOOT_ANCHOR)
+    snow, forces = case.load, case.anchors.member_forces if case.anchors else {}
+    along = snow.resultant[0] if snow else None
     return GuidelineCase(
         name=case.name,
         density_kg_m3=case.density,
@@ -267,13 +296,8 @@ def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCa
         creep_factor=snow.creep_factor if snow else None,
         glide_factor=snow.glide_factor if snow else None,
         rigid_kN_per_m=kilonewton_if_known(snow.rigid if snow else None),
-        load_kN_per_m=kilonewton_if_known(snow.resultant[0] if snow else None),
-        foot_anchor_kN=kilonewton_if_known(own_foot),
-        uphill_guy_kN=kilonewton_if_known(forces.get(Member.UPHILL_GUY)),
-        post_kN=kilonewton_if_known(forces.get(Member.POST)),
-        load_difference_percent=_compare(load, snow.resultant[0] if snow else None),
-        foot_difference_percent=_compare(foot, own_foot),
         reason=case.reason,
+        **compare_forces(along, forces, (load, foot)),
     )
 
 

@@ -29,12 +29,11 @@ from netdesign.solving.state import SolvedState
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import place_support
-from netdesign.structure.members import Member
 from netdesign.study.record_envelope import record_point
-from netdesign.study.record_guideline import build_geometry
+from netdesign.study.record_guideline import build_geometry, compare_forces, find_solved
 from netdesign.study.records import IndependentRecord, SlabCase, SlabRecord
 from netdesign.study.support_records import HeadForce
-from netdesign.units import kilonewton_from_newton, kilonewton_if_known
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message
 
 
@@ -43,16 +42,12 @@ def record_slab(row: NetRow, result: CaseResult, law: CreepLaw) -> SlabRecord | 
 
     None where the case has no solution to compare with, or its snow no closed form.
     """
-    solution = result.solution
-    if solution is None or not result.is_converged:
-        return None
-    load = solution.foot.x + solution.head.x
-    foot = result.member_forces[Member.FOOT_ANCHOR].value
-    return compare_slab(row, result.case, law, load=load, foot=foot)
+    solved = find_solved(result)
+    return None if solved is None else compare_slab(row, result.case, law, *solved)
 
 
 def compare_slab(
-    row: NetRow, case: Case, law: CreepLaw, *, load: float, foot: float
+    row: NetRow, case: Case, law: CreepLaw, load: float, foot: float
 ) -> SlabRecord | None:
     """Record the closed form against the forces of one case.
 
@@ -122,7 +117,6 @@ def _record_case(
     )
     net = build_geometry(row, case.inclination)
     forces, reason = _find_forces(net, force)
-    foot = forces.get(Member.FOOT_ANCHOR)
     return SlabCase(
         name=name,
         slip_length_m=slip if math.isfinite(slip) else None,
@@ -132,13 +126,8 @@ def _record_case(
         dynamic_kN_per_m=kilonewton_from_newton(force.dynamic),
         at_rest_kN_per_m=kilonewton_from_newton(force.at_rest),
         wedge_kN_per_m=kilonewton_from_newton(force.wedge),
-        load_kN_per_m=kilonewton_from_newton(force.total),
-        foot_anchor_kN=kilonewton_if_known(foot),
-        uphill_guy_kN=kilonewton_if_known(forces.get(Member.UPHILL_GUY)),
-        post_kN=kilonewton_if_known(forces.get(Member.POST)),
-        load_difference_percent=_compare(solved[0], force.total),
-        foot_difference_percent=_compare(solved[1], foot),
         reason=reason,
+        **compare_forces(force.total, forces, solved),
     )
 
 
@@ -166,10 +155,6 @@ def _find_forces(
     if isinstance(anchors, FailedSupport):
         return {}, anchors.reason
     return dict(anchors.member_forces), None
-
-
-def _compare(solved: float, other: float | None) -> float | None:
-    return 100.0 * (solved / other - 1.0) if other else None
 
 
 def record_independent(

@@ -17,7 +17,7 @@ from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.study.check_run import CheckRun, read_method
 from netdesign.study.effects import load_glide_limits, load_guideline
-from netdesign.study.records import ProfileRecord, ProfileValue, Provenance, Study
+from netdesign.study.records import ProfileRecord, Provenance, Study
 from netdesign.study.values import Difference, compare_listed, list_values
 from netdesign.words.message import say
 
@@ -40,10 +40,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
         is_floor_overruled=standard.is_floor_overruled,
         not_checked=list(standard.not_checked),
         is_default=standard.is_default,
-        values=[
-            *map(_record_value, standard.listed),
-            *map(_record_value, _list_floor_values(standard)),
-        ],
+        values=[*standard.listed, *_list_floor_values(standard)],
     )
 
 
@@ -77,19 +74,6 @@ def _list_floor_values(standard: Standard) -> list[StandardValue]:
     if all(one in standard.listed for one in used):
         return []
     return [replace(one, id=f"floor.{one.id}") for one in used]
-
-
-def _record_value(value: StandardValue) -> ProfileValue:
-    return ProfileValue(
-        id=value.id,
-        clause=value.clause,
-        text=value.text,
-        value=value.value,
-        unit=value.unit,
-        status=value.status,
-        source=value.source,
-        reason_below_one=value.reason_below_one,
-    )
 
 
 def record_provenance(site: Site, run: CheckRun) -> Provenance:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme
@@ -18,16 +19,16 @@ from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member, NetPart, RopeForce
 from netdesign.study.case_records import CasePoint, GuidelineLoadRecord
 from netdesign.study.record_envelope import record_point
+from netdesign.study.record_guideline import list_load
 from netdesign.study.sideways import (
     GUYS,
     GUYS_BY_PANEL,
     place_row,
 )
 from netdesign.study.support_records import StaticsRecord
-from netdesign.units import (
-    given_degree_from_radian,
-    kilonewton_from_newton,
-)
+from netdesign.units import kilonewton_from_newton
+
+_Any = TypeVar("_Any")  # state of a row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +81,7 @@ def _record_cases(
         found += [
             (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS
         ]
-    for state, keys in _group(found):
+    for state, keys in _group(found, _is_same):
         pulls = _read_pulls(row, state)
         if pulls is not None:
             case = record_point(state.result.case)
@@ -143,11 +144,13 @@ def _measure(state: _State) -> dict[str, float]:
     return dict(zip(SPANS, sizes, strict=True))
 
 
-def _group(found: Iterable[tuple[str, _State]]) -> list[tuple[_State, list[str]]]:
+def _group(
+    found: Iterable[tuple[str, _Any]], is_same: Callable[[_Any, _Any], bool]
+) -> list[tuple[_Any, list[str]]]:
     """States in the order of what they bring, each with all of it."""
-    groups: list[tuple[_State, list[str]]] = []
+    groups: list[tuple[_Any, list[str]]] = []
     for key, state in found:
-        keys = next((keys for known, keys in groups if _is_same(known, state)), None)
+        keys = next((keys for known, keys in groups if is_same(known, state)), None)
         if keys is None:
             groups.append((state, [key]))
         else:
@@ -159,18 +162,17 @@ def _is_same(one: _State, other: _State) -> bool:
     return one.result is other.result and one.panel is other.panel
 
 
+def _is_same_load(one: FloorForce, other: FloorForce) -> bool:
+    return one.at == other.at and one.case == other.case
+
+
 def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:
-    groups: list[tuple[FloorForce, list[str]]] = []
-    for one in (*floor.forces, *floor.spans) if floor else ():
-        if one.member not in SPANS and one.force == 0.0:
-            continue
-        same = (g for g in groups if g[0].at == one.at and g[0].case == one.case)
-        group = next(same, None)
-        if group is None:
-            groups.append((one, [one.member]))
-        else:
-            group[1].append(one.member)
-    for state, keys in groups:
+    found = [
+        (one.member, one)
+        for one in ((*floor.forces, *floor.spans) if floor else ())
+        if one.member in SPANS or one.force != 0.0
+    ]
+    for state, keys in _group(found, _is_same_load):
         yield _record_floor_state(state, keys)
 
 
@@ -199,26 +201,14 @@ def _record_floor_state(state: FloorForce, keys: list[str]) -> StaticsRecord:
 
 def _record_load(state: FloorForce) -> GuidelineLoadRecord:
     net, case, load = state.at.net, state.case, state.load
-    along, across = load.resultant
     filled = case.height_vertical * math.cos(net.slope_angle) / net.net_height
     return GuidelineLoadRecord(
-        load_case=case.name,
-        inclination_deg=given_degree_from_radian(net.inclination),
-        snow_thickness_m=net.snow_thickness,
-        density_kg_m3=case.density,
-        height_vertical_m=case.height_vertical,
-        creep_factor=load.creep_factor,
-        glide_factor=load.glide_factor,
         rigid_kN_per_m=kilonewton_from_newton(load.rigid),
         parallel_kN_per_m=kilonewton_from_newton(load.parallel),
         normal_kN_per_m=kilonewton_from_newton(load.normal),
         prism_kN_per_m=kilonewton_from_newton(load.prism),
-        load_along_kN_per_m=kilonewton_from_newton(along),
-        load_across_kN_per_m=kilonewton_from_newton(across),
         loaded_share=min(1.0, filled),
-        stiffness_kN_per_m=kilonewton_from_newton(net.stiffness),
-        slack=net.slack,
-        chord_tension_kN_per_m=kilonewton_from_newton(state.pull.chord_tension),
+        **list_load(state),
     )
 
 

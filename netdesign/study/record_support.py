@@ -16,10 +16,10 @@ from netdesign.panel.inputs import Rope
 from netdesign.panel.solution import FailedPanel
 from netdesign.panel.stations import ROPE_POINTS
 from netdesign.site.model import NetRow, Resistance
+from netdesign.solving.state import SolvedState
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, NetPart, RopeForce
-from netdesign.study.effects import RowEffects
 from netdesign.study.record_envelope import record_extreme, record_point
 from netdesign.study.support_records import (
     AnchorRecord,
@@ -32,6 +32,7 @@ from netdesign.study.support_records import (
 )
 from netdesign.units import (
     degree_from_radian,
+    degree_if_known,
     kilonewton_from_newton,
     kilonewton_if_known,
 )
@@ -84,7 +85,7 @@ def record_panel(
             default=None,
         ),
         lift_m=max((one.lower.mid_displacement[1] for one in solved), default=None),
-        end_guy_deg=_find_guy_angle(row),
+        end_guy_deg=degree_if_known(row.row_end.guy_angle if row.row_end else None),
         drawing=_draw(drawn) if drawn and not row.panel.assumed else None,
     )
 
@@ -117,11 +118,6 @@ def record_solved_panel(result: CaseResult) -> PanelRecord | None:
         extremes=[],
         drawing=_draw(result),
     )
-
-
-def _find_guy_angle(row: NetRow) -> float | None:
-    angle = row.row_end.guy_angle if row.row_end else None
-    return None if angle is None else degree_from_radian(angle)
 
 
 def _draw(drawn: CaseResult) -> PanelDrawing | None:
@@ -200,46 +196,36 @@ _PRESSURE_DECIMALS = 3  # [kPa]
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
-def record_anchors(
-    result: CaseResult | None, effects: RowEffects
-) -> list[AnchorRecord]:
-    """Force vectors on the ground with their direction; slack ones have none."""
-    if result is None or result.anchors is None:
-        return []
-    share = effects.lateral_share
-    records = []
-    for name, force in result.anchors.on_ground.items():
-        lateral = share * force.size if force.member == Member.NET else 0.0
-        direction = force.direction
-        records.append(
-            AnchorRecord(
-                anchor=name,
-                member=force.member,
-                force_x_kN=kilonewton_from_newton(force.x),
-                force_y_kN=kilonewton_from_newton(force.y),
-                lateral_kN=kilonewton_from_newton(lateral),
-                size_kN=kilonewton_from_newton(force.size),
-                direction_deg=None
-                if direction is None
-                else degree_from_radian(direction),
-            )
+def record_anchors(anchors: AnchorForces, share: float) -> list[AnchorRecord]:
+    """Force vectors on the ground with their direction; slack ones have none.
+
+    ``share`` of the net's force acts along the row.
+    """
+    return [
+        AnchorRecord(
+            anchor=name,
+            member=force.member,
+            force_x_kN=kilonewton_from_newton(force.x),
+            force_y_kN=kilonewton_from_newton(force.y),
+            lateral_kN=kilonewton_from_newton(
+                share * force.size if force.member == Member.NET else 0.0
+            ),
+            size_kN=kilonewton_from_newton(force.size),
+            direction_deg=degree_if_known(force.direction),
         )
-    return records
+        for name, force in anchors.on_ground.items()
+    ]
 
 
-def record_head(row: NetRow, result: CaseResult | None) -> list[HeadForce]:
-    """Forces on the post head, the net's pull first; together they are zero.
+def record_head(pull: Point, anchors: AnchorForces) -> list[HeadForce]:
+    """Forces on the post head, the net's pull [N] first; together they are zero.
 
     The pull is that of the solve; the members' are the reverse of what each does to
     the ground, so that an error in the support would leave the polygon open.
     """
-    if result is None or result.solution is None or result.anchors is None:
-        return []
-    pull, width = result.solution.head, row.layout.post_spacing
-    anchors = result.anchors
     members = (anchors.post_base, anchors.uphill_anchor, anchors.downhill_anchor)
     forces = [
-        (Member.NET, pull.x * width, pull.y * width),
+        (Member.NET, *pull),
         *((force.member, -force.x, -force.y) for force in members if force.size > 0),
     ]
     return [
@@ -252,11 +238,27 @@ def record_head(row: NetRow, result: CaseResult | None) -> list[HeadForce]:
     ]
 
 
-def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
-    """Section of a case with its forces; None where it has no solution."""
+def record_drawn(
+    row: NetRow, result: CaseResult | None, share: float
+) -> tuple[Drawing | None, list[AnchorRecord], list[HeadForce]]:
+    """Section of a case, its forces on the ground and on the post head.
+
+    Nothing of a case without a solution. ``share`` of the net's force acts along the
+    row.
+    """
     if result is None or result.solution is None or result.anchors is None:
-        return None
-    solution, anchors = result.solution, result.anchors
+        return None, [], []
+    pull, width = result.solution.head, row.layout.post_spacing
+    return (
+        _record_drawing(row, result, result.solution, result.anchors),
+        record_anchors(result.anchors, share),
+        record_head((pull.x * width, pull.y * width), result.anchors),
+    )
+
+
+def _record_drawing(
+    row: NetRow, result: CaseResult, solution: SolvedState, anchors: AnchorForces
+) -> Drawing:
     points = place_support(row.layout, solution.head_point)
     curve = solution.net_curve.T.round(_DRAWN_DECIMALS).tolist()
     in_snow = len(solution.net_slides)
@@ -276,7 +278,7 @@ def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
         post_base_m=points.post_base,
         uphill_anchor_m=points.uphill_anchor,
         downhill_anchor_m=points.downhill_anchor,
-        arrows=_list_arrows(points, anchors),
+        arrows=list_arrows(points, anchors),
         pressure_kPa=list_pressures(solution),
     )
 
@@ -291,7 +293,7 @@ def list_pressures(net: NetState) -> list[float | None]:
     return [*[None] * before, *values, *[None] * after]
 
 
-def _list_arrows(points: SupportPoints, anchors: AnchorForces) -> list[Arrow]:
+def list_arrows(points: SupportPoints, anchors: AnchorForces) -> list[Arrow]:
     """Forces on the ground at their points; that on the base is drawn as the post's."""
     places = (
         points.net_foot,

@@ -13,6 +13,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from netdesign.calculation.steps import Step
+from netdesign.checks.loader import StandardValue
+from netdesign.checks.result import Proof
 from netdesign.edge.json_text import (
     JsonPart,
     join_items,
@@ -25,6 +27,7 @@ from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import (
     CasePoint,
     CaseRecord,
+    ClosedForm,
     EnvelopeRecord,
     ExtremeRecord,
     FloorRecord,
@@ -50,22 +53,17 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SlabCase:
-    """Closed form of creep and glide pressure on this row; (H6) to (H10)."""
+class SlabCase(ClosedForm):
+    """Creep and glide pressure on this row; (H6) to (H10).
 
-    name: str  # "glide_factor", "slip_length", "no_slip", "free": what gave the ground
+    Named by what gave the ground: "glide_factor", "slip_length", "no_slip", "free".
+    """
+
     slip_length_m: float | None  # D* of linear creep; None without drag
     influence_length_m: float | None  # None without drag
     dynamic_kN_per_m: float  # creep and glide held back
     at_rest_kN_per_m: float
     wedge_kN_per_m: float  # snow between slope normal and net, along the slope
-    load_kN_per_m: float  # sum of the three
-    foot_anchor_kN: float | None
-    uphill_guy_kN: float | None
-    post_kN: float | None
-    load_difference_percent: float | None  # of the coupled solve against this
-    foot_difference_percent: float | None
-    reason: Text | None = None  # why a force is None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,16 +138,6 @@ class ChangeRecord:
     sense: Literal["at least", "at most", "has"]
     solves: int  # coupled solves that it took; 0 for an exact proportion
     note: Text | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class DeclarationRecord:
-    """Place of a proof elsewhere, with its author and date."""
-
-    document: str
-    author: str
-    date: str  # "" where none is given
-    cell: str  # "Declared!B2"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -230,7 +218,7 @@ class CheckRecord:
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     tests: TestsRecord | None = None  # of a pull-out resistance that is from them
     steps: list[Step] = field(default_factory=list)
-    declared: DeclarationRecord | None = None  # whatever the verdict
+    declared: Proof | None = None  # whatever the verdict
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
     holds: list[HoldRecord] = field(default_factory=list)
@@ -371,20 +359,6 @@ class RowStudy:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ProfileValue:
-    """One value of the limit profile, with where it comes from."""
-
-    id: str
-    clause: str
-    text: str
-    value: float
-    unit: str
-    status: str  # "read", "secondary", "assumed", "user"
-    source: str
-    reason_below_one: str = ""  # why a factor may lie below 1
-
-
-@dataclass(frozen=True, kw_only=True)
 class ProfileRecord:
     """The limit profile that was used."""
 
@@ -392,7 +366,7 @@ class ProfileRecord:
     title: str
     edition: str
     sha256: str
-    values: list[ProfileValue]
+    values: list[StandardValue]
     version: str = ""
     choice: str = ""  # set of factors in force; "" where the profile has none
     choice_text: str = ""  # what that set is

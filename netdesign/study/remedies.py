@@ -65,15 +65,6 @@ def list_remedies(
     return _complete(task, one, changes, check)
 
 
-def list_end_remedies(
-    task: RowToCheck, one: MemberCheck, check: CheckByCase | None
-) -> list[ChangeRecord]:
-    """Changes that flip a failing, unproven or close check of such a member."""
-    if not _is_worth_telling(task, one):
-        return []
-    return _complete(task, one, _list_resistance_remedies(task, one), check)
-
-
 def _complete(
     task: RowToCheck,
     one: MemberCheck,
@@ -191,13 +182,8 @@ def find_density_remedy(check: CheckByCase, solver: CaseSolver) -> ChangeRecord:
         ends=TRIED_DENSITIES,
         solver=solver,
     )
-    before = solver.count
-    bound, note = _search(line, highest)
-    if bound is not None and not _less_passes(check, "density", bound):
-        bound, note = None, say("change.lighter_snow_fails")
-    if bound is not None and bound < check.ranges["density"].low:
-        note = say("change.below_range")
-    return _record("density", highest, bound, solver.count - before, note)
+    least = check.ranges["density"].low
+    return _find_largest(line, highest, least, "change.lighter_snow_fails")
 
 
 def find_height_remedy(check: CheckByCase, solver: CaseSolver) -> ChangeRecord:
@@ -215,15 +201,27 @@ def find_height_remedy(check: CheckByCase, solver: CaseSolver) -> ChangeRecord:
         ends=(_LEAST_SHARE * thickness, check.row.net_height),
         solver=solver,
     )
-    before = solver.count
-    bound, note = _search(line, thickness)
+    least = _find_thinnest(check)
+    return _find_largest(line, thickness, least, "change.thinner_snow_fails")
+
+
+def _find_largest(
+    line: CheckLine, start: float, least: float, fails: str
+) -> ChangeRecord:
+    """Largest value of a quantity at which a check passes, and so does all with less.
+
+    ``least`` is the low end of its range, ``fails`` the key of what is said where some
+    case with less does not pass.
+    """
+    before = line.solver.count
+    bound, note = _search(line, start)
     if bound is not None and note is None and _is_floor_next(line, bound):
         note = say("change.floor_limits")
-    if bound is not None and not _less_passes(check, "thickness", bound):
-        bound, note = None, say("change.thinner_snow_fails")
-    if bound is not None and bound < _find_thinnest(check):
+    if bound is not None and not _less_passes(line.check, line.quantity, bound):
+        bound, note = None, say(fails)
+    if bound is not None and bound < least:
         note = say("change.below_range")
-    return _record("thickness", thickness, bound, solver.count - before, note)
+    return _record(line.quantity, start, bound, line.solver.count - before, note)
 
 
 def _search(line: CheckLine, start: float) -> tuple[float | None, Message | None]:

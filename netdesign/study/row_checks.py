@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 
 from netdesign.envelope.extremes import Extreme
 from netdesign.outcome import Verdict
 from netdesign.study.build_check_by_case import (
-    build_end_check,
     find_row_margins,
     list_checks_by_case,
 )
@@ -23,9 +22,9 @@ from netdesign.study.judgement import (
 )
 from netdesign.study.margins import solve_ends
 from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
-from netdesign.study.remedies import list_end_remedies, list_remedies
+from netdesign.study.remedies import list_remedies
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.spreads import list_end_spreads, list_spreads
+from netdesign.study.spreads import list_spreads
 from netdesign.words.message import say
 
 # A program that fails beside the cases of a check is not trusted in them.
@@ -40,7 +39,7 @@ def check_row(
     ``extremes`` are those of its solved cases, ``known`` what these tell.
     """
     judged = judge_members(task.basis, known)
-    followed = _list_checks_by_case(task, judged, extremes)
+    followed = list_checks_by_case(task, judged, extremes)
     if task.solver is not None:  # what is solved here serves changes and limits
         solve_ends([one for one in followed if one is not None], task.solver)
     beside = []
@@ -51,40 +50,20 @@ def check_row(
             judged[place] = judge_with_fault(task.basis, one, _FAULT_BESIDE)
         task.on_check()
     before = task.count_faults()
-    changes = [parts.changes for parts in beside]
-    holds = find_row_margins(task, judged, changes, followed)
+    all_changes = [changes for _, changes in beside]
+    holds = find_row_margins(task, judged, all_changes, followed)
     if task.count_faults() > before:
         judged = [judge_with_fault(task.basis, one, _FAULT_BESIDE) for one in judged]
     checks = [
         replace(
             record_member(task.basis, known, one),
-            spreads=parts.spreads,
-            changes=parts.changes,
+            spreads=spreads,
+            changes=changes,
             holds=holds.get(one.id, []),
         )
-        for one, parts in zip(judged, beside, strict=True)
+        for one, (spreads, changes) in zip(judged, beside, strict=True)
     ]
     return [*checks, *record_others(task.basis, known, judged)]
-
-
-@dataclass(frozen=True, slots=True)
-class _Beside:
-    """Intervals of a check, and changes that turn it."""
-
-    spreads: list[SpreadRecord]
-    changes: list[ChangeRecord]
-
-
-def _list_checks_by_case(
-    task: RowToCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
-) -> list[CheckByCase | None]:
-    """Checks as functions of a solved case; None of those that no solve may turn."""
-    members = [one for one in judged if not one.is_of_end]
-    ends = [one for one in judged if one.is_of_end]
-    return [
-        *list_checks_by_case(task, members, extremes),
-        *(build_end_check(task, one, extremes) for one in ends),
-    ]
 
 
 def _solve_beside(
@@ -92,16 +71,12 @@ def _solve_beside(
     one: MemberCheck,
     by_case: CheckByCase | None,
     extremes: Mapping[str, Extreme],
-) -> _Beside:
+) -> tuple[list[SpreadRecord], list[ChangeRecord]]:
     """Intervals of a check and changes that turn it, as far as solves tell them."""
     if one.force is None:
-        return _Beside([], [])
+        return [], []
     extreme = extremes[one.force.largest.quantity]
-    if one.is_of_end:
-        return _Beside(
-            list_end_spreads(one, extreme), list_end_remedies(task, one, by_case)
-        )
-    return _Beside(list_spreads(task, one, extreme), list_remedies(task, one, by_case))
+    return list_spreads(task, one, extreme), list_remedies(task, one, by_case)
 
 
 def distrust(check: CheckRecord) -> CheckRecord:

@@ -5,11 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from netdesign.checks import Standard
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.guideline.floor import Floor, FloorEnd
+from netdesign.site.model import NetRow, Site
+from netdesign.snow.creep_law import CreepLaw
 from netdesign.study.case_solver import CaseSolver
-from netdesign.study.judgement import Basis
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Basis:
+    """Ground of the checks of a net row, beside its forces."""
+
+    site: Site
+    row: NetRow
+    standard: Standard
+    law: CreepLaw
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.checks import Band, CheckResult, Standard
-from netdesign.checks.check import not_proven
+from netdesign.checks.check import conclude, not_proven
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.panel_forces import PanelForces
@@ -151,14 +151,9 @@ def check_sideways(
         share=100.0 * (share.value if share else 0.0),
         splay=degree_from_radian(row.guys.splay or 0.0),
     )
-    return CheckResult(
-        id=f"{Member.POST}.lateral",
-        clause="-",
-        member=Member.POST,
-        mode="lateral",
-        verdict=Verdict.NOT_PROVEN if lack else Verdict.PASS,
-        reason=not_proven(lack) if lack else told,
-    )
+    verdict = Verdict.NOT_PROVEN if lack else Verdict.PASS
+    reason = not_proven(lack) if lack else told
+    return conclude("lateral", verdict, reason, member=Member.POST)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

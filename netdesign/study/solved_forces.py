@@ -11,11 +11,11 @@ from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.effects import find_effects
-from netdesign.study.judgement import Basis, Known
-from netdesign.study.member_force import RowForces
+from netdesign.study.judgement import Known
 from netdesign.study.pulls import list_pulls
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import record_floor
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -36,20 +36,16 @@ def know_row(
     effects = find_effects(row, standard, basis.site.ranges)
     head, record = floor.head if floor else None, record_floor(floor, row)
     held = find_held_sideways(row, results, extremes, standard, head)
-    forces = RowForces(
+    return Known(
         row=row,
         standard=standard,
         effects=effects,
         largest={name: _record_force(one) for name, one in extremes.items()},
         floor={one.member: one for one in record.forces} if record else None,
-        held=None if isinstance(held, Message) else held,
+        held=held,
         tilt=find_tilt(
             row, (one.case.inclination for one in results if one.is_converged)
         ),
-    )
-    return Known(
-        forces=forces,
-        held=held,
         pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
         gap=gap,
         floor_gap=floor.reason if floor else None,

@@ -20,7 +20,8 @@ def list_spreads(
 ) -> list[SpreadRecord]:
     """Parts of the interval of a utilisation, the creep law's for comparison.
 
-    A floor cuts off what lies below it.
+    A floor cuts off what lies below it. What the ropes load has none, and is not
+    compared: it is in proportion to the rope's force.
     """
     force, use = one.force, one.use
     if force is None or use is None or not one.result.find_value("μ"):
@@ -40,18 +41,11 @@ def list_spreads(
         say("spread.floor_governs") if is_floor else None,
         say("spread.unknown_along", axes=unknown) if unknown else None,
     )
+    if one.is_of_end:
+        return spreads
     if task.solver is not None and extreme.force.value > 0.0:
         spreads += _list_creep_laws(task.solver, task.basis.row, extreme, scale)
     return spreads
-
-
-def list_end_spreads(one: MemberCheck, extreme: Extreme) -> list[SpreadRecord]:
-    """Parts of the interval of an end member, in proportion to its rope's force."""
-    used = one.result.find("μ")
-    if used is None or not used.value or used.high is None:
-        return []
-    share = extreme.force.high / extreme.widened.high
-    return _split(one, used.high * share, None, None)
 
 
 def _split(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from netdesign.checks import Standard, find_resistance
 from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
@@ -44,14 +43,6 @@ def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
     return member not in _ANCHORS or not now or now == other.ground
 
 
-@dataclass(frozen=True, slots=True, order=True, kw_only=True)
-class _Enough:
-    """A type that reaches a demand, in the order in which types are offered."""
-
-    design: float  # [kN]
-    characteristic: float  # [kN]
-
-
 def find_type_change(
     site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
 ) -> ChangeRecord | None:
@@ -71,7 +62,7 @@ def find_type_change(
     if enough:
         weakest = min(enough, key=lambda key: (enough[key], key))
         told = say("change.type_of_workbook", type=weakest)
-        return _record(told, enough[weakest].characteristic, given)
+        return _record(told, enough[weakest][1], given)
     basis = "computed" if given.mode == "pull_out" else "declared"
     factor = standard.find_resistance_factor(given.mode, basis)
     needed = demand / _find_share(given)
@@ -88,8 +79,11 @@ def _find_share(given: Resistance) -> float:
 
 def _list_enough(
     site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
-) -> dict[str, _Enough]:
-    """Types of the workbook that reach a demand [kN]; none of another ground."""
+) -> dict[str, tuple[float, float]]:
+    """Types of the workbook that reach a demand; none of another ground.
+
+    Each with its design and its characteristic resistance [kN].
+    """
     found = {}
     for other in site.catalogue:
         ground = row.ground_type or given.ground
@@ -103,10 +97,7 @@ def _list_enough(
         if value is None or factor is None:
             continue
         if value / factor.value_si >= demand:
-            found[other.type_id] = _Enough(
-                design=value / factor.value_si,
-                characteristic=value,
-            )
+            found[other.type_id] = (value / factor.value_si, value)
     return found
 
 

@@ -16,7 +16,6 @@ from netdesign.calculation.quantity import (
     apply,
     at_value,
     cos,
-    find_governing,
     given,
     largest,
     smallest,
@@ -252,10 +251,3 @@ def test_a_second_name_keeps_the_first_one():
     pull = force.named("H", "kN", "(P8)")
     assert [one.symbol for one in list_named(pull)] == ["T_r", "H"]
     assert (pull.value, pull.kind, pull.source) == (2.0, Kind.WORKED, "(P8)")
-
-
-def test_of_equal_forces_the_first_governs():
-    forces = [
-        given(symbol, size, "kN", "") for symbol, size in (("a", 1), ("b", 5), ("c", 5))
-    ]
-    assert find_governing(largest(*forces)).symbol == "b"

@@ -15,7 +15,6 @@ from netdesign.calculation.steps import (
     compare_steps,
     evaluate,
     find_level,
-    find_step,
     list_named,
     list_steps,
 )
@@ -154,9 +153,3 @@ def test_what_does_not_follow_a_leaf_has_no_level():
     missing = given("b", None, "m", "")
     steps = list_steps((force / missing * missing).named("E", "kN"))
     assert find_level(steps, "E_s", "E", 5.0) is None
-
-
-def test_a_step_is_found_by_its_symbol():
-    steps = list_steps((given("E", 3.0, "kN", "") * 2).named("F", "kN"))
-    assert find_step(steps, "F").value == 6.0
-    assert find_step(steps, "f") is None

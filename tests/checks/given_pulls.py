@@ -13,7 +13,8 @@ from netdesign.envelope.rows import RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site
-from netdesign.structure import compute_anchor_forces, place_support
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.layout import place_support
 from netdesign.structure.members import NetPart
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site

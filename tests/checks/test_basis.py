@@ -8,6 +8,7 @@ import pytest
 from netdesign.checks import (
     CheckResult,
     Declaration,
+    Proof,
     check_member,
     declare,
     judge,
@@ -27,10 +28,12 @@ DECLARATION = Declaration(
     row_id="R3",
     member="foot_anchor",
     mode="tendon",
-    document="Report G-17",
-    author="B. Rüegg",
-    date="2026-03-09",
-    source="Declared!B2",
+    proof=Proof(
+        document="Report G-17",
+        author="B. Rüegg",
+        date="2026-03-09",
+        cell="Declared!B2",
+    ),
 )
 
 
@@ -50,7 +53,7 @@ def test_what_does_not_fail_becomes_declared_and_keeps_its_numbers(low, high, st
     found = declare(computed, DECLARATION)
     assert found.verdict is Verdict.DECLARED
     assert found.used is computed.used
-    assert found.declaration is DECLARATION
+    assert found.declared is DECLARATION.proof
     told = str(found.reason)
     for part in ("Report G-17", "B. Rüegg", "2026-03-09", "Declared!B2"):
         assert part in told
@@ -71,7 +74,12 @@ def test_without_a_declaration_nothing_changes():
 
 
 def test_a_declaration_without_a_date_says_so():
-    told = str(declare(check(0.2, 0.9), replace(DECLARATION, date="")).reason)
+    told = str(
+        declare(
+            check(0.2, 0.9),
+            replace(DECLARATION, proof=replace(DECLARATION.proof, date="")),
+        ).reason
+    )
     assert "without a date" in told
 
 

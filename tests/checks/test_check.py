@@ -307,16 +307,6 @@ def test_member_that_may_be_tight_needs_its_resistance():
     assert verdict_of(action, a_resistance(None)) is Verdict.NOT_PROVEN
 
 
-def test_assumed_values_are_listed_with_the_check():
-    resistance = a_resistance(1e9, mode="rope", member="uphill_guy")
-    standard = load_standard("nf-p-95-304-style")
-    result = check_member(a_force(1.0), resistance, standard, gap=None)
-    assert result.verdict is Verdict.PASS
-    assert result.assumed == ("action.snow", "resistance.rope")
-    own = check_member(a_force(0.2), a_resistance(), plain_standard(), gap=None)
-    assert own.assumed == ()
-
-
 def just_below(degrees: float) -> float:
     return math.nextafter(math.radians(degrees), 0.0)
 

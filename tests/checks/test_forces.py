@@ -30,8 +30,7 @@ def test_half_a_bay_and_the_end_effect_load_an_end_support():
     """(S9): 4 / 2 + 1.5 * 0.8 = 3.2 m."""
     assert END.width.value == pytest.approx(3.2, rel=1e-15)
     assert END.width.source == "(S9)"
-    assert END.position == "edge"
-    inside = Support(position="intermediate")
+    inside = Support()
     assert inside.width is None
 
 
@@ -73,9 +72,7 @@ def test_a_force_inside_the_row_comes_to_its_support():
         "E_c", q("E_s", 100.0, 90.0, 120.0), load_at_foot, END, q("Z", 7.0, 6.0, 9.0)
     )
     assert ends(force) == pytest.approx((64.0, 72.0, 89.0), rel=1e-14)
-    plain = formulas.bring_to_support(
-        "E_c", q("E_s", 100.0), MemberLoad(), Support(position="intermediate")
-    )
+    plain = formulas.bring_to_support("E_c", q("E_s", 100.0), MemberLoad(), Support())
     assert plain.value == 100.0
     floor = formulas.bring_floor_to_support("E_g", q("E_g0", 100.0), load, END)
     assert ends(floor) == pytest.approx((52.0, 52.0, 52.0), rel=1e-14)
@@ -98,7 +95,7 @@ def test_a_rope_pulls_more_at_the_end_of_the_row():
         wide = place_end_support(q("b", 4.0), q("f_R", 1.5), q("Δl", reach))
         assert formulas.pull_at_end(rope, wide).value == pytest.approx(pull, rel=1e-14)
     with pytest.raises(ValueError, match="no end effect"):
-        formulas.pull_at_end(rope, Support(position="intermediate"))
+        formulas.pull_at_end(rope, Support())
 
 
 def test_an_end_guy_pulls_and_presses():

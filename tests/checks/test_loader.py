@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.checks.loader import CONFIRM, list_standards, load_standard
+from netdesign.checks.loader import list_standards, load_standard
 from netdesign.edge.given_files import find_resource
 from netdesign.outcome import StandardError
 
@@ -86,11 +86,11 @@ def test_values_are_kept_as_printed_and_in_si():
     assert standard.find("action.snow").value_si == 1.5
 
 
-def test_assumed_values_ask_to_be_confirmed():
+def test_assumed_values_are_listed():
     standard = load_standard(NF_STYLE)
-    assert {v.note for v in standard.assumed} == {CONFIRM}
+    assert {v.status for v in standard.assumed} == {"assumed"}
     assert "action.snow" in {v.id for v in standard.assumed}
-    assert standard.find("geometry.inclination.min").note == ""
+    assert standard.find("geometry.inclination.min") not in standard.assumed
 
 
 def test_factor_of_the_basis_is_used_and_else_that_of_the_mode():

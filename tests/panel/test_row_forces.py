@@ -9,12 +9,9 @@ from netdesign.outcome import ModelError
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.row_forces import compute_end_forces
 from netdesign.panel.solve import solve_panel
-from netdesign.structure import (
-    FailedSupport,
-    SupportLayout,
-    compute_anchor_forces,
-    place_support,
-)
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.head import FailedSupport
+from netdesign.structure.layout import SupportLayout, place_support
 
 ROPE = Rope(stiffness=17e6, sag=0.052)
 PANEL = Panel(post_spacing=3.6, lower=ROPE, upper=ROPE, cut="fitted")

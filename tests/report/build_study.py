@@ -9,6 +9,7 @@ from itertools import pairwise, product
 
 from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.calculation.steps import list_steps
+from netdesign.checks import StandardValue
 from netdesign.checks.forces import (
     MemberLoad,
     bring_floor_to_support,
@@ -37,7 +38,6 @@ from netdesign.study.records import (
     IndependentRecord,
     ModelFormRecord,
     ProfileRecord,
-    ProfileValue,
     Provenance,
     RowStudy,
     SlabCase,
@@ -127,7 +127,7 @@ def build_profile() -> ProfileRecord:
         edition="1992",
         sha256="b1946ac92492d2347c6235b4d2611184d5b6b5e8b0e2a5a3a2b0a6f0a3d5c1e2",
         values=[
-            ProfileValue(
+            StandardValue(
                 id=key,
                 clause=clause,
                 text=text,

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.checks import Proof
 from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, name_area, write_difference
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.document import read_document, write_document
-from netdesign.study.records import DeclarationRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
@@ -215,7 +215,7 @@ def test_changes_are_told_in_the_language_asked_for(language, verdict, area):
 def test_a_pass_that_is_only_declared_now_comes_first_among_the_verdicts():
     old = build_study()
     row = old.rows[0]
-    told = DeclarationRecord(document="G-17", author="B. R.", date="", cell="D!B2")
+    told = Proof(document="G-17", author="B. R.", date="", cell="D!B2")
     declared = replace(row.checks[3], verdict=Verdict.DECLARED, declared=told)
     checks = [*row.checks[:3], declared, *row.checks[4:]]
     changed = replace(row, checks=checks, verdict=Verdict.DECLARED)

@@ -5,7 +5,7 @@ from datetime import datetime
 
 import pytest
 
-from netdesign.checks import Declaration
+from netdesign.checks import Declaration, Proof
 from netdesign.outcome import SiteDataError
 from netdesign.site.declared_sheet import DECLARABLE
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
@@ -38,8 +38,9 @@ def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(sheets, save):
     site = read_site(save(with_lines(sheets, SOUND_LINE)))
     (found,) = site.declared
     assert (found.row_id, found.member, found.mode) == ("R1", "post_base", "bearing")
-    assert (found.document, found.author, found.date) == tuple(SOUND_LINE[2:])
-    assert found.source == "Declared!B2"
+    document, author, date = SOUND_LINE[2:]
+    proof = Proof(document=document, author=author, date=date, cell="Declared!B2")
+    assert found.proof == proof
     first, second = site.rows
     assert site.find_declaration(first, "post_base", "bearing") is found
     assert site.find_declaration(second, "post_base", "bearing") is None
@@ -52,13 +53,13 @@ def test_a_line_may_be_of_all_rows(sheets, save, word):
     site = read_site(save(with_lines(sheets, line)))
     for row in site.rows:
         found = site.find_declaration(row, "post_base", "bearing")
-        assert (found.document, found.date) == ("Report G-17", "")
+        assert (found.proof.document, found.proof.date) == ("Report G-17", "")
 
 
 def test_a_date_of_the_spreadsheet_program_is_one(sheets, save):
     line = [*SOUND_LINE[:4], datetime(2025, 11, 3)]
     (found,) = read_site(save(with_lines(sheets, line))).declared
-    assert found.date == "2025-11-03"
+    assert found.proof.date == "2025-11-03"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -112,9 +113,11 @@ def test_what_stands_on_no_support_has_no_end(sheets, save, language, subject):
 def test_a_declaration_holds_at_the_end_for_the_same_type_only(member, mode, other):
     """Another type has another resistance, which nobody has proven."""
     general = Declaration(
-        row_id="R", member=member, mode=mode, document="G-17", author="B. R.",
-        date="", source="Declared!B2",
-    )  # fmt: skip
+        row_id="R",
+        member=member,
+        mode=mode,
+        proof=Proof(document="G-17", author="B. R.", date="", cell="Declared!B2"),
+    )
     ends = other and tuple(
         replace(one, type_id=other if one.member == member else one.type_id)
         for one in resist()

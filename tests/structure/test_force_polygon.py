@@ -5,12 +5,8 @@ import random
 
 import pytest
 
-from netdesign.structure import (
-    AnchorForces,
-    SupportLayout,
-    compute_anchor_forces,
-    place_support,
-)
+from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.layout import SupportLayout, place_support
 
 DRAW = random.Random(20261121)
 

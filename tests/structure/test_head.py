@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from dataclasses import fields
 
 import pytest
 
@@ -228,6 +229,9 @@ def test_what_is_no_number_gives_no_forces(bad):
         assert failed.outcome is Outcome.NONFINITE
 
 
+SIZES = [one.name for one in fields(HeadForces) if one.name != "reason"]
+
+
 @pytest.mark.parametrize("bad", [-5e-324, math.nan, math.inf])
 @pytest.mark.parametrize(
     "member",
@@ -235,4 +239,4 @@ def test_what_is_no_number_gives_no_forces(bad):
 )
 def test_forces_with_a_wrong_sign_cannot_be_built(member, bad):
     with pytest.raises(ModelError, match="^" + member.replace("_", " ")):
-        HeadForces(**({"post_compression": 1.0, "reason": ""} | {member: bad}))
+        HeadForces(**(dict.fromkeys(SIZES, 1.0) | {member: bad}), reason="")

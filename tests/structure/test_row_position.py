@@ -9,7 +9,6 @@ from netdesign.outcome import ModelError
 from netdesign.structure.row_position import (
     EndEffectRule,
     compute_edge_width,
-    compute_lateral_factor,
     list_supports,
 )
 
@@ -95,10 +94,3 @@ def test_row_has_a_support_inside_and_its_end():
 def test_impossible_input_is_named(name, value):
     with pytest.raises(ModelError, match=name.replace("_", " ")):
         an_edge(**{name: value})
-
-
-@pytest.mark.parametrize("share", [0.0, 0.1, 1.0])
-def test_lateral_part_stands_across_the_force(share):
-    assert compute_lateral_factor(share) == pytest.approx(
-        math.sqrt(1.0 + share**2), rel=1e-15
-    )

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import Declaration, load_standard
+from netdesign.checks import Declaration, Proof, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import Project
@@ -37,10 +37,12 @@ BEARING = Declaration(
     row_id="R2",
     member="post_base",
     mode="bearing",
-    document="Report G-17",
-    author="B. Rüegg",
-    date="2026-03-09",
-    source="Declared!B2",
+    proof=Proof(
+        document="Report G-17",
+        author="B. Rüegg",
+        date="2026-03-09",
+        cell="Declared!B2",
+    ),
 )
 PULL_OUT = replace(BEARING, row_id="", member="foot_anchor", mode="pull_out")
 

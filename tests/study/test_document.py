@@ -6,6 +6,7 @@ from dataclasses import fields, replace
 
 import pytest
 
+from netdesign.checks import StandardValue
 from netdesign.edge.json_text import write_json
 from netdesign.outcome import Outcome, StudyError, Verdict
 from netdesign.site.model import InputEcho, Project
@@ -20,7 +21,6 @@ from netdesign.study.document import (
 from netdesign.study.records import (
     CheckRecord,
     ProfileRecord,
-    ProfileValue,
     Provenance,
     RowStudy,
     Study,
@@ -122,7 +122,7 @@ STUDY = Study(
         edition="1",
         sha256="0" * 64,
         values=[
-            ProfileValue(
+            StandardValue(
                 id="action.snow",
                 clause="-",
                 text="x",

@@ -8,7 +8,7 @@ import pytest
 from netdesign.envelope.ranges import build_cases
 from netdesign.study.case_solver import CaseSolver
 from netdesign.study.record_independent import record_independent
-from netdesign.study.record_support import record_head
+from netdesign.study.record_support import record_drawn
 from tests.study.test_row_study import RANGES, ROW, RUN
 
 
@@ -19,7 +19,7 @@ def solved():
 
 
 def check(result, head=None):
-    head = record_head(ROW, result) if head is None else head
+    head = record_drawn(ROW, result, 0.0)[2] if head is None else head
     return {one.name: one for one in record_independent(result, head)}
 
 
@@ -54,7 +54,7 @@ def test_spoilt_solutions_are_found(solved):
     found = check(replace(solved, solution=replace(solution, balance=none)))
     for name in ("global_balance", "capstan_ratio", "tension_share"):
         assert not found[name].is_met
-    head = record_head(ROW, solved)
+    head = record_drawn(ROW, solved, 0.0)[2]
     assert not check(solved, [replace(head[0], x_kN=-head[0].x_kN), *head[1:]])[
         "head_balance"
     ].is_met

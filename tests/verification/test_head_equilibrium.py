@@ -13,15 +13,9 @@ import pytest
 from scipy.optimize import nnls
 
 from netdesign.outcome import Outcome
-from netdesign.structure import (
-    FailedSupport,
-    HeadForces,
-    SupportLayout,
-    SupportPoints,
-    compute_anchor_forces,
-    compute_head_forces,
-    place_support,
-)
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.head import FailedSupport, HeadForces, compute_head_forces
+from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 
 HEIGHT = 3.0
 PULL = 80e3

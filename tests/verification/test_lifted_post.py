@@ -13,16 +13,9 @@ import numpy as np
 import pytest
 
 from netdesign.outcome import Outcome
-from netdesign.structure import (
-    AnchorForces,
-    FailedSupport,
-    HeadForces,
-    SupportLayout,
-    SupportPoints,
-    compute_anchor_forces,
-    compute_head_forces,
-    place_support,
-)
+from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.head import FailedSupport, HeadForces, compute_head_forces
+from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 from netdesign.structure.members import Member
 from netdesign.structure.splay import compute_splayed_head, weigh_splay
 

@@ -26,11 +26,8 @@ from netdesign.panel.stations import ROPE_POINTS, build_stations
 from netdesign.panel.strips import take_strip
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
-from netdesign.structure import (
-    SupportLayout,
-    compute_anchor_forces,
-    place_support,
-)
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.layout import SupportLayout, place_support
 from tests.panel.one_rope import find_force_along
 
 FACTS = (Path(__file__).parent / "FACTS.md").read_text(encoding="utf-8")

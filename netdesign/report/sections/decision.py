@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator
-from dataclasses import asdict
 
-from netdesign.checks.result import describe_proof
 from netdesign.outcome import Verdict
 from netdesign.report.blocks.block import (
     Block,
@@ -268,7 +266,7 @@ def _list_declared(study: Study, words: Words) -> Iterator[str]:
     for row in study.rows:
         for check in row.checks:
             if check.declared and check.verdict is Verdict.DECLARED:
-                proof = words.show(describe_proof(**asdict(check.declared)))
+                proof = words.show(check.declared.describe())
                 found.setdefault((show_text(row.id), proof), []).append(check)
     for (row_id, proof), checks in found.items():
         place = f"{row_id}, {name_checks(checks, words)}"

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 
 from netdesign.calculation.quantity import Kind
 from netdesign.calculation.steps import SAME, Step
+from netdesign.checks import StandardValue
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.report.blocks.table import Cell, Table
 from netdesign.report.workbook.formulas import write_same
 from netdesign.report.workbook.writer import Book
-from netdesign.study.records import CheckRecord, ProfileValue, RowStudy, Study
+from netdesign.study.records import CheckRecord, RowStudy, Study
 
 # Names of cells that hold 1 where no value differs that the forces rest on.
 UNCHANGED = {"inputs": "inputs_unchanged", "profile": "profile_unchanged"}
@@ -172,7 +173,7 @@ def _list_leaves(row: RowStudy) -> set[Step]:
     return {step for step in steps if not step.formula}
 
 
-def _is_of(value: ProfileValue, step: Step) -> bool:
+def _is_of(value: StandardValue, step: Step) -> bool:
     """The step is that value, or stands in that table, of the profile."""
     is_named = value.id == step.source or value.id.startswith(f"{step.source}[")
     return is_named and value.unit == step.unit

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from itertools import pairwise
 
+from netdesign.calculation.steps import SAME, is_same
 from netdesign.coupling.solution import RELEASED
 from netdesign.outcome import NetDesignError, Outcome, Verdict
 from netdesign.structure.members import (
@@ -29,19 +31,10 @@ from netdesign.study.values import compare_values, show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-SAME = 1e-9  # relative; stored numbers that follow from each other differ by rounding
-_ZERO = 1e-12  # kN; what is left of a sum that must vanish
 _STEADY = "steady"
 _MOST = 5  # places of one part that are named
 
 Pair = tuple[str, float | None, float | None]
-
-
-def is_same(one: float | None, other: float | None) -> bool:
-    """Both are the same number, or both are missing."""
-    if one is None or other is None:
-        return one is other
-    return math.isclose(one, other, rel_tol=SAME, abs_tol=_ZERO)
 
 
 def is_of_steady_states(study: Study) -> bool:
@@ -74,6 +67,14 @@ def report_differences(
     """Sentences on the first places at which a stored part is not what follows."""
     for found in compare_values(stored, again, is_exact=is_exact)[:_MOST]:
         yield say(key, **given, value=found.message)
+
+
+def _report_other_values(
+    place: Message, stored: object, again: object
+) -> Iterator[Message]:
+    """Sentences on values that are not those of the cases, by their places."""
+    key = "audit.other_values"
+    yield from report_differences(key, stored, again, is_exact=True, place=place)
 
 
 def report_value(place: Message, name: str, stored: object, follows: object) -> Message:
@@ -197,26 +198,16 @@ def _rejudge_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
 def _rejudge_extreme(
     place: Message, extreme: ExtremeRecord, largest: CaseRecord
 ) -> Iterator[Message]:
-    others = [member for member in REPORTED_MEMBERS if member != extreme.quantity]
-    yield from report_unequal(
-        place,
-        [
-            ("max_kN", extreme.max_kN, read_force(largest, extreme.quantity)),
-            *(
-                (
-                    f"coincident_kN.{member}",
-                    extreme.coincident_kN.get(member),
-                    read_force(largest, member),
-                )
-                for member in others
-            ),
-        ],
+    forces: dict[str, float] = {
+        one: read_force(largest, one) or 0.0 for one in REPORTED_MEMBERS
+    }
+    again = replace(
+        extreme,
+        max_kN=forces.pop(extreme.quantity),
+        case=largest.case,
+        coincident_kN=forces,
     )
-    if extreme.case != largest.case:
-        yield say("audit.other_case", place=place)
-    if set(extreme.coincident_kN) != set(others):
-        named = name_members(sorted(extreme.coincident_kN))
-        yield say("audit.coincident_of_others", place=place, named=named)
+    yield from _report_other_values(place, extreme, again)
     upper = extreme.upper_bound_kN
     ends = (0.0, extreme.low_kN, extreme.max_kN, extreme.high_kN)
     bound = (extreme.max_kN, upper or extreme.max_kN, extreme.high_kN)
@@ -341,14 +332,15 @@ def _rejudge_bound(
     place: Message, bound: BoundRecord, extreme: ExtremeRecord, record: EnvelopeRecord
 ) -> Iterator[Message]:
     place = say("audit.bound", place=place, member=name_member(bound.quantity))
-    same = ("max_kN", "upper_bound_kN")
-    pairs = [(key, getattr(bound, key), getattr(extreme, key)) for key in same]
-    point = extreme.case.values
-    pairs += [(key, bound.case.get(key), value) for key, value in point.items()]
-    pairs += [
-        (f"coincident_kN.{member}", bound.coincident_kN.get(member), force)
-        for member, force in extreme.coincident_kN.items()
-    ]
+    upper = extreme.upper_bound_kN
+    follows = replace(
+        bound,
+        max_kN=extreme.max_kN,
+        upper_bound_kN=math.nan if upper is None else upper,
+        case=extreme.case.values,
+        coincident_kN=extreme.coincident_kN,
+    )
+    yield from _report_other_values(place, bound, follows)
     again = bound.confirmation
     if again is not None and again.confirmed_kN is not None and again.screened_kN:
         change = 100.0 * (again.confirmed_kN / again.screened_kN - 1.0)
@@ -357,7 +349,6 @@ def _rejudge_bound(
             yield say("audit.other_confirmation", place=place, change=change)
         if again.confirmed_kN > extreme.high_kN * (1.0 + SAME):
             yield say("audit.confirmed_above", place=place)
-    yield from report_unequal(place, pairs)
     gap = bound.upper_bound_kN - bound.max_kN
     known = max(bound.max_kN, *extreme.coincident_kN.values())
     if record.is_closed and gap > record.gap_asked_percent / 100.0 * known * 1.001:

@@ -10,7 +10,7 @@ from statistics import fmean
 from typing import Any
 
 from netdesign.calculation.quantity import Kind, Quantity
-from netdesign.calculation.steps import Step, evaluate, list_steps
+from netdesign.calculation.steps import SAME, Step, evaluate, list_steps
 from netdesign.checks.check import judge
 from netdesign.checks.forces import (
     GUYS_ON_ANCHOR,
@@ -48,6 +48,7 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.study.check_to_record import UNBOUNDED
+from netdesign.study.find_input import find_input, find_word
 from netdesign.study.member_force import PARTS, PUSHED, leave_out_governing, lifts
 from netdesign.study.records import (
     CheckRecord,
@@ -56,7 +57,6 @@ from netdesign.study.records import (
     SingleTestRecord,
 )
 from netdesign.study.rejudge.cases import (
-    SAME,
     Pair,
     guard,
     is_complete,
@@ -164,9 +164,7 @@ def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
 
 def _goes_on(row: RowStudy) -> bool:
     """Absence of an end: the next work goes on without a gap."""
-    ends = {("gap", 0.0), ("row_end", "continuous")}
-    said = {(say(f"column.Nets.{key}"), value) for key, value in ends}
-    return any((echo.label, echo.value) in said for echo in row.inputs)
+    return find_input(row, "gap") == 0.0 or find_word(row, "row_end") == "continuous"
 
 
 def _has_ropes(row: RowStudy) -> bool:

@@ -9,7 +9,6 @@ from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_me
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
-from netdesign.structure.head import HeadForces, compute_head_forces
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import (
     BROUGHT_BY,
@@ -20,13 +19,15 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.find_input import find_input
+from netdesign.study.record_support import list_arrows, record_anchors, record_head
 from netdesign.study.records import IndependentRecord, ProfileRecord, RowStudy
 from netdesign.study.rejudge.cases import (
     Pair,
     find_largest,
     list_solved,
-    name_members,
     read_force,
+    report_differences,
     report_unequal,
     report_value,
     same_point,
@@ -34,16 +35,15 @@ from netdesign.study.rejudge.cases import (
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
-    HeadForce,
     StaticsRecord,
 )
+from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
 _LAWS = ("global_balance", "friction_excess", "end_direction", "tension_share")
 _END_SHARE = 0.005  # of the chord: the drawn points are rounded to a tenth of a mm
 _BESIDE_NET = 0.15  # rad, over so short a piece of a net that sags
-_CLOSE = 1e-6  # of the pull: members from a stored pull, whose last digits are lost
 
 
 def rejudge_drawn(
@@ -67,10 +67,9 @@ def rejudge_drawn(
     if not same_point(drawing.case, _find_governing(row)):
         yield say("audit.other_drawn", place=place)
     share = next((v.value for v in profile.values if v.id == LATERAL_SHARE), 0.0)
-    yield from _rejudge_anchors(place, row.anchors, drawing, share)
+    yield from _rejudge_support(place, row, drawing, share)
     if is_steady:
         yield from _rejudge_sizes(place, row.anchors, drawing, drawn)
-    yield from _rejudge_head(place, row, drawing)
     yield from _rejudge_ends(place, row, drawing)
     yield from _rejudge_laws(place, row, drawn, is_steady=is_steady)
 
@@ -84,48 +83,36 @@ def _find_governing(row: RowStudy) -> CasePoint | None:
     return largest.case if largest else None
 
 
-def _rejudge_anchors(
-    place: Message, anchors: list[AnchorRecord], drawing: Drawing, share: float
+def _rejudge_support(
+    place: Message, row: RowStudy, drawing: Drawing, share: float
 ) -> Iterator[Message]:
-    named = tuple((one.anchor, one.member) for one in anchors)
-    if named != tuple(BROUGHT_BY.items()):
-        names = name_members(one.anchor for one in anchors)
-        yield say("audit.other_anchors", place=place, named=names)
-        return
-    points = (
-        (0.0, 0.0),
-        drawing.uphill_anchor_m,
-        drawing.downhill_anchor_m,
-        drawing.post_base_m,
+    """Forces on ground and head from the two pulls of the net, (S1) to (S6)."""
+    foot, pull = row.anchors[0], row.head[0]
+    points = SupportPoints(
+        net_foot=(0.0, 0.0),
+        head=drawing.head_m,
+        post_base=drawing.post_base_m,
+        uphill_anchor=drawing.uphill_anchor_m,
+        downhill_anchor=drawing.downhill_anchor_m,
     )
-    if len(drawing.arrows) != len(anchors):
-        arrows, forces = len(drawing.arrows), len(anchors)
-        yield say("audit.arrows", place=place, arrows=arrows, forces=forces)
+    on_foot, on_head = (
+        (newton_from_kilonewton(x), newton_from_kilonewton(y))
+        for x, y in ((foot.force_x_kN, foot.force_y_kN), (pull.x_kN, pull.y_kN))
+    )
+    found = compute_anchor_forces(
+        points, foot_pull_per_m=on_foot, head_pull_per_m=on_head, post_spacing=1.0
+    )
+    if not isinstance(found, AnchorForces):
+        yield say("audit.not_held", place=place, reason=found.reason)
         return
-    for one, arrow, point in zip(anchors, drawing.arrows, points, strict=True):
-        where = say("audit.part", place=place, part=name_member(one.anchor))
-        lateral = share * one.size_kN if one.member == Member.NET else 0.0
-        size = math.hypot(one.force_x_kN, one.force_y_kN)
-        turn = math.degrees(math.atan2(one.force_y_kN, one.force_x_kN))
-        if arrow.member != _name_arrow(one.anchor):
-            drawn_as = name_member(arrow.member)
-            yield say("audit.drawn_as", place=where, member=drawn_as)
-        yield from report_unequal(
-            where,
-            [
-                ("size_kN", one.size_kN, size),
-                ("direction_deg", one.direction_deg, turn if size else None),
-                ("lateral_kN", one.lateral_kN, lateral),
-                ("arrows.force_x_kN", arrow.force_x_kN, one.force_x_kN),
-                ("arrows.force_y_kN", arrow.force_y_kN, one.force_y_kN),
-                ("arrows.x_m", arrow.x_m, point[0]),
-                ("arrows.y_m", arrow.y_m, point[1]),
-            ],
-        )
-
-
-def _name_arrow(anchor: str) -> str:
-    return Member.POST if anchor == Member.POST_BASE else anchor
+    stored = {"anchors": row.anchors, "head": row.head, "arrows": drawing.arrows}
+    again = {
+        "anchors": record_anchors(found, share),
+        "head": record_head(on_head, found),
+        "arrows": list_arrows(points, found),
+    }
+    where = say("audit.drawn_case", place=place)
+    yield from report_differences("audit.drawn_otherwise", stored, again, place=where)
 
 
 def _rejudge_sizes(
@@ -144,38 +131,6 @@ def _rejudge_sizes(
             for m, s in zip(REPORTED_MEMBERS, sizes, strict=True)
         ],
     )
-
-
-def _rejudge_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
-    """Members that hold the net's pull on the head, from (S1) to (S4)."""
-    pull, *others = row.head
-    if pull.member != Member.NET or len(row.anchors) != len(BROUGHT_BY):
-        yield say("audit.no_pull", place=place)
-        return
-    points = SupportPoints(
-        net_foot=(0.0, 0.0),
-        head=drawing.head_m,
-        post_base=drawing.post_base_m,
-        uphill_anchor=drawing.uphill_anchor_m,
-        downhill_anchor=drawing.downhill_anchor_m,
-    )
-    held = compute_head_forces((pull.x_kN, pull.y_kN), points)
-    if not isinstance(held, HeadForces):
-        yield say("audit.not_held", place=place, reason=held.reason)
-        return
-    _, uphill, downhill, base = row.anchors
-    sizes = (
-        (Member.POST, base, held.post_compression + held.post_tension),
-        (Member.UPHILL_GUY, uphill, held.uphill_guy_tension),
-        (Member.DOWNHILL_GUY, downhill, held.downhill_guy_tension),
-    )
-    within = _CLOSE * math.hypot(pull.x_kN, pull.y_kN)
-    for member, anchor, force in sizes:
-        if abs(anchor.size_kN - force) > within:
-            where = say("audit.part", place=place, part=name_member(member))
-            yield report_value(where, "size_kN", anchor.size_kN, force)
-    expected = [(m, -a.force_x_kN, -a.force_y_kN) for m, a, _ in sizes if a.size_kN > 0]
-    yield from _compare_head(place, others, expected)
 
 
 def _rejudge_ends(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
@@ -201,20 +156,6 @@ def _find_angle(
             turn = math.atan2(y - y0, x - x0) - math.atan2(force[1], force[0])
             return abs(math.remainder(turn, 2.0 * math.pi))
     return None
-
-
-def _compare_head(
-    place: Message,
-    others: list[HeadForce],
-    expected: Sequence[tuple[str, float, float]],
-) -> Iterator[Message]:
-    if [one.member for one in others] != [member for member, _, _ in expected]:
-        yield say("audit.other_members", place=place)
-        return
-    for one, (member, x, y) in zip(others, expected, strict=True):
-        pairs = [("x_kN", one.x_kN, x), ("y_kN", one.y_kN, y)]
-        where = say("audit.at_head", place=place, member=name_member(member))
-        yield from report_unequal(where, pairs)
 
 
 def _rejudge_laws(
@@ -263,7 +204,7 @@ def rejudge_statics(row: RowStudy) -> Iterator[Message]:
 
     Of steady states only: the forces of a history need not be of one instant.
     """
-    spacing = _read_spacing(row)
+    spacing = find_input(row, "post_spacing")  # as it was read [m]
     if spacing is None or not row.forces:
         return
     place = say("audit.row", row=row.id)
@@ -272,13 +213,6 @@ def rejudge_statics(row: RowStudy) -> Iterator[Message]:
         yield from report_unequal(where, _follow(state, spacing))
     yield from _rejudge_largest(place, row)
     yield from _rejudge_sideways(place, row, spacing)
-
-
-def _read_spacing(row: RowStudy) -> float | None:
-    """Post spacing that was read [m]."""
-    label = say("column.Nets.post_spacing")
-    found = [echo.value for echo in row.inputs if echo.label == label]
-    return next((one for one in found if isinstance(one, float)), None)
 
 
 def _follow(state: StaticsRecord, spacing: float) -> list[Pair]:

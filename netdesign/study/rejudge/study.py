@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import asdict, replace
+from dataclasses import replace
 
+from netdesign.calculation.steps import is_same
 from netdesign.checks import Standard
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import build_cases
@@ -22,7 +23,6 @@ from netdesign.study.effects import (
     record_end_effects,
 )
 from netdesign.study.judgement import (
-    Basis,
     Known,
     MemberCheck,
     judge_members,
@@ -30,14 +30,14 @@ from netdesign.study.judgement import (
     record_member,
     record_others,
 )
-from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import span_variants
 from netdesign.study.notes import list_judged_notes, list_reasons, list_site_notes
 from netdesign.study.parts import list_parts
-from netdesign.study.pulls import AnchorPull, build_pull, read_pulls, record_pulls
+from netdesign.study.pulls import build_pull_again, record_pulls
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.record_guideline import compare_case, find_row_floor, record_floor
 from netdesign.study.record_independent import compare_slab
+from netdesign.study.record_provenance import record_profile
 from netdesign.study.record_support import record_panel
 from netdesign.study.records import (
     CheckRecord,
@@ -52,7 +52,6 @@ from netdesign.study.rejudge.cases import (
     guard,
     is_complete,
     is_of_steady_states,
-    is_same,
     rejudge_cases,
     report_differences,
     report_value,
@@ -61,6 +60,7 @@ from netdesign.study.rejudge.cases import (
 )
 from netdesign.study.rejudge.checks import is_held_back, rejudge_checks
 from netdesign.study.rejudge.statics import rejudge_drawn, rejudge_statics
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import find_lack
 from netdesign.study.support_records import PanelRecord
 from netdesign.study.values import compare_values
@@ -202,7 +202,7 @@ def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Mess
         for checks in (row.checks, _check_again(row, basis, known))
     )
     notes = list_judged_notes(
-        *(basis.site, given, standard, basis.law),
+        basis,
         effects=effects,
         pulls=known.pulls,
         checks=row.checks,
@@ -228,34 +228,23 @@ def _know_again(
     row: RowStudy, basis: Basis, effects: RowEffects, floor: FloorRecord | None
 ) -> Known:
     """Knowledge of a row by what the study states of its solved cases."""
-    held = row.held_sideways
     panel = row.panel
     is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)
-    forces = RowForces(
+    return Known(
         row=basis.row,
         standard=basis.standard,
         effects=effects,
         largest={one.quantity: one for one in row.forces},
         floor={one.member: one for one in floor.forces} if floor else None,
-        held=held,
+        held=row.held_sideways or find_lack(basis.row) or _UNKNOWN_GAP,
         tilt=row.tilt,
-    )
-    return Known(
-        forces=forces,
-        held=held or find_lack(basis.row) or _UNKNOWN_GAP,
-        pulls=tuple(_pull_again(row, basis.row, effects.lateral_share)),
+        pulls=tuple(
+            build_pull_again(basis.row, one, effects.lateral_share) for one in row.pulls
+        ),
         gap=None if is_complete(row) else _UNKNOWN_GAP,
         floor_gap=floor.reason if floor else None,
         panel_gap=_UNKNOWN_GAP if is_failed else None,
     )
-
-
-def _pull_again(row: RowStudy, given: NetRow, share: float) -> list[AnchorPull]:
-    """Axes, kinds and angles of the anchors, from the ranges of their pulls."""
-    return [
-        build_pull(given, one.anchor, one.pulls, share, one.position)
-        for one in read_pulls(given, row.pulls)
-    ]
 
 
 def _check_again(row: RowStudy, basis: Basis, known: Known) -> list[CheckRecord]:
@@ -310,8 +299,8 @@ def _list_opinions(
     if slab is not None:
         again = compare_slab(
             *(given, read_point(slab.case), law),
-            load=newton_from_kilonewton(slab.solved_load_kN_per_m),
-            foot=newton_from_kilonewton(slab.solved_foot_anchor_kN),
+            newton_from_kilonewton(slab.solved_load_kN_per_m),
+            newton_from_kilonewton(slab.solved_foot_anchor_kN),
         )
         yield "audit.other_slab", slab, again
     if form is not None:
@@ -319,8 +308,8 @@ def _list_opinions(
     if guideline is not None and guideline.sha256 == load_guideline().sha256:
         compared = compare_case(
             *(given, read_point(guideline.case)),
-            load=newton_from_kilonewton(guideline.solved_load_kN_per_m),
-            foot=newton_from_kilonewton(guideline.solved_foot_anchor_kN),
+            newton_from_kilonewton(guideline.solved_load_kN_per_m),
+            newton_from_kilonewton(guideline.solved_foot_anchor_kN),
         )
         stored = replace(guideline, along_net=[])  # of a solve
         yield "audit.other_guideline", stored, compared
@@ -381,8 +370,6 @@ def rejudge(
         for part in parts:
             found += guard(place, part)
     if site is not None and site.sha256 == study.provenance.site_sha256:
-        from netdesign.study.rejudge.study import judge_again
-
         found += judge_again(study, site, standard)
     verdict = merge_rows(study.rows, study.left_out)
     if study.verdict is not verdict:
@@ -397,11 +384,9 @@ def _rejudge_profile(study: Study, standard: Standard | None) -> Iterator[Messag
         yield say("audit.value_twice")
     if standard is None or standard.sha256 != study.profile.sha256:
         return
-    from netdesign.study.record_provenance import record_profile
-
     again = record_profile(standard)
-    stored = {value.id: asdict(value) for value in study.profile.values}
-    listed = {value.id: asdict(value) for value in again.values}
+    stored = {value.id: value for value in study.profile.values}
+    listed = {value.id: value for value in again.values}
     for name in dict.fromkeys((*stored, *listed)):
         if stored.get(name) != listed.get(name):
             yield say("audit.other_profile", name=name)

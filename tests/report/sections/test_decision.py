@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.checks import Proof
 from netdesign.outcome import NetDesignError, Verdict
 from netdesign.report.governing import SEVERITY
 from netdesign.report.page.html import render_html
@@ -13,7 +14,6 @@ from netdesign.report.sections.decision import (
     name_verification,
 )
 from netdesign.report.words import ENGLISH, VERDICTS, Words
-from netdesign.study.records import DeclarationRecord
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.report.build_study import as_given, build_study
@@ -71,7 +71,7 @@ def test_many_checks_with_one_cause_are_counted():
 
 def test_what_is_proven_elsewhere_is_an_open_point_with_its_document():
     row = STUDY.rows[2]
-    proof = DeclarationRecord(
+    proof = Proof(
         document="Report EX-G9",
         author="C. Weber",
         date="2026-03-02",

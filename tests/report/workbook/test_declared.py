@@ -5,18 +5,16 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.checks import Proof
 from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.records import DeclarationRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import as_given, build_study
 from tests.report.reading import find_steps, read_workbook, recalculate
 
-PROOF = DeclarationRecord(
-    document="Report G-17", author="B. Rüegg", date="", cell="Declared!B2"
-)
+PROOF = Proof(document="Report G-17", author="B. Rüegg", date="", cell="Declared!B2")
 LINE = 5  # of the first check
 EDITS = {
     "as it was": {},
