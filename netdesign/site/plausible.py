@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from statistics import median
 from typing import TypeAlias
 
@@ -16,7 +16,7 @@ from netdesign.resistance.products import find_product
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.unit_names import from_si
-from netdesign.site.declared_sheet import Confirmation, show_value
+from netdesign.site.declared_sheet import show_value
 from netdesign.site.grounds import name_bare
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
@@ -25,7 +25,7 @@ from netdesign.words.message import Message, say
 
 
 def ask(
-    lines: Lines, confirmed: Iterable[Confirmation], findings: list[Finding]
+    lines: Lines, confirmed: Container[str], findings: list[Finding]
 ) -> Mapping[str, tuple[Message, ...]]:
     """Open questions by net row.
 
@@ -33,16 +33,15 @@ def ask(
     ----------
     lines : Lines
         Of the whole site.
-    confirmed : iterable of Confirmation
-        Numbers that somebody has confirmed.
+    confirmed : container of str
+        Cells of numbers that somebody has confirmed.
     findings : list of Finding
         Appended to: each open question once.
     """
-    settled = {one.cell for one in confirmed}
     asked: dict[str, Message] = {}  # by cell: one question each
     by_row: dict[str, dict[Message, None]] = {}
     for rows, (reading, rule) in _list_all(lines):
-        if reading.cell is None or reading.place in settled or not rows:
+        if reading.cell is None or reading.place in confirmed or not rows:
             continue
         if reading.place not in asked:
             refuse(

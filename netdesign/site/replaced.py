@@ -7,7 +7,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.cells.cells import Cell, Sheet, Workbook, group_by_row
+from netdesign.site.cells.cells import (
+    Cell,
+    Sheet,
+    Workbook,
+    group_by_row,
+    split_address,
+)
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import InputEcho, NetRow, ReplacedCell
 from netdesign.words.message import Message, say
@@ -79,11 +85,8 @@ def replace_cells(
 
 def find_cell(sheet: Sheet, address: str) -> Cell:
     """Cell of a sheet at an address such as ``C14``."""
-    letters = address.rstrip("0123456789")
-    column = 0
-    for letter in letters:
-        column = 26 * column + ord(letter) - ord("A") + 1
-    return sheet.cell(int(address[len(letters) :]), column)
+    column, row = split_address(address)
+    return sheet.cell(row, column)
 
 
 def _put(sheet: Sheet, cell: Cell) -> Sheet:

@@ -14,16 +14,11 @@ from netdesign.panel.assumed import Ends, find_stiffness, list_panels
 from netdesign.panel.inputs import CUTS
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import MEMBER_MODES, NAMED_BY, InputEcho, RowPanel
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Reading, Row, refuse, refuse_beside, refuse_doubles
 from netdesign.site.type_resistances import find_breaking
 from netdesign.structure.members import EndMember
 from netdesign.words.message import Message, say
 
-# What says the same as another column, or the contrary.
-_ONE_OF_TWO = (
-    ("post_base_distance", "post_tilt"),
-    *(("anchor_axes", axis) for axis in ("foot_axis", "uphill_axis", "downhill_axis")),
-)
 _LAYERED = ("layered", "layered with temperatures")
 _ROPES = ("ridge_rope", "lower_rope")
 _OF_PANEL = (
@@ -74,9 +69,10 @@ def check_statements(
     """
     _check_layers(row["snow_layers"], lines, findings)
     _check_panel(row, end, findings)
+    for one in (row, end or {}):
+        refuse_doubles(one, findings)
     for reading, beside in _list_contradictions(row, end):
-        rule = say("nets.beside", name=beside.field.name, place=beside.place)
-        refuse(reading, rule, say("accepted.one_of_two"), findings)
+        refuse_beside(reading, beside, findings)
     said, neighbour = row["row_end"], row["neighbour"]
     if said.word == "continuous" and neighbour.state == "blank":
         refuse(said, say("nets.without_neighbour"), say("nets.other_ids"), findings)
@@ -96,10 +92,6 @@ def _list_contradictions(
     row: Row, end: Row | None
 ) -> Iterator[tuple[Reading, Reading]]:
     """Cells of a line, or of its row's end, that cannot both be true."""
-    pairs = [(row[key], row[other]) for key, other in _ONE_OF_TWO]
-    if end is not None:
-        pairs += [(end[key], end["support_types"]) for key in _TYPES]
-    yield from (pair for pair in pairs if all(one.state == "given" for one in pair))
     said, gap = row["row_end"], row["gap"]
     has_gap = gap.state == "given" and gap.si > 0.0
     has_none = gap.state == "given" and gap.si == 0.0

@@ -93,10 +93,6 @@ def check_tests(row: Row, findings: list[Finding]) -> None:
     """Refuse tests that are incomplete, contradictory or beside another value."""
     if "test_count" not in row or not _is_ready(row, TEST_COLUMNS, findings):
         return
-    count = row["test_count"]
-    if row["pull_out"].state == "given":
-        rule = say("type.beside_pull_out", place=row["pull_out"].place)
-        refuse(count, rule, say("accepted.one_of_two"), findings)
     if row["test_least"].si > row["test_mean"].si:
         rule = say("type.exceeds_mean", place=row["test_mean"].place)
         refuse(row["test_least"], rule, say("type.at_most_mean"), findings)
@@ -177,11 +173,6 @@ def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
                     given,
                     _compute_bare_rope(row) if is_rope else rule.compute(row)[0],
                 )
-
-
-def _compute_bare(rule: _Rule, row: Row) -> float:
-    """Resistance by dimensions [N]; of a rope without the loss of its ends."""
-    return _compute_bare_rope(row) if rule.key == "rope" else rule.compute(row)[0]
 
 
 def fill_in_section(row: Row) -> Row:
@@ -462,37 +453,22 @@ def _check_lever(row: Row, findings: list[Finding]) -> None:
         return
     rule = say("type.needs_more", names=(kind.field.name,))
     if kind.word:
-        rule = say("type.beside", name=kind.field.name, place=kind.place)
+        rule = say("cell.beside", name=kind.field.name, place=kind.place)
     bent = tuple(kind.field.name_word(word) for word in _BENT)
     refuse(lever, rule, say("accepted.words", words=bent), findings)
-
-
-def _check_soil(row: Row, findings: list[Finding]) -> None:
-    """Refuse a part of the ground's strength, and a cover beside it."""
-    if "soil_cohesion" not in row or not _is_ready(row, SOIL_COLUMNS, findings):
-        return
-    cover = row["least_cover"]
-    if cover.state == "given":
-        soil = row["soil_cohesion"]
-        rule = say("type.beside", name=soil.field.name, place=soil.place)
-        refuse(cover, rule, say("accepted.one_of_two"), findings)
 
 
 def check_support_types(row: Row, findings: list[Finding]) -> None:
     """Refuse what is given twice, the inside of no tube, the lever of what turns."""
     _check_lever(row, findings)
-    _check_soil(row, findings)
-    if "base_friction" in row and row["base_friction"].state == "given":
-        beside = row["sliding"]
-        if beside.state == "given":
-            rule = say("type.beside", name=beside.field.name, place=beside.place)
-            refuse(row["base_friction"], rule, say("accepted.one_of_two"), findings)
+    if "soil_cohesion" in row:
+        _is_ready(row, SOIL_COLUMNS, findings)
     if "inner_diameter" in row and row["inner_diameter"].state == "given":
         outer, inner, kind = (
             row[key] for key in ("bar_diameter", "inner_diameter", "kind")
         )
         if kind.word == _SOLID:
-            rule = say("type.beside", name=kind.field.name, place=kind.place)
+            rule = say("cell.beside", name=kind.field.name, place=kind.place)
             hollow = kind.field.name_word("micropile")
             refuse(inner, rule, say("accepted.words", words=(hollow,)), findings)
         if outer.state == "blank":  # a tube without a wall has no tendon resistance

@@ -160,7 +160,7 @@ def test_dimensions_in_other_languages_and_units(sheets, save, columns):
                 "least tested resistance [kN]": 300,
                 "mean tested resistance [kN]": 310,
             },
-            "is given beside the pull-out resistance in Anchors!C2",
+            "is given beside pull-out resistance in Anchors!C2",
         ),
     ],
 )

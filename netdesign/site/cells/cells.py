@@ -224,6 +224,19 @@ def name_column(column: int) -> str:
     return letters
 
 
+def split_address(address: str) -> tuple[int, int]:
+    """Column and row of a cell, counted from 1.
+
+    >>> split_address("AB7")
+    (28, 7)
+    """
+    letters = address.rstrip("0123456789")
+    column = 0
+    for letter in letters:
+        column = 26 * column + ord(letter) - ord("A") + 1
+    return column, int(address[len(letters) :])
+
+
 def group_by_row(cells: Iterable[Cell]) -> dict[int, dict[int, Cell]]:
     """Cells by row, then column, both ascending."""
     rows: dict[int, dict[int, Cell]] = {}

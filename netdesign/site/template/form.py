@@ -87,7 +87,7 @@ def read_form(path: Path) -> list[Row]:
     workbook = read_workbook(path, lambda name: is_meant(name, TESTS, Answers()))
     findings = list(workbook.remarks)
     table = find_table(workbook, _FORM, findings)
-    rows = list(read_rows(table, findings)) if table else []
+    rows = read_rows(table, findings)
     if not rows:
         rule, accepted = say("plan.no_test"), say("plan.form_wanted")
         findings.append(Finding(file=workbook.file, rule=rule, accepted=accepted))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from io import BytesIO
 from pathlib import Path
@@ -163,13 +163,12 @@ def _add_formats(workbook: Workbook) -> dict[str, Format]:
 def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> Worksheet:
     """Sheet of a plan: headings with notes, what cells accept, its lines."""
     sheet = book.workbook.add_worksheet(plan.name_in(book.language))
-    last_row = max(_PRINTED_ROWS, len(lines))
-    if plan in (PROJECT, RANGES):
-        last_row = len(lines)
+    plan = replace(plan, fields=tuple(one for one in plan.fields if one.is_offered))
+    last_row = len(lines) if plan.items else max(_PRINTED_ROWS, len(lines))
     _set_up_page(sheet, book, plan, last_row)
     headings = [field.heading_for(book.language) for field in plan.fields]
     widths = [
-        _TEXT_WIDTH if field.kind == "text" else _fit_words(heading)
+        _TEXT_WIDTH if field.kind in ("text", "date") else _fit_words(heading)
         for field, heading in zip(plan.fields, headings, strict=True)
     ]
     lines_high = max(map(count_lines, headings, widths))
@@ -185,9 +184,9 @@ def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> Worksheet:
             sheet.write_blank(row, column, None, _choose_format(field, book))
     for row, line in enumerate(lines, start=1):
         _write_line(sheet, book, plan, row, line)
-    if plan is PROJECT:
+    if plan.name == PROJECT.name:
         _offer_profiles(sheet, lines)
-    if plan is RANGES:
+    if plan.name == RANGES.name:
         _offer_quantities(sheet, book)
     return sheet
 
@@ -298,11 +297,6 @@ def _offer_quantities(sheet: Worksheet, book: Book) -> None:
     sheet.data_validation(1, 0, _LAST_ROW, 0, {"validate": "list", "source": names})
     sheet.data_validation(1, 1, _LAST_ROW, 1, {"validate": "list", "source": units})
 
-
-if TYPE_CHECKING:
-    from xlsxwriter.format import Format
-    from xlsxwriter.workbook import Workbook
-    from xlsxwriter.worksheet import Worksheet
 
 # Symbols of the fields of sheet Nets, in drawing and table.
 SYMBOLS: Mapping[str, str] = {

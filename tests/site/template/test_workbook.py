@@ -236,7 +236,10 @@ def test_sheets_headings_and_words_are_in_their_language(tmp_path, language):
     law = {"fr": "sans glissement", "de": "kein Gleiten"}[language]
     assert nets["F2"].value == law
     declared = workbook[{"fr": "Déclarées", "de": "Erklärte"}[language]]["B2"]
-    check = {"fr": "Pied de montant, appui au sol", "de": "Stützenfuß, Fundation, Druck"}
+    check = {
+        "fr": "Pied de montant, appui au sol",
+        "de": "Stützenfuß, Fundation, Druck",
+    }
     assert declared.value == check[language]
     quantity = {"fr": "masse volumique", "de": "Dichte"}[language]
     assert workbook[names[3]]["A2"].value == quantity
