@@ -89,13 +89,13 @@ class Table:
 
     sheet: Sheet
     plan: SheetPlan
-    titles: Titles
-    heading_row: int
-    units_row: int | None
-    first_data_row: int
-    group_rows: frozenset[int]
     language: Language
     columns: Mapping[str, Column]
+    titles: Titles = ()
+    heading_row: int = 0
+    units_row: int | None = None
+    first_data_row: int = 1
+    group_rows: frozenset[int] = frozenset()
     rows: tuple[int, ...] = ()
     above: tuple[Pair, ...] = ()
 
@@ -188,11 +188,6 @@ def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
     return Table(
         sheet=sheet,
         plan=plan,
-        titles=(),
-        heading_row=0,
-        units_row=None,
-        first_data_row=1,
-        group_rows=frozenset(),
         language=_find_language(names, plan.items),
         columns={
             key: Column(number=first + n, unit="") for n, key in enumerate(keys[:2])

@@ -324,10 +324,6 @@ def _understand_ground(
             refuse(seen, say("cell.empty"), law.field.accepted, findings)
         return None
     if law.word != "sliding":
-        for reading in given:
-            name = law.field.name_word(law.word)
-            rule = say("nets.not_with_law", law=name, place=law.place)
-            refuse(reading, rule, say("nets.empty_or_sliding"), findings)
         kind = next(kind for kind in GROUND_KINDS if kind == law.word)
         return None if given else GroundLaw(kind=kind)
     chosen = choose_given(row, _GLIDE, findings)

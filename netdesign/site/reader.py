@@ -34,9 +34,10 @@ from netdesign.site.columns.all_tables import (
     is_heading,
 )
 from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.columns.lexicon import UNANSWERED
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.grounds import name_by_ground, place_in_ground
-from netdesign.site.headings import Table, refuse_unused_answers
+from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
     TYPE_SHEETS,
     Lines,
@@ -64,9 +65,8 @@ from netdesign.site.ranges import (
     free_columns,
     refuse_large_grid,
 )
-from netdesign.site.readings import Reading, Row, refuse, refuse_doubles
+from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
 from netdesign.site.replaced import mark_replaced, replace_cells
-from netdesign.site.rows_elsewhere import list_rows_elsewhere
 from netdesign.site.single_tests import count_in_tests
 from netdesign.site.site_wide import (
     SiteWide,
@@ -87,7 +87,6 @@ from netdesign.site.tables import (
 )
 from netdesign.site.type_resistances import (
     check_ends,
-    check_support_types,
     check_tests,
     fill_in_resistances,
     fill_in_section,
@@ -97,6 +96,8 @@ from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 
 _LAWS = tuple(CREEP_LAWS)
+# Headings of sheet Nets, at least, on a sheet that holds net rows.
+_LEAST_KNOWN = 4
 _TYPE_PLANS = (ANCHORS, ROPES, POSTS)
 
 
@@ -179,13 +180,32 @@ def read_site(
 def _ask_for_rows_elsewhere(
     path: Path, workbook: Workbook, text_format: TextFormat
 ) -> Iterator[Finding]:
-    for name in list_rows_elsewhere(path, workbook, text_format):
-        yield Finding(
-            file=workbook.file,
-            sheet=name,
-            rule=say("table.net_rows"),
-            accepted=say("table.copy_accepted", name=NETS.title),
-        )
+    """Sheets with net rows under a name that nobody knows: half a site must not vanish.
+
+    They are read only where a workbook holds sheets that have no part in a check, and
+    asked about until somebody answers for them.
+    """
+    given = workbook.answers.sheets
+    is_there = any(
+        is_meant(one.name, NETS, workbook.answers) for one in workbook.sheets
+    )
+    names = {
+        name
+        for name in workbook.unread
+        if given.get(name, UNANSWERED) == UNANSWERED
+        and name not in (*workbook.hidden, *QUIET_SHEETS)
+        and not NETS.begins(name)  # asked about by its name
+    }
+    if not names or not is_there:
+        return
+    try:
+        every = read_workbook(path, names.__contains__, None, is_heading, text_format)
+    except SiteDataError:  # what has no part in the check may be damaged
+        return
+    accepted = say("table.copy_accepted", name=NETS.title)
+    for sheet in every.sheets:
+        if sheet.name in names and count_known(sheet, NETS) >= _LEAST_KNOWN:
+            yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
 
 
 def _list_unknown_profiles(workbook: Workbook, cover: _Cover) -> Iterator[Finding]:
@@ -438,8 +458,7 @@ def _read_types(
         if basis and basis.state == "blank" and row["pull_out"].state == "given":
             rule = say("type.basis_empty", place=row["pull_out"].place)
             refuse(basis, rule, basis.field.accepted, findings)
-        refuse_doubles(row, findings)
-        check_support_types(row, findings)
+        refuse_misfits(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]
     for row in filled:  # a computed resistance beside tests is one too many, too
         check_tests(row, findings)

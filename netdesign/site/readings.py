@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal
@@ -206,12 +206,33 @@ def refuse_beside(reading: Reading, other: Reading, findings: list[Finding]) -> 
     refuse(reading, rule, say("accepted.one_of_two"), findings)
 
 
-def refuse_doubles(row: Row, findings: list[Finding]) -> None:
-    """Refuse cells of a line beside those that their columns may not stand beside."""
+def refuse_with(
+    reading: Reading, word: Reading, unfit: Sequence[str], findings: list[Finding]
+) -> None:
+    """Refuse a reading beside a word, one of some with which it means nothing."""
+    field, name = word.field, word.field.name
+    typed = field.name_word(word.word)
+    others = tuple(field.name_word(one) for one in field.words if one not in unfit)
+    rule = say("cell.not_with", name=name, word=typed, place=word.place)
+    refuse(reading, rule, say("cell.empty_or", name=name, words=others), findings)
+
+
+def refuse_misfits(row: Row, findings: list[Finding]) -> None:
+    """Refuse cells of a line beside what they do not fit, or without what they need."""
     for reading in row.values():
-        for other in (row[key] for key in reading.field.not_beside):
-            if reading.state == other.state == "given":
+        if reading.state != "given":
+            continue
+        field = reading.field
+        for other in (row[key] for key in field.not_beside):
+            if other.state == "given":
                 refuse_beside(reading, other, findings)
+        for key, words in field.not_with.items():
+            if row[key].word in words:
+                refuse_with(reading, row[key], words, findings)
+        for lacking in (row[key].field for key in field.needs):
+            if row[lacking.key].state == "blank":
+                rule = say("type.needs_more", names=(lacking.name,))
+                refuse(reading, rule, lacking.accepted, findings)
 
 
 def choose_given(

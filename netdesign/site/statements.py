@@ -14,7 +14,14 @@ from netdesign.panel.assumed import Ends, find_stiffness, list_panels
 from netdesign.panel.inputs import CUTS
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import MEMBER_MODES, NAMED_BY, InputEcho, RowPanel
-from netdesign.site.readings import Reading, Row, refuse, refuse_beside, refuse_doubles
+from netdesign.site.readings import (
+    Reading,
+    Row,
+    refuse,
+    refuse_beside,
+    refuse_misfits,
+    refuse_with,
+)
 from netdesign.site.type_resistances import find_breaking
 from netdesign.structure.members import EndMember
 from netdesign.words.message import Message, say
@@ -68,9 +75,12 @@ def check_statements(
         Appended to.
     """
     _check_layers(row["snow_layers"], lines, findings)
-    _check_panel(row, end, findings)
-    for one in (row, end or {}):
-        refuse_doubles(one, findings)
+    of_ropes = (*EndMember, "end_guy_angle", "lateral_distance", "lateral_axis")
+    if end and row["panel_system"].word == "none":  # nothing pulls along the row
+        for one in (end[key] for key in of_ropes if end[key].state == "given"):
+            refuse_with(one, row["panel_system"], ("none",), findings)
+    for line in (row, end or {}):
+        refuse_misfits(line, findings)
     for reading, beside in _list_contradictions(row, end):
         refuse_beside(reading, beside, findings)
     said, neighbour = row["row_end"], row["neighbour"]
@@ -104,24 +114,6 @@ def _list_contradictions(
         yield row["neighbour"], said
     if said.word == "free" and has_none:
         yield gap, said
-
-
-def _check_panel(row: Row, end: Row | None, findings: list[Finding]) -> None:
-    """Refuse what is said of ropes, or holds their pull, where there are no ropes."""
-    system = row["panel_system"]
-    told = [row[key] for key in _OF_PANEL]
-    told += (
-        [
-            end[key]
-            for key in (*EndMember, "end_guy_angle", "lateral_distance", "lateral_axis")
-        ]
-        if end
-        else []
-    )
-    for reading in told if system.word == "none" else ():
-        if reading.state == "given":
-            rule = say("panel.beside_none", place=system.place)
-            refuse(reading, rule, say("panel.empty_or_ropes"), findings)
 
 
 def read_panel(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import (
     Field,
     SheetPlan,
@@ -61,29 +62,22 @@ def find_table(
         None if the sheet or its row of headings is missing; that is a finding
         unless the plan does not require the sheet.
     """
-    sheets = _find_sheets(workbook, plan, findings)
-    _refuse_doubles(sheets, plan, findings)
-    return _take_table(sheets[0], plan, findings) if sheets else None
+    return next(iter(find_tables(workbook, plan, findings)), None)
 
 
 def find_tables(
     workbook: Workbook, plan: SheetPlan, findings: list[Finding]
 ) -> tuple[Table, ...]:
-    """All sheets of one plan, with their headings: one for each structure."""
+    """All sheets of one plan, with their headings; of net rows one a structure."""
     sheets = _find_sheets(workbook, plan, findings)
-    plain = [sheet for sheet in sheets if plan.matches(sheet.name)]
-    _refuse_doubles(plain, plan, findings)
+    is_one = plan.name != NETS.name
+    plain = [sheet for sheet in sheets if is_one or plan.matches(sheet.name)]
+    for double in plain[1:]:
+        rule = say("table.second_sheet", name=plan.title, first=plain[0].name)
+        findings.append(double.finding(rule))
     read = [sheet for sheet in sheets if sheet not in plain[1:]]
     found = (_take_table(sheet, plan, findings) for sheet in read)
     return tuple(table for table in found if table is not None)
-
-
-def _refuse_doubles(
-    sheets: Sequence[Sheet], plan: SheetPlan, findings: list[Finding]
-) -> None:
-    for double in sheets[1:]:
-        rule = say("table.second_sheet", name=plan.title, first=sheets[0].name)
-        findings.append(double.finding(rule))
 
 
 def _take_table(sheet: Sheet, plan: SheetPlan, findings: list[Finding]) -> Table | None:
@@ -189,7 +183,7 @@ def _ask_for_copies(
         if is_open and name not in workbook.hidden and plan.begins(name):
             rule = say("table.copy", name=first)
             accepted = say("table.copy_accepted", name=first)
-            yield Finding(file=workbook.file, sheet=name, rule=rule, accepted=accepted)
+            yield workbook.finding(rule, accepted, name)
 
 
 def is_about(name: Cell, table: Table) -> bool:
@@ -230,16 +224,14 @@ def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     if near:
         rule = say("table.close_to_missing", wanted=wanted)
         accepted = say("heading.or_unlike", meant=wanted)
-        return [
-            Finding(file=workbook.file, sheet=near[0], rule=rule, accepted=accepted)
-        ]
+        return [workbook.finding(rule, accepted, near[0])]
     if not plan.required:
         return []
     rule = say("table.lacks_sheet", wanted=wanted)
     # in each language; what else is read would be a list that nobody reads
     names = dict.fromkeys(plan.name_in(one) for one in LANGUAGES)
     accepted = say("table.name_accepted", names=tuple(names))
-    return [Finding(file=workbook.file, rule=rule, accepted=accepted)]
+    return [workbook.finding(rule, accepted)]
 
 
 def _inspect_layout(table: Table, findings: list[Finding]) -> None:

@@ -119,7 +119,7 @@ def read_height_file(
         if not is_refused:
             rule = say("winter_sheet.no_height")
             accepted = say("winter_sheet.heights")
-            findings.append(Finding(file=path.name, rule=rule, accepted=accepted))
+            findings.append(workbook.finding(rule, accepted))
         raise SiteDataError(findings, fold_findings(findings))
     return replace(winter, file=path.name), tuple(findings)
 

@@ -403,8 +403,8 @@ def test_thickness_and_height_may_not_both_lack_their_heading(sheets, save, refu
     [
         ("sliding", None, None, "G2", "is empty: neither slip length nor glide factor"),
         ("sliding", 2.0, 1.8, "H2", "is given beside slip length in Nets!G2"),
-        ("free", 2.0, None, "G2", 'does not fit the ground law "free"'),
-        ("no-slip", None, 1.8, "H2", 'does not fit the ground law "no-slip"'),
+        ("free", 2.0, None, "G2", 'does not fit ground law "free"'),
+        ("no-slip", None, 1.8, "H2", 'does not fit ground law "no-slip"'),
         ("sliding", None, 3.46, "H2", "is out of range"),
         ("sliding", None, 1.0005, "H2", "has no slip length"),
     ],

@@ -210,6 +210,12 @@ class Workbook:
     answers: Answers = UNASKED
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
 
+    def finding(
+        self, rule: Message, accepted: Message | str = "", sheet: str = ""
+    ) -> Finding:
+        """Say what is wrong with the file, or with one of its sheets."""
+        return Finding(file=self.file, sheet=sheet, rule=rule, accepted=accepted)
+
 
 def name_column(column: int) -> str:
     """Letters of a column counted from 1.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Literal
@@ -65,12 +65,18 @@ class Field:
         Whether its numbers are not compared from line to line.
     of_product : tuple of str
         Quantities of a product that its number must agree with.
+    computed_from, computed_with : tuple of str
+        Keys of columns that a resistance follows from, and of those that may be empty.
     required : bool
         Whether the heading and every cell below it must be there.
     instead : tuple of str
         Keys of columns of which one says what a missing cell or heading would.
     not_beside : tuple of str
         Keys of columns that say the same, or the contrary.
+    not_with : mapping of str to sequence of str
+        Words of other columns with which it means nothing.
+    needs : tuple of str
+        Keys of columns that may not be empty beside it.
     default : float or None
         Value of an empty cell, in the first unit.
     words : tuple of str
@@ -88,6 +94,8 @@ class Field:
         of a required column.
     is_offered : bool
         Whether the template has it.
+    symbol : str
+        In the drawing of the template.
     headings : mapping of str to tuple of str
         Accepted headings by language, its name first; also of a language that the
         program only reads.
@@ -109,9 +117,13 @@ class Field:
     zero_says_none: bool = False
     scatters: bool = False
     of_product: tuple[str, ...] = ()
+    computed_from: tuple[str, ...] = ()
+    computed_with: tuple[str, ...] = ()
     required: bool = False
     instead: tuple[str, ...] = ()
     not_beside: tuple[str, ...] = ()
+    not_with: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    needs: tuple[str, ...] = ()
     default: float | None = None
     words: tuple[str, ...] = ()
     is_grade: bool = False
@@ -120,6 +132,7 @@ class Field:
     column: str = ""
     empty: Mapping[str, str] = field(default_factory=dict)
     is_offered: bool = True
+    symbol: str = ""
     headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     notes: Mapping[Language, str] = field(default_factory=dict)
     spellings: Mapping[str, str] = field(default_factory=dict)

@@ -298,19 +298,6 @@ def _offer_quantities(sheet: Worksheet, book: Book) -> None:
     sheet.data_validation(1, 1, _LAST_ROW, 1, {"validate": "list", "source": units})
 
 
-# Symbols of the fields of sheet Nets, in drawing and table.
-SYMBOLS: Mapping[str, str] = {
-    "slope_angle": "ψ",
-    "snow_thickness": "d",
-    "snow_height": "H",
-    "upslope_length": "L",
-    "net_height": "Dₖ",
-    "post_tilt": "δ",
-    "uphill_anchor_distance": "e₁",
-    "downhill_anchor_distance": "e₂",
-    "inclination": "θ",
-}
-
 _LINE = 15.5  # height of a line of text [pt]
 _WIDTHS = (9, 28, 16, 19, 46)  # symbol, quantity, unit, range, meaning
 _PICTURE_ROW, _PICTURE_ROWS = 5, 25
@@ -367,16 +354,9 @@ def _read_picture(language: Language) -> bytes:
 
 
 def describe_accepted(field: Field, language: Language) -> str:
-    """Accepted content of a cell, as a phrase: bounds with their unit, or words."""
-    if field.words:
-        words = (render(field.name_word(word), language) for word in field.words)
-        return ", ".join(words)
-    low, high = field.bounds
-    if low == high:
-        return ""
-    between = {"en": "to", "fr": "à", "de": "bis"}[language]
-    ends = (set_marks(f"{end:.10g}", language) for end in (low, high))
-    return f" {between} ".join(ends) + f" {field.unit}".rstrip(" -")
+    """Accepted content of a cell, as a phrase; empty where anything is."""
+    is_open = not field.words and field.bounds[0] == field.bounds[1]
+    return "" if is_open else render(field.accepted, language)
 
 
 def describe_field(field: Field, language: Language) -> str:
@@ -409,8 +389,7 @@ def _write_quantities(sheet: Worksheet, workbook: Workbook, language: Language) 
     for column, key in enumerate(headings):
         sheet.write_string(row, column, texts[key], head)
     fields = [field for field in NETS.fields if not field.refers_to]
-    fields += [field for field in USUAL_QUANTITIES if field.key not in SYMBOLS]
-    fields += [field for field in USUAL_QUANTITIES if field.key in SYMBOLS]
+    fields += sorted(USUAL_QUANTITIES, key=lambda field: bool(field.symbol))
     for number, field in enumerate(fields, start=row + 1):
         _write_quantity(sheet, number, field, language, symbol, cell)
 
@@ -423,7 +402,7 @@ def _write_quantity(
     symbol: Format,
     cell: Format,
 ) -> None:
-    sheet.write_string(row, 0, SYMBOLS.get(field.key, ""), symbol)
+    sheet.write_string(row, 0, field.symbol, symbol)
     accepted = describe_accepted(field, language)
     note = field.notes[language]
     texts = (field.label_in(language), ", ".join(field.units), accepted, note)
