@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 Show = Callable[[dict[str, Any], "Console", "Words"], None]
 
 _EXIT_FAIL = 1
-_RANDOM = ("--stress", "--errors")  # over random scenes
+_RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +70,12 @@ class _Output:
     help="Compare N random scenes with finer meshes instead: are errors honest?",
 )
 @click.option(
+    "--lines",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Follow N lines of 200 scenes instead: does a force jump beyond its error?",
+)
+@click.option(
     "--against",
     type=click.Path(path_type=Path),
     metavar="WHEEL_OR_VENV",
@@ -98,6 +104,7 @@ def bench(
     *,
     stress: int | None,
     errors: int | None,
+    lines: int | None,
     against: Path | None,
     seed: int,
     accuracy: float,
@@ -115,18 +122,20 @@ def bench(
     netdesign bench --plot bench.svg
     netdesign bench --stress 2000 --seed 1 --jobs 2
     netdesign bench --errors 200 --seed 1 --jobs 2
+    netdesign bench --lines 60 --jobs 2
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
-    wanted = {"--stress": stress, "--errors": errors, "--against": against}
+    counts = {"--stress": stress, "--errors": errors, "--lines": lines}
+    wanted = {**counts, "--against": against}
     given = [name for name, value in wanted.items() if value is not None]
     _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
     if not set(given) & set(_RANDOM):
         refuse_without(("seed", "accuracy", "jobs"), _RANDOM, language)
     output = _Output(language, as_json)
-    count = stress if errors is None else errors
-    if count is not None:
-        asked = {"accuracy": accuracy, "jobs": jobs}
-        sys.exit(_run_random(count, seed, output, asked, is_compared=bool(errors)))
+    for option, count in counts.items():
+        if count is not None:
+            asked = {"accuracy": accuracy, "jobs": jobs}
+            sys.exit(_run_random(option, count, seed, output, asked))
     if against is not None:
         sys.exit(_run_against(against, output, quick=quick))
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
@@ -144,7 +153,7 @@ def _refuse_mixtures(given: Sequence[str], *, quick: bool, named: bool) -> None:
 
 
 def _run_random(
-    count: int, seed: int, output: _Output, asked: dict[str, Any], *, is_compared: bool
+    option: str, count: int, seed: int, output: _Output, asked: dict[str, Any]
 ) -> int:
     """Exit code of a run over random scenes."""
     from netdesign.edge.progress import show_progress
@@ -154,11 +163,16 @@ def _run_random(
         write_errors,
         write_stress,
     )
+    from netdesign.evidence.benchmark.lines import study_lines, write_lines
 
-    study = study_errors if is_compared else run_stress
-    write = write_errors if is_compared else write_stress
-    shown = output.language
-    with show_progress(count, "scenes", quiet=False, language=shown) as on_done:
+    known: dict[str, tuple[Any, Any]] = {
+        "--stress": (run_stress, write_stress),
+        "--errors": (study_errors, write_errors),
+        "--lines": (study_lines, write_lines),
+    }
+    study, write = known[option]
+    shown, what = output.language, "lines" if option == "--lines" else "scenes"
+    with show_progress(count, what, quiet=False, language=shown) as on_done:
         found = study(count, seed, **asked, on_done=on_done)
     document = write(found, seed, asked["accuracy"], "en" if output.as_json else shown)
     output.write(document)

@@ -6,8 +6,6 @@ A line that confirms a number has ``Posts!C2 = 3175`` in the place of a check.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from datetime import date
 from functools import lru_cache
 from itertools import product
 
@@ -78,8 +76,8 @@ def read_declared(
     workbook: Workbook,
     places: Mapping[str, str],
     findings: list[Finding],
-) -> tuple[tuple[Declaration, ...], tuple[Confirmation, ...]]:
-    """Declared checks and confirmed numbers; none without the sheet.
+) -> tuple[tuple[Declaration, ...], Mapping[str, Message]]:
+    """Declared checks, and sentences on confirmed numbers by their cells.
 
     Parameters
     ----------
@@ -95,16 +93,15 @@ def read_declared(
         or author is a finding of its cell already.
     """
     declared: list[Declaration] = []
-    confirmed: list[Confirmation] = []
-    lines = list(read_rows(table, findings)) if table else []
+    confirmed: dict[str, Message] = {}
+    lines = read_rows(table, findings)
     if places:
         named = (one["row"] for one in lines if not _is_of_all(one["row"], places))
         refuse_unknown_ids(named, places, findings, "declared.id_or_all")
     for line in lines:
         replacement = split_replacement(line["check"].word)
         if replacement is not None:
-            confirmation = _read_confirmation(line, replacement, workbook, findings)
-            confirmed += [confirmation] if confirmation else []
+            confirmed |= _read_confirmation(line, replacement, workbook, findings)
             continue
         found = _read_line(line, places, findings)
         if found is None:
@@ -115,7 +112,7 @@ def read_declared(
             refuse(line["check"], rule, say("declared.once"), findings)
         else:
             declared.append(found)
-    return tuple(declared), tuple(confirmed)
+    return tuple(declared), confirmed
 
 
 def _meet(one: Declaration, other: Declaration) -> bool:
@@ -138,8 +135,6 @@ def _read_line(
         end = say("check.of_end", check="...")
         accepted = say("declared.accepted", checks=shown, end=end)
         refuse(check, say("declared.unknown"), accepted, findings)
-    if day.word and not _is_date(day.word):
-        refuse(day, say("measured.no_date"), say("declared.such_as"), findings)
     is_faulty = any(reading.state == "faulty" for reading in line.values())
     if subject is None or is_faulty or len(findings) > count:
         return None
@@ -160,14 +155,6 @@ def _read_line(
 def _is_of_all(row: Reading, places: Mapping[str, str]) -> bool:
     """A line holds for all net rows, none of which has that name."""
     return row.word not in places and normalise(row.word) in ALL_ROWS
-
-
-def _is_date(text: str) -> bool:
-    try:
-        date.fromisoformat(text)
-    except ValueError:
-        return False
-    return True
 
 
 @lru_cache(maxsize=1)
@@ -196,44 +183,13 @@ def _list_spellings(title: Message) -> Iterator[str]:
         yield text
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Confirmation:
-    """A number that looks like a slip of the pen, and is none.
-
-    Attributes
-    ----------
-    cell, value : str
-        Its place, such as ``Posts!C2``, and what is typed there.
-    document, author, date : str
-        What confirms it, who, and when.
-    """
-
-    cell: str
-    value: str
-    document: str
-    author: str
-    date: str
-
-    @property
-    def message(self) -> Message:
-        """The sentence on it in the reports."""
-        return say(
-            "plausible.confirmed",
-            cell=self.cell,
-            value=self.value,
-            document=self.document,
-            author=self.author,
-            date=self.date,
-        )
-
-
 def _read_confirmation(
     line: Row,
     replacement: tuple[str, str],
     workbook: Workbook,
     findings: list[Finding],
-) -> Confirmation | None:
-    """Number that a line confirms by its place and text; None with a finding."""
+) -> dict[str, Message]:
+    """Number that a line confirms, by its cell; nothing with a finding."""
     place, text = replacement
     sheet_name, _, address = place.rpartition("!")
     sheets = {sheet.name.casefold(): sheet for sheet in workbook.sheets}
@@ -243,17 +199,20 @@ def _read_confirmation(
         held = show_value(cell) if cell else ""
         rule = say("plausible.holds_other", cell=place, held=held)
         refuse(line["check"], rule, say("plausible.such_as"), findings)
-        return None
+        return {}
     if not line["date"].word:
-        refuse(line["date"], say("cell.empty"), say("declared.such_as"), findings)
-        return None
-    return Confirmation(
+        day = line["date"]
+        refuse(day, say("cell.empty"), day.field.accepted, findings)
+        return {}
+    told = say(
+        "plausible.confirmed",
         cell=cell.place,
         value=show_value(cell),
         document=line["document"].word,
         author=line["author"].word,
         date=line["date"].word,
     )
+    return {cell.place: told}
 
 
 def show_value(cell: Cell) -> str:

@@ -26,7 +26,7 @@ from netdesign.site.columns.unit_names import (
     convert_unit,
     normalise_unit,
 )
-from netdesign.site.readings import IN_CELLS, refuse_stored
+from netdesign.site.readings import IN_CELLS, explain_unit, refuse_stored
 from netdesign.site.titles import Title, is_asked, list_titles, understand
 from netdesign.words.catalogue import LANGUAGES, Language
 from netdesign.words.message import Message, say
@@ -89,13 +89,13 @@ class Table:
 
     sheet: Sheet
     plan: SheetPlan
-    titles: Titles
-    heading_row: int
-    units_row: int | None
-    first_data_row: int
-    group_rows: frozenset[int]
     language: Language
     columns: Mapping[str, Column]
+    titles: Titles = ()
+    heading_row: int = 0
+    units_row: int | None = None
+    first_data_row: int = 1
+    group_rows: frozenset[int] = frozenset()
     rows: tuple[int, ...] = ()
     above: tuple[Pair, ...] = ()
 
@@ -103,6 +103,12 @@ class Table:
         """Cell of a field in a row; None without such a heading."""
         column = self.columns.get(key)
         return self.sheet.cell(row, column.number) if column else None
+
+    def list_named(self, key: str) -> list[Title]:
+        """Names in the lines of a table of items, and its headings."""
+        cells = [self.cell(row, key) for row in self.rows]
+        named = [Title(one) for one in cells if one is not None and not one.is_blank]
+        return [*named, *(title for title, _ in self.titles)]
 
     def examples(self, column: int) -> list[Cell]:
         """The first filled cells of a column below its heading."""
@@ -182,11 +188,6 @@ def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
     return Table(
         sheet=sheet,
         plan=plan,
-        titles=(),
-        heading_row=0,
-        units_row=None,
-        first_data_row=1,
-        group_rows=frozenset(),
         language=_find_language(names, plan.items),
         columns={
             key: Column(number=first + n, unit="") for n, key in enumerate(keys[:2])
@@ -315,7 +316,7 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
             unknown.append(title)
         elif field is None:
             claimed |= {one.key for one in meaning.readings}
-            refusal = _explain(meaning, table.sheet)
+            refusal = explain(meaning, table.sheet)
             if refusal:
                 severity: Severity = "note" if meaning.is_ignored else "error"
                 findings.append(cell.finding(*refusal, severity=severity))
@@ -341,7 +342,8 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     findings.extend(finding for finding, _ in judged)
     claimed |= {field.key for _, field in judged if field}
     _report_missing(table, {*columns, *claimed}, findings)
-    findings.extend(_refuse_unused_answers(table))
+    if not plan.items:
+        refuse_unused_answers(table, (title for title, _ in table.titles), findings)
     return columns
 
 
@@ -374,7 +376,7 @@ def _settle(table: Table, title: Title, meaning: Meaning) -> Field | None:
     return known[0] if len(known) == 1 else None
 
 
-def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
+def explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
     """Reason why a heading is not read; None where nobody knows it."""
     if meaning.is_ignored:
         return Refusal(say("heading.ignored", file=sheet.answered_in))
@@ -394,14 +396,15 @@ def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
     return Refusal(rule, say("heading.one_of_these"))
 
 
-def _refuse_unused_answers(table: Table) -> Iterator[Finding]:
-    """Answers to headings that the sheet does not have: it has changed since."""
-    titles = [title for title, _ in table.titles]
+def refuse_unused_answers(
+    table: Table, titles: Iterable[Title], findings: list[Finding]
+) -> None:
+    """Refuse answers to what the sheet does not have: it has changed since."""
+    known = list(titles)
     for key in table.sheet.answers:
-        is_used = any(is_asked(title, key) for title in titles)
-        if not is_used and not table.plan.items:
+        if not any(is_asked(title, key) for title in known):
             rule = say("heading.unused_answer", file=table.sheet.answered_in)
-            yield table.sheet.finding(rule, quote(key))
+            findings.append(table.sheet.finding(rule, quote(key)))
 
 
 def _judge_all_unknown(
@@ -512,21 +515,8 @@ def _have_grades(cells: list[Cell]) -> bool:
 
 
 def _refuse_unit(unit: str, cells: list[Cell], field: Field) -> Refusal:
-    rule = _describe_missing_unit(cells, field)
-    if unit:
-        unclear = UNCLEAR_UNITS.get(unit)
-        rule = (
-            say("heading.unclear_unit", readings=unclear)
-            if unclear
-            else say("heading.unknown_unit")
-        )
-    return Refusal(rule, name_units(field))
-
-
-def name_units(field: Field) -> Message:
-    """Units that a column may have, in brackets."""
-    units = tuple(f"[{unit}]" for unit in field.units)
-    return say("accepted.units", units=units)
+    plain = explain_unit(unit, field)
+    return plain if unit else Refusal(_describe_missing_unit(cells, field), *plain[1:])
 
 
 def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:

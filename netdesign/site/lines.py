@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
 from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.ranges import RangesSheet
@@ -147,31 +147,18 @@ def refuse_missing_sheets(table: Table, lines: Lines, findings: list[Finding]) -
         if not named:
             continue
         sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
-        ids = list(dict.fromkeys(one.word for one in named))
-        findings.append(
-            Finding(
-                file=table.sheet.file,
-                rule=_refuse_ids(ids, sheet, table.sheet.name),
-                accepted=_ask_for_sheet([one.place for one in named], sheet),
-            )
+        ids = [quote(one) for one in dict.fromkeys(reading.word for reading in named)]
+        rule = say(
+            "nets.lacks_sheet",
+            sheet=sheet,
+            count=len(ids),
+            ids=shorten(ids, _MOST_PLACES),
+            nets=table.sheet.name,
         )
-
-
-def _refuse_ids(ids: list[str], sheet: Message, nets: str) -> Message:
-    shown = tuple(map(quote, ids[:_MOST_PLACES]))
-    if len(ids) == 1:
-        return say("nets.lacks_sheet_one", sheet=sheet, id=shown[0], nets=nets)
-    more = ("...",) if len(ids) > _MOST_PLACES else ()
-    return say(
-        "nets.lacks_sheet", sheet=sheet, count=len(ids), ids=(*shown, *more), nets=nets
-    )
-
-
-def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
-    shown, more = tuple(places[:_MOST_PLACES]), len(places) - _MOST_PLACES
-    if more <= 0:
-        return say("nets.sheet_or_empty", sheet=sheet, places=shown)
-    return say("nets.sheet_or_empty_more", sheet=sheet, places=shown, count=more)
+        places = shorten([one.place for one in named], _MOST_PLACES)
+        accepted = say("nets.sheet_or_empty", sheet=sheet, places=places)
+        found = Finding(file=table.sheet.file, rule=rule, accepted=accepted)
+        findings.append(found)
 
 
 def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:

@@ -8,7 +8,7 @@ from netdesign.resistance.connection import Link
 from netdesign.site.cells.findings import Finding
 from netdesign.site.grounds import name_bare
 from netdesign.site.lines import Types
-from netdesign.site.readings import Row, refuse
+from netdesign.site.readings import Row, choose_given, refuse
 from netdesign.words.message import say
 
 _SHEETS = ("Ropes", "Anchors")
@@ -40,20 +40,15 @@ def read_links(
 
 def _is_sound(line: Row, kinds: Sequence[str], findings: list[Finding]) -> bool:
     """A line without a fault; others are told."""
-    kind, breaking, limit = line["type"], line["strength"], line["working_limit"]
     if any(reading.state == "faulty" for reading in line.values()):
         return False
     if not kinds:
         sheets = tuple(say(f"sheet.{sheet}") for sheet in _SHEETS)
         rule = say("nets.no_id", sheet=say("links.sheets", sheets=sheets))
-        refuse(kind, rule, say("links.id_of_either", sheets=sheets), findings)
+        accepted = say("links.id_of_either", sheets=sheets)
+        refuse(line["type"], rule, accepted, findings)
         return False
-    if (breaking.state == "given") is (limit.state == "given"):
-        rule = say("links.one_strength", other=limit.field.name)
-        seen = breaking if breaking.cell is not None else kind
-        refuse(seen, rule, say("accepted.exactly_one"), findings)
-        return False
-    return True
+    return choose_given(line, ("strength", "working_limit"), findings) is not None
 
 
 def _read_link(line: Row) -> Link:

@@ -11,7 +11,7 @@ from netdesign.site.cells.numbers import read_moment
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import MonitoringSeries
-from netdesign.site.readings import Row, refuse
+from netdesign.site.readings import Row, choose_given, refuse
 from netdesign.site.tables import read_rows
 from netdesign.words.message import say
 
@@ -34,7 +34,7 @@ def read_monitoring(
         do not ascend.
     """
     series: dict[tuple[str, str], list[tuple[float, Row]]] = {}
-    lines = list(read_rows(table, findings)) if table else []
+    lines = read_rows(table, findings)
     if places:
         refuse_unknown_ids((line["row"] for line in lines), places, findings)
     for line in lines:
@@ -76,20 +76,8 @@ def _build(
 
 def _read_time(line: Row, findings: list[Finding]) -> float | None:
     """Time of a line [s], from days or from a date; None with a finding."""
-    time, date = line["time"], line["date"]
-    if "faulty" in (time.state, date.state):
-        return None
-    if (time.state == "given") == (date.state == "given"):
-        is_double = date.state == "given"
-        rule = say("measured.beside_date" if is_double else "measured.no_time")
-        place = time if time.state == "given" else line["row"]
-        refuse(place, rule, say("measured.time_or_date"), findings)
-        return None
-    if time.state == "given":
-        return time.si
-    try:
-        moment = read_moment(date.word)
-    except ValueError:
-        refuse(date, say("measured.no_date"), say("measured.such_as"), findings)
-        return None
+    given = choose_given(line, ("time", "date"), findings)
+    if given is None or given.field.key == "time":
+        return given.si if given else None
+    moment = read_moment(given.word)
     return (moment.replace(tzinfo=None) - _EPOCH).total_seconds()

@@ -25,10 +25,11 @@ from netdesign.site.model import (
     NetRow,
 )
 from netdesign.site.ranges import fill_in_ranges
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Reading, Row, choose_given, refuse
 from netdesign.site.snow_layers import (
     build_layers,
     echo_layers,
+    measure_normal,
     resolve_thickness,
 )
 from netdesign.site.statements import (
@@ -65,6 +66,7 @@ from netdesign.words.message import Message, say
 
 _CLOSE = 0.02  # of a post spacing, by which a length may be longer without one more
 _ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
+_SIZES = ("snow_thickness", "snow_height")
 _GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
 
 
@@ -282,30 +284,19 @@ def _understand_thickness(
 
     Where it ranges, the layers follow the range.
     """
-    thickness, height = row["snow_thickness"], row["snow_height"]
-    slope_angle = row["slope_angle"]
-    if "faulty" in (thickness.state, height.state):
+    sizes = [row[key] for key in _SIZES]
+    if any(one.state == "faulty" for one in sizes):
         return None
-    if thickness.state == height.state == "given":
-        rule = say("nets.beside_thickness", place=thickness.place)
-        refuse(height, rule, say("accepted.one_of_two"), findings)
-        return None
-    is_normal = thickness.state == "given"
-    given = thickness if is_normal else height
     if lines and not layers:  # a line of sheet Snow is faulty: a finding already
         return None
+    is_blank = all(one.state != "given" for one in sizes)
+    blank = sizes[0] if lines and not is_ranged and is_blank else None
+    given = blank or choose_given(row, _SIZES, findings)
+    if given is None:
+        return None
     if lines and not is_ranged:
-        return resolve_thickness(layers, given, slope_angle, findings)
-    if is_normal:
-        return thickness.si
-    if height.state == "blank":
-        empty = thickness if thickness.cell is not None else height
-        rule = say("nets.no_snow_size")
-        refuse(empty, rule, empty.field.accepted, findings)
-        return None
-    if slope_angle.state == "faulty":
-        return None
-    return height.si * math.cos(slope_angle.si)
+        return resolve_thickness(layers, given, row["slope_angle"], findings)
+    return measure_normal(given, row["slope_angle"])
 
 
 def _read_ground_law(row: Row) -> Reading:
@@ -327,25 +318,19 @@ def _understand_ground(
         return None
     given = [reading for reading in (slip, glide) if reading.state == "given"]
     if law.state == "blank":
-        seen = next(one for one in (law, glide, slip) if one.cell is not None)
-        rule = say("nets.both_given") if given else say("cell.empty")
-        accepted = say("accepted.exactly_one") if given else law.field.accepted
-        refuse(seen, rule, accepted, findings)
+        if given:
+            choose_given(row, _GLIDE, findings)
+        else:
+            seen = law if law.cell is not None else glide
+            refuse(seen, say("cell.empty"), law.field.accepted, findings)
         return None
     if law.word != "sliding":
-        for reading in given:
-            name = law.field.name_word(law.word)
-            rule = say("nets.not_with_law", law=name, place=law.place)
-            refuse(reading, rule, say("nets.empty_or_sliding"), findings)
         kind = next(kind for kind in GROUND_KINDS if kind == law.word)
         return None if given else GroundLaw(kind=kind)
-    if len(given) != 1:
-        rule = say("nets.both_given") if given else say("nets.neither_given")
-        refuse(law, rule, say("accepted.exactly_one"), findings)
-        return None
-    if slip.state == "given":
+    chosen = choose_given(row, _GLIDE, findings)
+    if chosen is slip:
         return GroundLaw(kind="sliding", slip_length=slip.si)
-    return _build_sliding_ground(glide, thickness, findings)
+    return _build_sliding_ground(glide, thickness, findings) if chosen else None
 
 
 def _build_sliding_ground(

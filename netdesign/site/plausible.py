@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from statistics import median
 from typing import TypeAlias
 
@@ -16,7 +16,7 @@ from netdesign.resistance.products import find_product
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.unit_names import from_si
-from netdesign.site.declared_sheet import Confirmation, show_value
+from netdesign.site.declared_sheet import show_value
 from netdesign.site.grounds import name_bare
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
@@ -25,7 +25,7 @@ from netdesign.words.message import Message, say
 
 
 def ask(
-    lines: Lines, confirmed: Iterable[Confirmation], findings: list[Finding]
+    lines: Lines, confirmed: Container[str], findings: list[Finding]
 ) -> Mapping[str, tuple[Message, ...]]:
     """Open questions by net row.
 
@@ -33,16 +33,15 @@ def ask(
     ----------
     lines : Lines
         Of the whole site.
-    confirmed : iterable of Confirmation
-        Numbers that somebody has confirmed.
+    confirmed : container of str
+        Cells of numbers that somebody has confirmed.
     findings : list of Finding
         Appended to: each open question once.
     """
-    settled = {one.cell for one in confirmed}
     asked: dict[str, Message] = {}  # by cell: one question each
     by_row: dict[str, dict[Message, None]] = {}
     for rows, (reading, rule) in _list_all(lines):
-        if reading.cell is None or reading.place in settled or not rows:
+        if reading.cell is None or reading.place in confirmed or not rows:
             continue
         if reading.place not in asked:
             refuse(
@@ -75,44 +74,38 @@ def _describe_how(cell: Cell) -> Message:
     return say("plausible.settle", sheet=sheet, place=cell.place, value=value)
 
 
+_Group = list[tuple[list[str], Row]]  # lines, each with the net rows that rest on it
+
+
 def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
     """Doubts, each with the net rows that rest on its number."""
+    for sheet, group in _list_groups(lines):
+        for rows, line in group:
+            yield from ((rows, doubt) for doubt in list_doubts(line))
+        owner = {id(one): rows for rows, line in group for one in line.values()}
+        for doubt in list_column_doubts([line for _, line in group], sheet):
+            yield owner[id(doubt[0])], doubt
+
+
+def _list_groups(lines: Lines) -> Iterator[tuple[str, _Group]]:
+    """Lines by their sheet; without its name where columns are not looked along."""
     every = [line["id"].word for line in lines.nets]
-    for line in lines.nets:
-        yield from _give([line["id"].word], list_doubts(line))
-    place_of = {
-        id(one): line["id"].word for line in lines.nets for one in line.values()
-    }
-    for doubt in list_column_doubts(lines.nets, "Nets"):
-        yield [place_of[id(doubt[0])]], doubt
-    for row, end in lines.ends.items():
-        yield from _give([row], list_doubts(end))
-    for row, layers in lines.snow.items():
-        for layer in layers:
-            yield from _give([row], list_doubts(layer))
-    for line in lines.ranges.lines:
-        yield from _give(every, list_doubts(line))
-    yield from _list_of_types(lines)
-
-
-def _give(
-    rows: list[str], doubts: Iterator[Doubt]
-) -> Iterator[tuple[list[str], Doubt]]:
-    return ((rows, doubt) for doubt in doubts)
-
-
-def _list_of_types(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
-    """Doubts about the types, and about the links and tests of each."""
+    yield "Nets", [([line["id"].word], line) for line in lines.nets]
+    yield "", [([row], end) for row, end in lines.ends.items()]
+    yield "", [([row], one) for row, layers in lines.snow.items() for one in layers]
+    yield "", [(every, line) for line in lines.ranges.lines]
     of_types: dict[str, dict[str, None]] = {}
     for sheet in TYPE_SHEETS:
         users = _list_users(lines, sheet)
-        yield from _name_users(users, list(lines.types[sheet].items()), sheet)
+        yield (
+            sheet,
+            [(list(users[name]), one) for name, one in lines.types[sheet].items()],
+        )
         for name, rows in users.items():
-            for one in (name, name_bare(name)):
-                of_types.setdefault(one, {}).update(rows)
+            for alike in (name, name_bare(name)):
+                of_types.setdefault(alike, {}).update(rows)
     for sheet, found in (("Links", lines.links), ("Tests", lines.tests)):
-        named = [(line["type"].word, line) for line in found]
-        yield from _name_users(of_types, named, sheet)
+        yield sheet, [(list(of_types.get(one["type"].word, ())), one) for one in found]
 
 
 def _list_users(lines: Lines, sheet: str) -> dict[str, dict[str, None]]:
@@ -124,19 +117,6 @@ def _list_users(lines: Lines, sheet: str) -> dict[str, dict[str, None]]:
         for one in list_references([line, *beside], sheet):
             users.setdefault(one.word, {})[row] = None
     return users
-
-
-def _name_users(
-    users: Mapping[str, Mapping[str, None]],
-    named: Sequence[tuple[str, Row]],
-    sheet: str,
-) -> Iterator[tuple[list[str], Doubt]]:
-    """Doubts about lines of a sheet, each of a type, with the net rows that name it."""
-    owner = {id(one): name for name, line in named for one in line.values()}
-    rows = [line for _, line in named]
-    doubts = [one for line in rows for one in list_doubts(line)]
-    for doubt in (*doubts, *list_column_doubts(rows, sheet)):
-        yield list(users.get(owner[id(doubt[0])], ())), doubt
 
 
 Doubt: TypeAlias = tuple[Reading, Message]
@@ -314,9 +294,9 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
     lines : sequence of mapping of str to Reading
         All lines of the sheet.
     sheet : str
-        Its name in English.
+        Its name in English; empty where numbers differ from line to line.
     """
-    keys = lines[0].keys() if lines else ()
+    keys = lines[0].keys() if lines and sheet else ()
     for key in keys:
         if not lines[0][key].field.scatters:
             yield from _list_outliers([one[key] for one in lines])

@@ -10,28 +10,31 @@ from pathlib import Path
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import SiteDataError
-from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
+from netdesign.site.cells.cells import (
+    UNDECLARED,
+    TextFormat,
+    Workbook,
+    name_column,
+    split_address,
+)
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
     NETS,
     POSTS,
-    PROJECT_AS_TYPED,
-    RANGES_AS_TYPED,
+    RANGES,
     ROPES,
     SHEETS,
 )
-from netdesign.site.columns.fields import SheetPlan, normalise
+from netdesign.site.columns.fields import normalise
 from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, Lexicon, has_no_part
 from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
 from netdesign.site.headings import Table, count_known
 from netdesign.site.mapping import MARKS, SCHEMA, find_plan, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
-from netdesign.site.rows_elsewhere import list_rows_elsewhere
 from netdesign.site.tables import find_tables
-from netdesign.site.titles import Title
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -46,12 +49,13 @@ _OF_NAMES = (
     *("item.unknown", "item.unknown_quantity"),
 )
 _LEFT_OPEN = "heading.unanswered"
+_OF_SHEETS = ("table.copy", "table.net_rows", "map.no_sheet")
 # A heading that is not understood is asked for where the sheet lacks one.
 _OF_WORDS = "cell.unknown_word"
 _UNREAD, _LACKING = "heading.unknown", ("heading.lacks", "heading.lacks_one_of")
 _MARK = "decimal_mark"
 _LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one
-_EXPECTED = (NETS, RANGES_AS_TYPED, ANCHORS, ROPES, POSTS)
+_EXPECTED = (NETS, RANGES, ANCHORS, ROPES, POSTS)
 
 
 # A line of the file whose answer has a question mark, one that was left before too.
@@ -106,22 +110,31 @@ def write_questions(
     """
     workbook = read_cells(path, text_format)
     findings = _collect(path, text_format)
-    found = [table for plan in SHEETS for table in _find(workbook, plan)]
-    questions = [*_ask_sheets(path, text_format, workbook)]
+    found = [table for plan in SHEETS for table in find_tables(workbook, plan, [])]
+    questions = [*_ask_sheets(path, text_format, workbook, findings)]
     questions += _ask_names(found, findings)
     mark = Question("", _MARK, UNANSWERED, (say("map.mark"),))
     asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
     if asks_mark:
         mark = _answer(mark, ask)
     questions = [_answer(one, ask) for one in questions]
-    lines = [
-        *_begin(path, workbook, mark.answer if asks_mark else "", language),
-        *_list_sheets(workbook, questions, language),
-    ]
+    answers = workbook.answers
+    lines = [*_begin(path, workbook, mark.answer if asks_mark else "", language)]
+    asked = [one for one in questions if not one.sheet]
+    if answers.sheets or asked:
+        lines += [*_list_answers("sheets", answers.sheets, asked, language), ""]
     for table in found:
-        lines += _list_headings(table, workbook, questions, language)
-        lines += [*_list_unread(table, questions, findings), ""]
-        lines += _list_words(table, workbook, questions, language)
+        name = table.sheet.name
+        place, given = f"headings.{_quote(name)}", answers.headings.get(name, {})
+        of_sheet = [one for one in questions if one.sheet == name]
+        asked = [one for one in of_sheet if not one.is_word]
+        lines += _list_answers(place, given, asked, language)
+        lines += [*_list_understood(table, language)]
+        lines += [*_list_unread(table, of_sheet, findings), ""]
+        asked = [one for one in of_sheet if one.is_word]
+        if (words := answers.words.get(name, {})) or asked:
+            place = f"words.{_quote(name)}"
+            lines += [*_list_answers(place, words, asked, language), ""]
     text = "\n".join(lines) + "\n"
     return text, len(_OPEN.findall(text))
 
@@ -136,11 +149,6 @@ def _answer(question: Question, ask: Callable[[Question], str] | None) -> Questi
     return replace(question, answer=answer)
 
 
-def _find(workbook: Workbook, plan: SheetPlan) -> tuple[Table, ...]:
-    as_typed = {one.name: one for one in (RANGES_AS_TYPED, PROJECT_AS_TYPED)}
-    return find_tables(workbook, as_typed.get(plan.name, plan), [])
-
-
 def _collect(path: Path, text_format: TextFormat) -> list[Finding]:
     try:
         findings: Iterable[object] = read_site(path, text_format).findings
@@ -150,25 +158,23 @@ def _collect(path: Path, text_format: TextFormat) -> list[Finding]:
 
 
 def _ask_sheets(
-    path: Path, text_format: TextFormat, workbook: Workbook
+    path: Path, text_format: TextFormat, workbook: Workbook, findings: list[Finding]
 ) -> Iterator[Question]:
-    """Sheets whose headings are those of a planned sheet that is missing."""
-    given = workbook.answers.sheets
+    """Sheets that are asked about, and those with headings of one that is missing."""
+    asked = {one.sheet: one.accepted for one in findings if one.rule.key in _OF_SHEETS}
+    for name, accepted in asked.items():
+        yield Question("", name, UNANSWERED, (accepted,))
+    given, names = workbook.answers.sheets, [one.name for one in workbook.sheets]
     open_names = {
         one
         for one in workbook.unread
         if given.get(one) != IGNORE and find_plan(given.get(one, "")) is None
     }
-    missing = [plan for plan in _EXPECTED if not _has(workbook, plan)]
-    for name in sorted(open_names - workbook.hidden):
-        copied = next((one for one in SHEETS if one.begins(name)), None)
-        first = _name_first(workbook, copied) if copied else ""
-        if first:
-            hints = (say("table.copy_accepted", name=first),)
-            yield Question("", name, UNANSWERED, hints)
-    for name in list_rows_elsewhere(path, workbook, text_format):
-        hints = (say("table.copy_accepted", name=NETS.title),)
-        yield Question("", name, UNANSWERED, hints)
+    missing = [
+        plan
+        for plan in _EXPECTED
+        if not any(is_meant(one, plan, workbook.answers) for one in names)
+    ]
     if not missing or not open_names:
         return
     every = read_workbook(path, lambda _: True, text_format=text_format)
@@ -180,16 +186,6 @@ def _ask_sheets(
         if counts[likely] >= _LEAST_KNOWN:
             hints = (say("finding.in_quotes", text=say(f"sheet.{likely}")),)
             yield Question("", sheet.name, UNANSWERED, hints)
-
-
-def _name_first(workbook: Workbook, plan: SheetPlan) -> str:
-    """Name of the first sheet of a plan, as typed; empty where there is none."""
-    names = (one.name for one in workbook.sheets)
-    return next((one for one in names if is_meant(one, plan, workbook.answers)), "")
-
-
-def _has(workbook: Workbook, plan: SheetPlan) -> bool:
-    return bool(_name_first(workbook, plan))
 
 
 def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Question]:
@@ -216,38 +212,32 @@ def _ask_word(finding: Finding) -> Question | None:
 
 
 def _ask(table: Table, finding: Finding) -> Question | None:
-    row = int(re.sub(r"\D", "", finding.cell))
+    column, row = split_address(finding.cell)
     key = finding.rule.key
     if key not in (*_OF_UNITS, *_OF_NAMES, _UNREAD, _LEFT_OPEN):
         return None
     is_heading = row <= max(table.heading_row, min(table.rows, default=row + 1) - 1)
-    asked = _name_heading(table, finding.cell) if is_heading else _name_item(table, row)
+    asked = _name_heading(table, column) if is_heading else _name_item(table, row)
     if not asked:
         return None
     hints = tuple(one for one in (finding.rule, finding.accepted) if one)
     answer = UNANSWERED
     if key == _LEFT_OPEN:
         answer = table.sheet.answers.get(asked, UNANSWERED)
-    if key in _OF_UNITS and is_heading:
-        answer = f"{_name_field(table, finding.cell)} [{UNANSWERED}]"
-    elif key in _OF_UNITS:
-        answer = f"{asked} [{UNANSWERED}]"
+    if key in _OF_UNITS:
+        name = _name_field(table, column) if is_heading else asked
+        answer = f"{name} [{UNANSWERED}]"
     return Question(table.sheet.name, asked, answer, hints)
 
 
-def _name_heading(table: Table, address: str) -> str:
-    """Heading of the column of a cell, as the file names it."""
-    titles = [title for title, _ in table.titles]
-    column = re.sub(r"\d", "", address)
-    own = next((one for one in titles if _letters(one) == column), None)
+def _name_heading(table: Table, column: int) -> str:
+    """Heading of a column, as the file names it; empty where there is none."""
+    titles = {title.cell.column: title for title, _ in table.titles}
+    own = titles.get(column)
     if own is None:
         return ""
-    alike = [one for one in titles if one.asked == own.asked]
-    return own.asked if len(alike) == 1 else f"{column}: {own.asked}"
-
-
-def _letters(title: Title) -> str:
-    return re.sub(r"\d", "", title.cell.address)
+    alike = [one for one in titles.values() if one.asked == own.asked]
+    return own.asked if len(alike) == 1 else f"{name_column(column)}: {own.asked}"
 
 
 def _name_item(table: Table, row: int) -> str:
@@ -258,16 +248,11 @@ def _name_item(table: Table, row: int) -> str:
     return " ".join(str(cell.value).split()) if cell and not cell.is_blank else ""
 
 
-def _name_field(table: Table, address: str) -> str:
+def _name_field(table: Table, column: int) -> str:
     """Label of the field that a column was taken for, in the sheet's language."""
-    column = re.sub(r"\d", "", address)
-    for field in table.plan.fields:
-        place = table.columns.get(field.key)
-        if place and table.cell(1, field.key):
-            cell = table.sheet.cell(1, place.number)
-            if re.sub(r"\d", "", cell.address) == column:
-                return field.label_in(table.language)
-    return UNANSWERED
+    keys = {place.number: key for key, place in table.columns.items()}
+    known = (one for one in table.plan.fields if one.key == keys.get(column))
+    return next((one.label_in(table.language) for one in known), UNANSWERED)
 
 
 def _begin(
@@ -282,54 +267,33 @@ def _begin(
     yield ""
 
 
-def _list_sheets(
-    workbook: Workbook, questions: Sequence[Question], language: Language
-) -> Iterator[str]:
-    asked = [one for one in questions if not one.sheet]
-    again = {one.asked for one in asked}
-    given = {k: v for k, v in workbook.answers.sheets.items() if k not in again}
-    if not given and not asked:
-        return
-    yield "[sheets]"
-    for name, answer in given.items():
-        yield f"{_quote(name)} = {_quote(answer)}"
-    for one in asked:
-        yield _line(one, language)
-    yield ""
-
-
-def _list_headings(
-    table: Table,
-    workbook: Workbook,
-    questions: Sequence[Question],
+def _list_answers(
+    place: str,
+    given: Mapping[str, str],
+    asked: Sequence[Question],
     language: Language,
 ) -> Iterator[str]:
-    name = table.sheet.name
-    given = _list_answered(workbook.answers.headings.get(name, {}))
-    asked = [
-        one
-        for one in questions
-        if one.sheet == name and one.asked not in given and not one.is_word
-    ]
-    yield f"[headings.{_quote(name)}]"
+    """Table of the file: answers that are there, then what is asked, perhaps again."""
+    again = {one.asked for one in asked}
+    yield f"[{place}]"
     for key, answer in given.items():
-        yield f"{_quote(key)} = {_quote(answer)}"
+        if UNANSWERED not in answer and key not in again:
+            yield f"{_quote(key)} = {_quote(answer)}"
     for one in asked:
         yield _line(one, language)
+
+
+def _list_understood(table: Table, language: Language) -> Iterator[str]:
+    """Headings that need no answer, with what each is taken for."""
+    titles = {title.cell.column: title.asked for title, _ in table.titles}
     for field in table.plan.fields:
         column = table.columns.get(field.key)
-        if column is None or column.unit is None or not table.titles:
+        if column is None or column.unit is None or not titles:
             continue
-        heading = _find_title(table, column.number)
-        label = render(field.name, language)
         is_given = column.unit not in ("", IN_CELLS)
         unit = f" [{column.unit}]" if is_given else ""
-        yield f"# {_quote(heading)} = {_quote(label + unit)}"
-
-
-def _list_answered(answers: Mapping[str, str]) -> dict[str, str]:
-    """Answers without those that are open still."""
-    return {key: one for key, one in answers.items() if UNANSWERED not in one}
+        label = render(field.name, language)
+        yield f"# {_quote(titles.get(column.number, ''))} = {_quote(label + unit)}"
 
 
 def is_accepted(question: Question, typed: str) -> bool:
@@ -347,43 +311,20 @@ def is_accepted(question: Question, typed: str) -> bool:
         return normalise_unit(typed) in KNOWN_UNITS
     return any(
         Lexicon.of([*plan.fields, *plan.items], plan).match(typed).field
-        for plan in (*SHEETS, PROJECT_AS_TYPED)
+        for plan in SHEETS
     )
-
-
-def _list_words(
-    table: Table, workbook: Workbook, questions: Sequence[Question], language: Language
-) -> Iterator[str]:
-    """Words of the cells of a sheet that are answered, or asked for."""
-    given = _list_answered(workbook.answers.words.get(table.sheet.name, {}))
-    asked = [one for one in questions if one.sheet == table.sheet.name and one.is_word]
-    if not given and not asked:
-        return
-    yield f"[words.{_quote(table.sheet.name)}]"
-    for text, answer in given.items():
-        yield f"{_quote(text)} = {_quote(answer)}"
-    for one in asked:
-        if one.asked not in given:
-            yield _line(one, language)
-    yield ""
 
 
 def _list_unread(
     table: Table, questions: Sequence[Question], findings: Sequence[Finding]
 ) -> Iterator[str]:
     """Headings that are not understood, and that nothing asks for."""
-    asked = {one.asked for one in questions if one.sheet == table.sheet.name}
-    asked |= table.sheet.answers.keys()
+    asked = {one.asked for one in questions} | table.sheet.answers.keys()
     for finding in findings:
         if finding.rule.key == _UNREAD and finding.sheet == table.sheet.name:
-            name = _name_heading(table, finding.cell)
+            name = _name_heading(table, split_address(finding.cell)[0])
             if name and name not in asked:
                 yield f'# {_quote(name)} = "ignore"'
-
-
-def _find_title(table: Table, column: int) -> str:
-    titles = (title for title, _ in table.titles)
-    return next((one.asked for one in titles if one.cell.column == column), "")
 
 
 def _line(question: Question, language: Language) -> str:

@@ -16,10 +16,10 @@ from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, NETS, USUAL_QU
 from netdesign.site.columns.fields import Field, SheetPlan, split_heading
 from netdesign.site.columns.lexicon import Meaning, find_unit
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
-from netdesign.site.headings import Table, name_units, quote_title
+from netdesign.site.headings import Table, refuse_unused_answers
 from netdesign.site.model import InputEcho
-from netdesign.site.readings import Reading, Row, read_cell, refuse
-from netdesign.site.tables import match_item, read_field, refuse_unused_answers
+from netdesign.site.readings import Reading, Row, explain_unit, read_cell, refuse
+from netdesign.site.tables import match_item, read_field
 from netdesign.words.message import Message, say
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
@@ -89,7 +89,7 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     names: dict[str, Reading] = {}
     for row in table.rows:
         _read_line(table, row, found, names, findings)
-    refuse_unused_answers(table, "quantity", findings)
+    refuse_unused_answers(table, table.list_named("quantity"), findings)
     for one in USUAL_QUANTITIES:
         if one.key in found:
             continue
@@ -248,8 +248,7 @@ def _justify(built: _Range | None, field: Field, why: Reading) -> _Range | None:
     if built is None or why.state != "given":
         return built
     named = say("column.justification_of", name=field.name)
-    labelled = replace(why, field=replace(why.field, named=named))
-    return replace(built, inputs=(*built.inputs, labelled.echo()))
+    return replace(built, inputs=(*built.inputs, why.echo(named)))
 
 
 def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:
@@ -294,19 +293,13 @@ def settle_unit(
     given, place = (in_column, unit) if in_column else (in_brackets, name)
     if typed in field.units and given in ("", *UNCLEAR_UNITS):
         return typed
-    accepted = name_units(field)
     if in_column and in_brackets and in_column != in_brackets:
         rule = say("range.other_unit", name=quote(name.word))
         refuse(unit, rule, say("accepted.one_unit"), findings)
     elif not given and field.units == ("-",):
         return "-"
-    elif not given:
-        refuse(name, say("heading.no_unit"), quote_title(field), findings)
-    elif given in UNCLEAR_UNITS:
-        rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[given])
-        refuse(place, rule, accepted, findings)
     elif given not in field.units:
-        refuse(place, say("heading.unknown_unit"), accepted, findings)
+        refuse(place, *explain_unit(given, field), findings)
     else:
         return given
     return ""
@@ -404,8 +397,7 @@ def _build_range(field: Field, line: _Line) -> _Range:
     count = None if samples.value == SEARCHED else int(samples.number)
     interval = Interval(low=low.si, high=high.si, count=count)
     named = say("column.samples_of", name=field.name)
-    labelled = replace(samples, field=replace(samples.field, named=named))
-    inputs = (low.echo(), high.echo(), labelled.echo())
+    inputs = (low.echo(), high.echo(), samples.echo(named))
     return _Range(interval=interval, inputs=inputs, low=low, high=high)
 
 

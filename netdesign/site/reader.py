@@ -24,10 +24,8 @@ from netdesign.site.columns.all_tables import (
     NETS,
     POSTS,
     PROJECT,
-    PROJECT_AS_TYPED,
     QUIET_SHEETS,
     RANGES,
-    RANGES_AS_TYPED,
     ROPES,
     SHEETS,
     SNOW,
@@ -36,9 +34,10 @@ from netdesign.site.columns.all_tables import (
     is_heading,
 )
 from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.columns.lexicon import UNANSWERED
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.grounds import name_by_ground, place_in_ground
-from netdesign.site.headings import Table
+from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
     TYPE_SHEETS,
     Lines,
@@ -66,9 +65,8 @@ from netdesign.site.ranges import (
     free_columns,
     refuse_large_grid,
 )
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
 from netdesign.site.replaced import mark_replaced, replace_cells
-from netdesign.site.rows_elsewhere import list_rows_elsewhere
 from netdesign.site.single_tests import count_in_tests
 from netdesign.site.site_wide import (
     SiteWide,
@@ -86,11 +84,9 @@ from netdesign.site.tables import (
     is_near,
     match_item,
     read_rows,
-    refuse_unused_answers,
 )
 from netdesign.site.type_resistances import (
     check_ends,
-    check_support_types,
     check_tests,
     fill_in_resistances,
     fill_in_section,
@@ -100,6 +96,8 @@ from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 
 _LAWS = tuple(CREEP_LAWS)
+# Headings of sheet Nets, at least, on a sheet that holds net rows.
+_LEAST_KNOWN = 4
 _TYPE_PLANS = (ANCHORS, ROPES, POSTS)
 
 
@@ -134,7 +132,7 @@ def read_site(
     workbook, replaced = replace_cells(read_cells(Path(path), text_format), instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
-    on_cover = _read_project(find_table(workbook, PROJECT_AS_TYPED, findings), findings)
+    on_cover = _read_project(find_table(workbook, PROJECT, findings), findings)
     tables, nets, ranges = _find_tables(workbook, on_cover.site_wide, findings)
     typed = _read_net_rows(nets, on_cover.site_wide, findings)
     lines = _read_lines(workbook, tables, typed, ranges, findings)
@@ -164,7 +162,7 @@ def read_site(
         rows=rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
-        notes=(*notes, *(one.message for one in confirmed)),
+        notes=(*notes, *confirmed.values()),
         findings=tuple(findings),
         range_inputs=ranges.inputs,
         project_cells=on_cover.cells,
@@ -182,13 +180,32 @@ def read_site(
 def _ask_for_rows_elsewhere(
     path: Path, workbook: Workbook, text_format: TextFormat
 ) -> Iterator[Finding]:
-    for name in list_rows_elsewhere(path, workbook, text_format):
-        yield Finding(
-            file=workbook.file,
-            sheet=name,
-            rule=say("table.net_rows"),
-            accepted=say("table.copy_accepted", name=NETS.title),
-        )
+    """Sheets with net rows under a name that nobody knows: half a site must not vanish.
+
+    They are read only where a workbook holds sheets that have no part in a check, and
+    asked about until somebody answers for them.
+    """
+    given = workbook.answers.sheets
+    is_there = any(
+        is_meant(one.name, NETS, workbook.answers) for one in workbook.sheets
+    )
+    names = {
+        name
+        for name in workbook.unread
+        if given.get(name, UNANSWERED) == UNANSWERED
+        and name not in (*workbook.hidden, *QUIET_SHEETS)
+        and not NETS.begins(name)  # asked about by its name
+    }
+    if not names or not is_there:
+        return
+    try:
+        every = read_workbook(path, names.__contains__, None, is_heading, text_format)
+    except SiteDataError:  # what has no part in the check may be damaged
+        return
+    accepted = say("table.copy_accepted", name=NETS.title)
+    for sheet in every.sheets:
+        if sheet.name in names and count_known(sheet, NETS) >= _LEAST_KNOWN:
+            yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
 
 
 def _list_unknown_profiles(workbook: Workbook, cover: _Cover) -> Iterator[Finding]:
@@ -230,7 +247,7 @@ def _find_tables(
     Sheet Nets needs less where something ranges or stands once.
     """
     told: list[Finding] = []
-    table = find_table(workbook, RANGES_AS_TYPED, told)
+    table = find_table(workbook, RANGES, told)
     ranges = replace(build_ranges(table, told), findings=told)
     plan = free_columns(NETS, ranges.ends).free(site_wide.keys())
     if table and not _is_stiffness_given(workbook, plan):
@@ -264,7 +281,7 @@ def _read_net_rows(
         row
         for table in tables
         for row in fill_in_site_wide(
-            list(read_rows(table, findings)),
+            read_rows(table, findings),
             {**site_wide, **read_above(table, findings)},
             findings,
         )
@@ -279,11 +296,10 @@ def _read_lines(
     findings: list[Finding],
 ) -> Lines:
     snow = read_layers(tables[SNOW.name], findings)
-    ends_table, anchors_table = tables[ENDS.name], tables[ANCHORS.name]
-    ends = list(read_rows(ends_table, findings)) if ends_table else []
+    ends = read_rows(tables[ENDS.name], findings)
     ends = spread_over_rows(ends, [row["id"].word for row in nets])
-    anchors = list(read_rows(anchors_table, findings)) if anchors_table else []
-    tests = list(read_rows(table, findings)) if (table := tables[TESTS.name]) else []
+    anchors = read_rows(tables[ANCHORS.name], findings)
+    tests = read_rows(tables[TESTS.name], findings)
     if tests:
         anchors = count_in_tests(anchors, tests, findings)
     grounds = {
@@ -293,7 +309,7 @@ def _read_lines(
     ends, more = place_in_ground(ends, anchors, grounds, findings)
     made += [one for one in more if one["id"].word not in {m["id"].word for m in made}]
     of_types = {
-        sheet: list(read_rows(table, findings)) if (table := tables[sheet]) else []
+        sheet: read_rows(tables[sheet], findings)
         for sheet in TYPE_SHEETS
         if sheet != ANCHORS.name
     }
@@ -310,7 +326,7 @@ def _read_lines(
         absent=[plan.name for plan in _TYPE_PLANS if is_absent(workbook, plan)],
         unreadable=[sheet for sheet, found in types.items() if found is None],
         ranges=ranges,
-        links=list(read_rows(table, findings)) if (table := tables[LINKS.name]) else (),
+        links=read_rows(tables[LINKS.name], findings),
         tests=tests,
     )
     if nets:
@@ -410,7 +426,7 @@ def _read_project(table: Table | None, findings: list[Finding]) -> _Cover:
             )
         else:
             values[field.key], cells[field.key] = value.word, value.place
-    refuse_unused_answers(table, "item", findings)
+    refuse_unused_answers(table, table.list_named("item"), findings)
     of_project = {key: place for key, place in cells.items() if key in values}
     return _Cover(project=Project(**values), cells=of_project, site_wide=site_wide)
 
@@ -442,7 +458,7 @@ def _read_types(
         if basis and basis.state == "blank" and row["pull_out"].state == "given":
             rule = say("type.basis_empty", place=row["pull_out"].place)
             refuse(basis, rule, basis.field.accepted, findings)
-        check_support_types(row, findings)
+        refuse_misfits(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]
     for row in filled:  # a computed resistance beside tests is one too many, too
         check_tests(row, findings)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal
@@ -16,6 +16,7 @@ from netdesign.site.cells.numbers import (
     DecimalMark,
     parse_number,
     read_grade,
+    read_moment,
     split_unit,
 )
 from netdesign.site.columns.fields import Field, normalise
@@ -93,10 +94,10 @@ class Reading:
         """The value of a word, id or text; empty where nothing is given."""
         return self.value if isinstance(self.value, str) else ""
 
-    def echo(self) -> InputEcho:
-        """Input as the report shows it."""
+    def echo(self, named: Message | None = None) -> InputEcho:
+        """Input as the report shows it, perhaps by another name than its column's."""
         return InputEcho(
-            label=self.field.name,
+            label=named or self.field.name,
             unit=self.field.unit,
             text=self.text,
             value="" if self.value is None else self.value,
@@ -151,12 +152,17 @@ def _read_with_own_unit(cell: Cell, field: Field, findings: list[Finding]) -> Re
         return read_cell(cell, field, field.unit, findings)
     if unit in field.units:
         return read_cell(cell, field, unit, findings)
+    findings.append(cell.finding(*explain_unit(unit, field), field.name))
+    return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+
+
+def explain_unit(unit: str, field: Field) -> Refusal:
+    """Reason why a unit, or the lack of one, is none of a field."""
     rule = say("heading.unknown_unit") if unit else say("heading.no_unit")
     if unit in UNCLEAR_UNITS:
         rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[unit])
-    units = say("accepted.units", units=tuple(f"[{one}]" for one in field.units))
-    findings.append(cell.finding(rule, units, field.name))
-    return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+    units = tuple(f"[{one}]" for one in field.units)
+    return Refusal(rule, say("accepted.units", units=units))
 
 
 def _describe_typed(cell: Cell, field: Field, unit: str) -> str:
@@ -192,6 +198,59 @@ def refuse(
         title = field.title_in(unit) if unit else field.title
         finding = reading.cell.finding(rule, accepted, title, severity=severity)
         findings.append(finding)
+
+
+def refuse_beside(reading: Reading, other: Reading, findings: list[Finding]) -> None:
+    """Refuse a reading beside another one that says the same, or the contrary."""
+    rule = say("cell.beside", name=other.field.name, place=other.place)
+    refuse(reading, rule, say("accepted.one_of_two"), findings)
+
+
+def refuse_with(
+    reading: Reading, word: Reading, unfit: Sequence[str], findings: list[Finding]
+) -> None:
+    """Refuse a reading beside a word, one of some with which it means nothing."""
+    field, name = word.field, word.field.name
+    typed = field.name_word(word.word)
+    others = tuple(field.name_word(one) for one in field.words if one not in unfit)
+    rule = say("cell.not_with", name=name, word=typed, place=word.place)
+    refuse(reading, rule, say("cell.empty_or", name=name, words=others), findings)
+
+
+def refuse_misfits(row: Row, findings: list[Finding]) -> None:
+    """Refuse cells of a line beside what they do not fit, or without what they need."""
+    for reading in row.values():
+        if reading.state != "given":
+            continue
+        field = reading.field
+        for other in (row[key] for key in field.not_beside):
+            if other.state == "given":
+                refuse_beside(reading, other, findings)
+        for key, words in field.not_with.items():
+            if row[key].word in words:
+                refuse_with(reading, row[key], words, findings)
+        for lacking in (row[key].field for key in field.needs):
+            if row[lacking.key].state == "blank":
+                rule = say("type.needs_more", names=(lacking.name,))
+                refuse(reading, rule, lacking.accepted, findings)
+
+
+def choose_given(
+    row: Row, keys: tuple[str, str], findings: list[Finding]
+) -> Reading | None:
+    """The one of two columns that a line gives; None with a finding."""
+    first, second = (row[key] for key in keys)
+    if "faulty" in (first.state, second.state):
+        return None
+    if first.state == second.state == "given":
+        refuse_beside(second, first, findings)
+        return None
+    if "given" not in (first.state, second.state):
+        seen = first if first.cell is not None else second
+        rule = say("cell.neither", names=(first.field.name, second.field.name))
+        refuse(seen, rule, say("accepted.exactly_one"), findings)
+        return None
+    return first if first.state == "given" else second
 
 
 def refuse_stored(cell: Cell) -> Refusal | None:
@@ -236,7 +295,18 @@ def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | 
         return _understand_number(cell, field, unit)
     if field.kind == "word":
         return _understand_word(cell, field)
-    return _understand_text(cell, field)
+    text = _understand_text(cell, field)
+    if field.kind == "date" and isinstance(text, str) and not _is_moment(text):
+        return Refusal(say("cell.no_date"), field.accepted)
+    return text
+
+
+def _is_moment(text: str) -> bool:
+    try:
+        read_moment(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
@@ -263,10 +333,8 @@ def _parse(cell: Cell) -> float | Refusal:
 
 def _take_number(cell: Cell, unit: str) -> float | Refusal:
     """Read a number as the column's unit has it; refuse one shown in another unit."""
-    if isinstance(cell.value, str) and _is_percentage(cell):
-        return _take_typed_percentage(cell, unit)
     if isinstance(cell.value, str):
-        return _take_typed_number(cell.value, cell.decimal_mark, unit)
+        return _take_typed_number(cell.value.strip(), cell.decimal_mark, unit)
     number = _parse(cell)
     if isinstance(number, Refusal):
         return number
@@ -292,7 +360,10 @@ def _name_number(number: float, unit: str) -> Message:
 
 
 def _take_typed_number(text: str, mark: DecimalMark, unit: str) -> float | Refusal:
-    """Read a text such as ``3,0 m``, whose unit must be that of the column."""
+    """Read a text such as ``3,0 m``, whose unit must be that of the column.
+
+    A percentage is a share, too.
+    """
     typed, typed_unit = split_unit(text)
     own = normalise_unit(typed_unit)
     if not typed_unit or own not in KNOWN_UNITS:
@@ -300,6 +371,8 @@ def _take_typed_number(text: str, mark: DecimalMark, unit: str) -> float | Refus
     number = parse_number(typed, mark)
     if own == unit or isinstance(number, Refusal):
         return number
+    if (own, unit) == ("%", "-"):
+        return _shift(number, -2)
     rule = say("cell.other_unit", typed=typed_unit, unit=unit)
     if not unit:
         rule = say("cell.unit_not_wanted", typed=typed_unit)
@@ -311,18 +384,6 @@ def _is_percentage(cell: Cell) -> bool:
     return cell.is_percent or (
         isinstance(cell.value, str) and cell.value.strip().endswith("%")
     )
-
-
-def _take_typed_percentage(cell: Cell, unit: str) -> float | Refusal:
-    """Read a text such as ``65 %``: a share, or a number of a column in percent."""
-    typed = str(cell.value).strip().removesuffix("%").rstrip()
-    number = parse_number(typed, cell.decimal_mark)
-    if isinstance(number, Refusal) or unit == "%":
-        return number
-    if unit == "-":
-        return _shift(number, -2)
-    rule = say("cell.percentage", unit=unit) if unit else say("cell.percentage_no_unit")
-    return Refusal(rule, say("accepted.plain_number"))
 
 
 def _shift(number: float, digits: int) -> float:

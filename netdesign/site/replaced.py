@@ -7,7 +7,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.cells.cells import Cell, Sheet, Workbook, group_by_row
+from netdesign.site.cells.cells import (
+    Cell,
+    Sheet,
+    Workbook,
+    group_by_row,
+    split_address,
+)
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import InputEcho, NetRow, ReplacedCell
 from netdesign.words.message import Message, say
@@ -60,11 +66,14 @@ def replace_cells(
         typed, _, address = place.rpartition("!")
         name = names.get(typed.casefold())
         if name is None:
-            findings.append(_refuse_sheet(workbook, typed, tuple(sheets)))
+            accepted = say("accepted.words", words=tuple(sheets))
+            rule = say("what_if.no_sheet", sheet=typed)
+            findings.append(workbook.finding(rule, accepted))
             continue
         cell = find_cell(sheets[name], address)
         if cell.text == text:
-            findings.append(_refuse_same(cell))
+            accepted = say("what_if.another_text")
+            findings.append(cell.finding(say("what_if.same"), accepted))
             continue
         sheets[name] = _put(sheets[name], replace(cell, value=text, formula=""))
         told.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
@@ -79,11 +88,8 @@ def replace_cells(
 
 def find_cell(sheet: Sheet, address: str) -> Cell:
     """Cell of a sheet at an address such as ``C14``."""
-    letters = address.rstrip("0123456789")
-    column = 0
-    for letter in letters:
-        column = 26 * column + ord(letter) - ord("A") + 1
-    return sheet.cell(int(address[len(letters) :]), column)
+    column, row = split_address(address)
+    return sheet.cell(row, column)
 
 
 def _put(sheet: Sheet, cell: Cell) -> Sheet:
@@ -94,25 +100,6 @@ def _put(sheet: Sheet, cell: Cell) -> Sheet:
     kept = [one for line in sheet.rows.values() for one in line.values()]
     others = [one for one in kept if (one.row, one.column) != (plain.row, plain.column)]
     return replace(sheet, rows=group_by_row([*others, plain]))
-
-
-def _refuse_sheet(workbook: Workbook, typed: str, known: tuple[str, ...]) -> Finding:
-    return Finding(
-        file=workbook.file,
-        rule=say("what_if.no_sheet", sheet=typed),
-        accepted=say("accepted.words", words=known),
-    )
-
-
-def _refuse_same(cell: Cell) -> Finding:
-    return Finding(
-        file=cell.file,
-        sheet=cell.sheet,
-        cell=cell.address,
-        text=cell.text,
-        rule=say("what_if.same"),
-        accepted=say("what_if.another_text"),
-    )
 
 
 def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:

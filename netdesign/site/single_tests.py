@@ -9,7 +9,7 @@ from statistics import fmean
 from netdesign.resistance.pull_out import SingleTest
 from netdesign.site.cells.findings import Finding
 from netdesign.site.lines import refuse_unknown_ids
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Reading, Row, refuse, refuse_beside
 from netdesign.site.type_resistances import TEST_COLUMNS
 from netdesign.words.message import say
 
@@ -73,10 +73,8 @@ def _count(
 
 def _refuse_beside(line: Row, test: Reading, findings: list[Finding]) -> None:
     """Refuse tests of a type that has its number of tests on its own sheet."""
-    count = line["test_count"]
-    if count.state == "given":
-        rule = say("type.beside", name=count.field.name, place=count.place)
-        refuse(test, rule, say("accepted.one_of_two"), findings)
+    if line["test_count"].state == "given":
+        refuse_beside(test, line["test_count"], findings)
 
 
 def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from netdesign.envelope.ranges import Ranges
 from netdesign.site.cells.findings import Finding
 from netdesign.site.headings import Table
 from netdesign.site.model import InputEcho, NetRow
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Reading, Row, choose_given, refuse
 from netdesign.site.tables import read_rows
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.snowpack import THINNEST_LAYER, Layer
@@ -25,7 +24,7 @@ _SUM_TOLERANCE = 0.0101  # [m]
 def read_layers(table: Table | None, findings: list[Finding]) -> LayersByRow:
     """Lines of sheet Snow by net row, from the ground up; faults go to ``findings``."""
     by_row: dict[str, list[Row]] = {}
-    for row in read_rows(table, findings) if table else ():
+    for row in read_rows(table, findings):
         if row["row"].word and row["layer"].state == "given":
             by_row.setdefault(row["row"].word, []).append(row)
     for lines in by_row.values():
@@ -51,7 +50,8 @@ def build_layers(
     """
     layers = []
     for line in lines:
-        thickness = _understand_thickness(line, slope_angle, findings)
+        given = choose_given(line, ("thickness", "height"), findings)
+        thickness = measure_normal(given, slope_angle) if given else None
         density, temperature = line["density"], line["temperature"]
         if thickness is None or "faulty" in (density.state, temperature.state):
             continue
@@ -166,8 +166,7 @@ def echo_layers(lines: Sequence[Row]) -> tuple[InputEcho, ...]:
             if reading.state != "given":
                 continue
             name = say("column.of_layer", layer=number, name=reading.field.name)
-            named = replace(reading, field=replace(reading.field, named=name))
-            echoes.append(named.echo())
+            echoes.append(reading.echo(name))
     return tuple(echoes)
 
 
@@ -175,21 +174,13 @@ def _size_of(line: Row) -> Reading:
     return line["thickness" if line["thickness"].state == "given" else "height"]
 
 
-def _understand_thickness(
-    line: Row, slope_angle: Reading, findings: list[Finding]
-) -> float | None:
-    thickness, height = line["thickness"], line["height"]
-    if "faulty" in (thickness.state, height.state, slope_angle.state):
+def measure_normal(given: Reading, slope_angle: Reading) -> float | None:
+    """Thickness normal to the slope [m], of itself or of a vertical height."""
+    if given.field.key not in ("height", "snow_height"):
+        return given.si
+    if slope_angle.state == "faulty":
         return None
-    if thickness.state == height.state:
-        is_both = thickness.state == "given"
-        place = height if is_both or thickness.cell is None else thickness
-        rule = say("layer.beside_thickness") if is_both else say("cell.empty")
-        refuse(place, rule, say("layer.thickness_or_height"), findings)
-        return None
-    if thickness.state == "given":
-        return thickness.si
-    return height.si * math.cos(slope_angle.si)
+    return given.si * math.cos(slope_angle.si)
 
 
 def _check_numbers(lines: list[Row], findings: list[Finding]) -> None:

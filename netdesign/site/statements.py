@@ -14,16 +14,18 @@ from netdesign.panel.assumed import Ends, find_stiffness, list_panels
 from netdesign.panel.inputs import CUTS
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import MEMBER_MODES, NAMED_BY, InputEcho, RowPanel
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import (
+    Reading,
+    Row,
+    refuse,
+    refuse_beside,
+    refuse_misfits,
+    refuse_with,
+)
 from netdesign.site.type_resistances import find_breaking
 from netdesign.structure.members import EndMember
 from netdesign.words.message import Message, say
 
-# What says the same as another column, or the contrary.
-_ONE_OF_TWO = (
-    ("post_base_distance", "post_tilt"),
-    *(("anchor_axes", axis) for axis in ("foot_axis", "uphill_axis", "downhill_axis")),
-)
 _LAYERED = ("layered", "layered with temperatures")
 _ROPES = ("ridge_rope", "lower_rope")
 _OF_PANEL = (
@@ -73,10 +75,14 @@ def check_statements(
         Appended to.
     """
     _check_layers(row["snow_layers"], lines, findings)
-    _check_panel(row, end, findings)
+    of_ropes = (*EndMember, "end_guy_angle", "lateral_distance", "lateral_axis")
+    if end and row["panel_system"].word == "none":  # nothing pulls along the row
+        for one in (end[key] for key in of_ropes if end[key].state == "given"):
+            refuse_with(one, row["panel_system"], ("none",), findings)
+    for line in (row, end or {}):
+        refuse_misfits(line, findings)
     for reading, beside in _list_contradictions(row, end):
-        rule = say("nets.beside", name=beside.field.name, place=beside.place)
-        refuse(reading, rule, say("accepted.one_of_two"), findings)
+        refuse_beside(reading, beside, findings)
     said, neighbour = row["row_end"], row["neighbour"]
     if said.word == "continuous" and neighbour.state == "blank":
         refuse(said, say("nets.without_neighbour"), say("nets.other_ids"), findings)
@@ -96,10 +102,6 @@ def _list_contradictions(
     row: Row, end: Row | None
 ) -> Iterator[tuple[Reading, Reading]]:
     """Cells of a line, or of its row's end, that cannot both be true."""
-    pairs = [(row[key], row[other]) for key, other in _ONE_OF_TWO]
-    if end is not None:
-        pairs += [(end[key], end["support_types"]) for key in _TYPES]
-    yield from (pair for pair in pairs if all(one.state == "given" for one in pair))
     said, gap = row["row_end"], row["gap"]
     has_gap = gap.state == "given" and gap.si > 0.0
     has_none = gap.state == "given" and gap.si == 0.0
@@ -112,24 +114,6 @@ def _list_contradictions(
         yield row["neighbour"], said
     if said.word == "free" and has_none:
         yield gap, said
-
-
-def _check_panel(row: Row, end: Row | None, findings: list[Finding]) -> None:
-    """Refuse what is said of ropes, or holds their pull, where there are no ropes."""
-    system = row["panel_system"]
-    told = [row[key] for key in _OF_PANEL]
-    told += (
-        [
-            end[key]
-            for key in (*EndMember, "end_guy_angle", "lateral_distance", "lateral_axis")
-        ]
-        if end
-        else []
-    )
-    for reading in told if system.word == "none" else ():
-        if reading.state == "given":
-            rule = say("panel.beside_none", place=system.place)
-            refuse(reading, rule, say("panel.empty_or_ropes"), findings)
 
 
 def read_panel(

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
-from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import (
     Field,
     SheetPlan,
     find_item,
     normalise,
-    split_heading,
 )
 from netdesign.site.columns.lexicon import (
     IGNORE,
@@ -23,7 +23,7 @@ from netdesign.site.columns.lexicon import (
     Lexicon,
     Meaning,
 )
-from netdesign.site.headings import Table, find_cover, find_headings, find_near
+from netdesign.site.headings import Table, explain, find_cover, find_headings, find_near
 from netdesign.site.mapping import is_meant
 from netdesign.site.readings import (
     Reading,
@@ -34,8 +34,8 @@ from netdesign.site.readings import (
     refuse,
 )
 from netdesign.site.table_lines import find_data_rows
-from netdesign.site.titles import Title, is_asked, understand
-from netdesign.words.catalogue import LANGUAGES, Language
+from netdesign.site.titles import Title, understand
+from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import Message, say
 
 # How alike the name of a sheet must be to a missing one to count as that, misspelt.
@@ -62,29 +62,22 @@ def find_table(
         None if the sheet or its row of headings is missing; that is a finding
         unless the plan does not require the sheet.
     """
-    sheets = _find_sheets(workbook, plan, findings)
-    _refuse_doubles(sheets, plan, findings)
-    return _take_table(sheets[0], plan, findings) if sheets else None
+    return next(iter(find_tables(workbook, plan, findings)), None)
 
 
 def find_tables(
     workbook: Workbook, plan: SheetPlan, findings: list[Finding]
 ) -> tuple[Table, ...]:
-    """All sheets of one plan, with their headings: one for each structure."""
+    """All sheets of one plan, with their headings; of net rows one a structure."""
     sheets = _find_sheets(workbook, plan, findings)
-    plain = [sheet for sheet in sheets if plan.matches(sheet.name)]
-    _refuse_doubles(plain, plan, findings)
+    is_one = plan.name != NETS.name
+    plain = [sheet for sheet in sheets if is_one or plan.matches(sheet.name)]
+    for double in plain[1:]:
+        rule = say("table.second_sheet", name=plan.title, first=plain[0].name)
+        findings.append(double.finding(rule))
     read = [sheet for sheet in sheets if sheet not in plain[1:]]
     found = (_take_table(sheet, plan, findings) for sheet in read)
     return tuple(table for table in found if table is not None)
-
-
-def _refuse_doubles(
-    sheets: Sequence[Sheet], plan: SheetPlan, findings: list[Finding]
-) -> None:
-    for double in sheets[1:]:
-        rule = say("table.second_sheet", name=plan.title, first=sheets[0].name)
-        findings.append(double.finding(rule))
 
 
 def _take_table(sheet: Sheet, plan: SheetPlan, findings: list[Finding]) -> Table | None:
@@ -96,13 +89,17 @@ def _take_table(sheet: Sheet, plan: SheetPlan, findings: list[Finding]) -> Table
     return table
 
 
-def read_rows(table: Table, findings: list[Finding]) -> Iterator[Row]:
-    """Read every line of a table, field by field; faults go to ``findings``."""
-    for row in table.rows:
-        yield {
+def read_rows(table: Table | None, findings: list[Finding]) -> list[Row]:
+    """Lines of a table, field by field; none without it. Faults go to ``findings``."""
+    if table is None:
+        return []
+    return [
+        {
             field.key: _read_field(table, field, row, findings)
             for field in table.plan.fields
         }
+        for row in table.rows
+    ]
 
 
 def read_field(table: Table, key: str, row: int, findings: list[Finding]) -> Reading:
@@ -186,7 +183,7 @@ def _ask_for_copies(
         if is_open and name not in workbook.hidden and plan.begins(name):
             rule = say("table.copy", name=first)
             accepted = say("table.copy_accepted", name=first)
-            yield Finding(file=workbook.file, sheet=name, rule=rule, accepted=accepted)
+            yield workbook.finding(rule, accepted, name)
 
 
 def is_about(name: Cell, table: Table) -> bool:
@@ -227,16 +224,14 @@ def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     if near:
         rule = say("table.close_to_missing", wanted=wanted)
         accepted = say("heading.or_unlike", meant=wanted)
-        return [
-            Finding(file=workbook.file, sheet=near[0], rule=rule, accepted=accepted)
-        ]
+        return [workbook.finding(rule, accepted, near[0])]
     if not plan.required:
         return []
     rule = say("table.lacks_sheet", wanted=wanted)
     # in each language; what else is read would be a list that nobody reads
     names = dict.fromkeys(plan.name_in(one) for one in LANGUAGES)
     accepted = say("table.name_accepted", names=tuple(names))
-    return [Finding(file=workbook.file, rule=rule, accepted=accepted)]
+    return [workbook.finding(rule, accepted)]
 
 
 def _inspect_layout(table: Table, findings: list[Finding]) -> None:
@@ -353,55 +348,22 @@ def match_item(
     return meaning
 
 
-def refuse_unused_answers(table: Table, key: str, findings: list[Finding]) -> None:
-    """Refuse answers to headings and lines that a table of items does not have."""
-    cells = [table.cell(row, key) for row in table.rows]
-    titles = [Title(cell) for cell in cells if cell is not None and not cell.is_blank]
-    titles += [title for title, _ in table.titles]
-    for one in table.sheet.answers:
-        if not any(is_asked(title, one) for title in titles):
-            rule = say("heading.unused_answer", file=table.sheet.answered_in)
-            findings.append(table.sheet.finding(rule, quote(one)))
-
-
 def _explain(
     text: str, table: Table, what: str, meaning: Meaning
-) -> tuple[Message, Message]:
+) -> tuple[Message, Message | str]:
     """Rule and what is accepted, with names in the language of the table's headings."""
-    if meaning.is_wrong_answer:
-        rule = say("heading.wrong_answer", answer=quote(meaning.answer))
-        return rule, say("heading.answer_wanted", file=table.sheet.answered_in)
     start, language = _MARKS.split(text)[0], table.language
-    unclear = meaning.readings or table.plan.find_unclear(split_heading(start)[0])
-    if unclear:
-        labels = tuple(_label(one, language) for one in unclear)
-        readings, contrary = tuple(map(quote, labels)), meaning.contrary
-        rule = say("heading.ambiguous", readings=readings)
-        if contrary:
-            rule = say("heading.contrary", readings=readings, contrary=quote(contrary))
-        return rule, say("item.accepted", names=labels)
+    lexicon = Lexicon.of(table.plan.items, table.plan)
+    for one in (meaning, lexicon.match(start)):
+        if refusal := explain(one, table.sheet):
+            return refusal
     both = find_item(start, table.plan.items)
     if both and start != text:
         is_item = what == "item"
         rule = say("item.in_one_cell" if is_item else "item.quantity_in_one_cell")
-        return rule, say("item.alone", name=quote(_label(both, language)))
+        return rule, say("item.alone", name=quote(both.heading_for(language)))
     rule = say("item.unknown" if what == "item" else "item.unknown_quantity")
-    names = tuple(_label(field, language) for field in table.plan.items)
-    near = _find_nearest(start, table.plan.items)
-    if near is None:
-        return rule, say("item.accepted", names=names)
-    return rule, say(
-        "item.accepted_near", names=names, near=quote(_label(near, language))
-    )
-
-
-def _label(field: Field, language: Language) -> str:
-    return field.heading_for(language)
-
-
-def _find_nearest(text: str, items: tuple[Field, ...]) -> Field | None:
-    """Item with the name most like a text, in whatever language."""
-    names = {name: field for field in items for name in field.names}
-    key, _ = split_heading(text)
-    near = difflib.get_close_matches(key, names, n=1)
-    return names[near[0]] if near else None
+    names = tuple(field.heading_for(language) for field in table.plan.items)
+    known = [name for field in table.plan.items for name in field.raw_names]
+    accepted = say("item.accepted", names=names)
+    return rule, add_nearest(accepted, start.strip(), dict.fromkeys(known, ""))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import (
@@ -35,21 +35,10 @@ _ALONE = ("ground", "bar_strength", "yield_strength")
 _DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "wedge", "d"
 _INCLUDED = "included"  # the ends, in a breaking force that is given
 _SPIRAL = "1x"  # how the name of a spiral rope's construction begins
-_BENT, _SOLID = ("bar", "micropile"), "bar"
+_SOLID = "bar"
 SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
-_OF_GROUND = ("pull_out", "bearing")  # worked out from tables that are a floor
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
 SOIL_COLUMNS = ("soil_cohesion", "soil_friction", "soil_weight")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Rule:
-    """A resistance, the columns that it follows from, and how."""
-
-    key: str
-    needed: tuple[str, ...]
-    optional: tuple[str, ...]
-    compute: Callable[[Row], tuple[float, Message]]  # [N], and how
 
 
 def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
@@ -68,9 +57,9 @@ def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
         A computed resistance stands in the place of the empty cell; its
         derivation says how it came about, its cell is that of the first dimension.
     """
-    for rule in _RULES:
-        if rule.key in row:
-            row = _apply(rule, row, findings)
+    for key in _RULES:
+        if key in row:
+            row = _apply(key, row, findings)
     return row
 
 
@@ -90,13 +79,11 @@ def find_tests(row: Row) -> PullOutTests | None:
 
 
 def check_tests(row: Row, findings: list[Finding]) -> None:
-    """Refuse tests that are incomplete, contradictory or beside another value."""
+    """Refuse tests, or a ground's strength, that are incomplete or contradictory."""
+    if "soil_cohesion" in row:
+        _is_ready(row, SOIL_COLUMNS, findings)
     if "test_count" not in row or not _is_ready(row, TEST_COLUMNS, findings):
         return
-    count = row["test_count"]
-    if row["pull_out"].state == "given":
-        rule = say("type.beside_pull_out", place=row["pull_out"].place)
-        refuse(count, rule, say("accepted.one_of_two"), findings)
     if row["test_least"].si > row["test_mean"].si:
         rule = say("type.exceeds_mean", place=row["test_mean"].place)
         refuse(row["test_least"], rule, say("type.at_most_mean"), findings)
@@ -112,47 +99,48 @@ def check_ends(row: Row, findings: list[Finding]) -> None:
         refuse(row["termination"], rule, say("type.other_end"), findings)
 
 
-def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
-    governing = _find_governing(rule, row)
+def _apply(key: str, row: Row, findings: list[Finding]) -> Row:
+    field = row[key].field
+    governing = _find_governing(key, row)
     if governing:
-        _tell_governing(rule, governing, row, findings)
+        _tell_governing(row, field.computed_from, governing, findings)
         return row
-    if rule.key == "pull_out" and lacks_ground(row):  # a net row may give it
+    if key == "pull_out" and lacks_ground(row):  # a net row may give it
         return row
-    if not _is_ready(row, rule.needed, findings):
+    if not _is_ready(row, field.computed_from, findings):
         return row
-    first = row[rule.needed[0]]
-    if any(row[key].state == "faulty" for key in rule.optional):
+    first = row[field.computed_from[0]]
+    if any(row[one].state == "faulty" for one in field.computed_with):
         return row
-    if rule.key == "tendon" and lacks_inner(row):  # may be a tube: not known
+    if key == "tendon" and lacks_inner(row):  # may be a tube: not known
         return row
     try:
-        value, derivation = rule.compute(row)
+        value, derivation = _RULES[key](row)
     except ModelError as error:
         refuse(first, say("type.no_resistance"), error.message, findings)
         return row
     computed = replace(
-        row[rule.key],
+        row[key],
         state="given",
         value=kilonewton_from_newton(value),
         derivation=derivation,
         cell=first.cell,
     )
-    return {**row, rule.key: computed}
+    return {**row, key: computed}
 
 
-def _find_governing(rule: _Rule, row: Row) -> Reading | None:
+def _find_governing(key: str, row: Row) -> Reading | None:
     """Reading that governs over dimensions: the resistance itself, or tests of it."""
-    tests = TEST_COLUMNS if rule.key == "pull_out" else ()
-    given = (row[key] for key in (rule.key, *tests) if row[key].state == "given")
+    tests = TEST_COLUMNS if key == "pull_out" else ()
+    given = (row[one] for one in (key, *tests) if row[one].state == "given")
     return next(given, None)
 
 
 def _tell_governing(
-    rule: _Rule, governing: Reading, row: Row, findings: list[Finding]
+    row: Row, needed: tuple[str, ...], governing: Reading, findings: list[Finding]
 ) -> None:
     """Say that dimensions beside a resistance are kept, and do not count."""
-    beside = next((row[key] for key in rule.needed if row[key].state == "given"), None)
+    beside = next((row[key] for key in needed if row[key].state == "given"), None)
     if beside and beside.field.key not in _ALONE:
         name, place = governing.field.name, governing.place
         rule_text = say("type.governs", name=name, place=place)
@@ -161,27 +149,18 @@ def _tell_governing(
 
 def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
     """Resistances of steel and ropes as given, with what their dimensions give [N]."""
-    for rule in _RULES:
-        given = row.get(rule.key)
+    for key in ("tendon", "rope", "compression"):
+        given = row.get(key)
         if given is None or given.state != "given" or given.derivation:
             continue
-        needed = [row[key] for key in (*rule.needed, *rule.optional)]
-        is_whole = all(row[key].state == "given" for key in rule.needed)
-        is_tube = rule.key == "tendon" and lacks_inner(row)
-        if rule.key in _OF_GROUND or not is_whole or is_tube:
-            continue
-        if not any(one.state == "faulty" for one in needed):
+        field = given.field
+        is_whole = all(row[one].state == "given" for one in field.computed_from)
+        is_faulty = any(row[one].state == "faulty" for one in field.computed_with)
+        is_tube = key == "tendon" and lacks_inner(row)
+        if is_whole and not is_faulty and not is_tube:
             with suppress(ModelError):  # no resistance at all: nothing to compare
-                is_rope = rule.key == "rope"
-                yield (
-                    given,
-                    _compute_bare_rope(row) if is_rope else rule.compute(row)[0],
-                )
-
-
-def _compute_bare(rule: _Rule, row: Row) -> float:
-    """Resistance by dimensions [N]; of a rope without the loss of its ends."""
-    return _compute_bare_rope(row) if rule.key == "rope" else rule.compute(row)[0]
+                bare = _compute_bare_rope(row) if key == "rope" else None
+                yield given, _RULES[key](row)[0] if bare is None else bare
 
 
 def fill_in_section(row: Row) -> Row:
@@ -379,38 +358,14 @@ def _bearing(row: Row) -> tuple[float, Message]:
     )
 
 
-_RULES: tuple[_Rule, ...] = (
-    _Rule(
-        key="tendon",
-        needed=("bar_diameter", "bar_strength"),
-        optional=("inner_diameter",),
-        compute=_bar,
-    ),
-    _Rule(
-        key="pull_out",
-        needed=("drill_diameter", "bond_length", "ground"),
-        optional=("grouting",),
-        compute=_bond,
-    ),
-    _Rule(
-        key="rope",
-        needed=("rope_diameter", "construction", "grade"),
-        optional=("termination",),
-        compute=_rope,
-    ),
-    _Rule(
-        key="compression",
-        needed=SECTION,
-        optional=("buckling_curve",),
-        compute=_buckling,
-    ),
-    _Rule(
-        key="bearing",
-        needed=("plate_length", "plate_width", "bearing_stress"),
-        optional=(),
-        compute=_bearing,
-    ),
-)
+# Of a resistance its value [N] and how it follows from what ``columns.toml`` names.
+_RULES: Mapping[str, Callable[[Row], tuple[float, Message]]] = {
+    "tendon": _bar,
+    "pull_out": _bond,
+    "rope": _rope,
+    "compression": _buckling,
+    "bearing": _bearing,
+}
 
 
 def lacks_inner(line: Row) -> bool:
@@ -451,50 +406,3 @@ def compute_buckling(line: Row) -> BucklingResistance:
 def name_curve(line: Row) -> str:
     """Buckling curve of a post; the lowest where none is given."""
     return line["buckling_curve"].word or _DEFAULT_CURVE
-
-
-def _check_lever(row: Row, findings: list[Finding]) -> None:
-    """Refuse a lever arm of an anchor that is not said to bend."""
-    if "lever_arm" not in row or row["lever_arm"].state != "given":
-        return
-    lever, kind = row["lever_arm"], row["kind"]
-    if kind.state == "faulty" or kind.word in _BENT:
-        return
-    rule = say("type.needs_more", names=(kind.field.name,))
-    if kind.word:
-        rule = say("type.beside", name=kind.field.name, place=kind.place)
-    bent = tuple(kind.field.name_word(word) for word in _BENT)
-    refuse(lever, rule, say("accepted.words", words=bent), findings)
-
-
-def _check_soil(row: Row, findings: list[Finding]) -> None:
-    """Refuse a part of the ground's strength, and a cover beside it."""
-    if "soil_cohesion" not in row or not _is_ready(row, SOIL_COLUMNS, findings):
-        return
-    cover = row["least_cover"]
-    if cover.state == "given":
-        soil = row["soil_cohesion"]
-        rule = say("type.beside", name=soil.field.name, place=soil.place)
-        refuse(cover, rule, say("accepted.one_of_two"), findings)
-
-
-def check_support_types(row: Row, findings: list[Finding]) -> None:
-    """Refuse what is given twice, the inside of no tube, the lever of what turns."""
-    _check_lever(row, findings)
-    _check_soil(row, findings)
-    if "base_friction" in row and row["base_friction"].state == "given":
-        beside = row["sliding"]
-        if beside.state == "given":
-            rule = say("type.beside", name=beside.field.name, place=beside.place)
-            refuse(row["base_friction"], rule, say("accepted.one_of_two"), findings)
-    if "inner_diameter" in row and row["inner_diameter"].state == "given":
-        outer, inner, kind = (
-            row[key] for key in ("bar_diameter", "inner_diameter", "kind")
-        )
-        if kind.word == _SOLID:
-            rule = say("type.beside", name=kind.field.name, place=kind.place)
-            hollow = kind.field.name_word("micropile")
-            refuse(inner, rule, say("accepted.words", words=(hollow,)), findings)
-        if outer.state == "blank":  # a tube without a wall has no tendon resistance
-            rule = say("type.needs_more", names=(outer.field.name,))
-            refuse(inner, rule, say("type.all_or_none"), findings)

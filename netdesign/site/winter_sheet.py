@@ -17,7 +17,7 @@ from netdesign.site.columns.fields import split_heading
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import StationWinter
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Row, refuse
 from netdesign.site.tables import find_table, read_rows
 from netdesign.snowpack.series import (
     LONGEST_GAP,
@@ -49,7 +49,7 @@ def read_winter(
     if table is None:
         return None
     faults = len(findings)
-    lines = list(read_rows(table, findings))
+    lines = read_rows(table, findings)
     days = _read_days(lines, findings)
     heights = {
         day: line["snow_height"].si
@@ -119,7 +119,7 @@ def read_height_file(
         if not is_refused:
             rule = say("winter_sheet.no_height")
             accepted = say("winter_sheet.heights")
-            findings.append(Finding(file=path.name, rule=rule, accepted=accepted))
+            findings.append(workbook.finding(rule, accepted))
         raise SiteDataError(findings, fold_findings(findings))
     return replace(winter, file=path.name), tuple(findings)
 
@@ -166,26 +166,15 @@ def _read_days(lines: list[Row], findings: list[Finding]) -> dict[date, Row]:
     days: dict[date, Row] = {}
     last: date | None = None
     for line in lines:
-        day = _read_day(line["date"], findings)
-        if day is None:
+        if line["date"].state != "given":
             continue
+        day = read_moment(line["date"].word).date()
         if last is not None and day <= last:
             rule = say("winter_sheet.not_after" if day < last else "winter_sheet.twice")
             refuse(line["date"], rule, say("winter_sheet.one_a_day"), findings)
             continue
         days[day], last = line, day
     return days
-
-
-def _read_day(reading: Reading, findings: list[Finding]) -> date | None:
-    if reading.state != "given":
-        return None
-    try:
-        return read_moment(reading.word).date()
-    except ValueError:
-        rule, accepted = say("winter_sheet.no_date"), say("winter_sheet.such_as")
-        refuse(reading, rule, accepted, findings)
-        return None
 
 
 def _check_gaps(

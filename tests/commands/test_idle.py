@@ -82,7 +82,7 @@ def test_a_delimiter_has_an_effect_where_a_csv_file_is_read(call, site):
 @pytest.mark.parametrize(
     ("words", "needed"),
     [
-        (("bench", "--jobs", "2"), "--stress or --errors"),
+        (("bench", "--jobs", "2"), "--stress or --errors or --lines"),
         (("snowpack", "heights.csv", "--layers"), "--json"),
         (("verify", "--jobs", "2"), "--study"),
         (("verify", "--site", "site.xlsx"), "--study"),

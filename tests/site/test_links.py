@@ -36,10 +36,10 @@ def test_links_of_a_type_make_its_chain_in_their_order(tmp_path):
     ("link", "said"),
     [
         ({"type": "G19", "link": "eye", "strength": 90}, "no id of sheet Ropes / Anch"),
-        ({"type": "G18", "link": "eye"}, "or neither"),
+        ({"type": "G18", "link": "eye"}, "is empty: neither"),
         (
             {"type": "G18", "link": "eye", "strength": 90, "working_limit": 30},
-            "a strength and a working load limit",
+            "is given beside",
         ),
         ({"type": "G18", "link": "hook", "strength": 90}, "hook"),
     ],

@@ -82,7 +82,7 @@ def test_french_and_german_sheets_with_other_units(
     [
         (["R9", "post", 1.0, 10.0, None], "A2", "is no id of sheet Nets"),
         (["R1", "roof", 1.0, 10.0, None], "B2", "is not a known word"),
-        (["R1", "post", None, 10.0, None], "A2", "has no time"),
+        (["R1", "post", None, 10.0, None], "C2", "is empty: neither time nor"),
         (["R1", "post", 1.0, None, None], "A2", "without a measurement"),
         (["R1", "post", 1.0, -3.0, None], "D2", "out of range"),
         (["R1", "post", 1.0, 10.0, 260.0], "E2", "out of range"),

@@ -1,6 +1,7 @@
 """Resistances from dimensions, read from the type sheets of a workbook."""
 
 import math
+import re
 
 import pytest
 
@@ -160,7 +161,7 @@ def test_dimensions_in_other_languages_and_units(sheets, save, columns):
                 "least tested resistance [kN]": 300,
                 "mean tested resistance [kN]": 310,
             },
-            "is given beside the pull-out resistance in Anchors!C2",
+            "is given beside pull-out resistance in Anchors!C2",
         ),
     ],
 )
@@ -195,7 +196,7 @@ def test_tests_govern_over_the_dimensions_of_a_bond(sheets, save):
     ("kind", "told"),
     [
         (None, "needs more beside it: kind of anchor"),
-        ("rope anchor", "is given beside"),
+        ("rope anchor", "does not fit kind of anchor"),
     ],
 )
 def test_a_lever_arm_of_what_does_not_bend_is_refused(
@@ -206,7 +207,7 @@ def test_a_lever_arm_of_what_does_not_bend_is_refused(
     add_columns(sheets, "Anchors", **columns)
     (finding,) = refused(save(sheets))
     assert told in str(finding)
-    assert "bar, micropile" in str(finding)
+    assert re.search("bar(,| or) micropile", str(finding))
 
 
 def test_grouting_that_a_rock_has_no_value_for_is_refused(sheets, save, refused):

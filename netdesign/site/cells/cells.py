@@ -210,6 +210,12 @@ class Workbook:
     answers: Answers = UNASKED
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
 
+    def finding(
+        self, rule: Message, accepted: Message | str = "", sheet: str = ""
+    ) -> Finding:
+        """Say what is wrong with the file, or with one of its sheets."""
+        return Finding(file=self.file, sheet=sheet, rule=rule, accepted=accepted)
+
 
 def name_column(column: int) -> str:
     """Letters of a column counted from 1.
@@ -222,6 +228,19 @@ def name_column(column: int) -> str:
         column, digit = divmod(column - 1, 26)
         letters = chr(ord("A") + digit) + letters
     return letters
+
+
+def split_address(address: str) -> tuple[int, int]:
+    """Column and row of a cell, counted from 1.
+
+    >>> split_address("AB7")
+    (28, 7)
+    """
+    letters = address.rstrip("0123456789")
+    column = 0
+    for letter in letters:
+        column = 26 * column + ord(letter) - ord("A") + 1
+    return column, int(address[len(letters) :])
 
 
 def group_by_row(cells: Iterable[Cell]) -> dict[int, dict[int, Cell]]:

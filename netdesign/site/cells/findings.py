@@ -23,7 +23,7 @@ _ALIKE = (
     "number.ambiguous",
     "type.governs",
 )  # rules that repeat the text of their cell
-_MOST_ALIKE = 12  # named after the first
+_MOST = 12  # alike, named after the first
 
 
 class Refusal(NamedTuple):
@@ -137,13 +137,17 @@ def _describe_alike(findings: list[Finding]) -> Message:
     first, *others = findings
     if not others:
         return first.message
-    shown = tuple(
+    shown = [
         f"{one.cell} {quote(one.text)}" if one.text else one.cell or one.sheet
-        for one in others[:_MOST_ALIKE]
-    )
-    more = len(others) - len(shown)
-    key = "finding.likewise_more" if more else "finding.likewise"
-    return say(key, line=first.message, others=shown, count=more)
+        for one in others
+    ]
+    return say("finding.likewise", line=first.message, others=shorten(shown, _MOST))
+
+
+def shorten(texts: Sequence[str], most: int) -> tuple[Message | str, ...]:
+    """The first of some texts, and how many more there are."""
+    more = len(texts) - most
+    return (*texts[:most], *([say("finding.more", count=more)] if more > 0 else []))
 
 
 def refuse_file(

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import lru_cache
 from importlib.resources import files
-from typing import Any, get_args
+from typing import Any
 
 from netdesign.site.columns.fields import (
     Field,
-    Kind,
     SheetPlan,
     Usual,
     name_word,
@@ -29,11 +28,7 @@ Data = Mapping[str, Any]
 
 READ_LANGUAGES = (*LANGUAGES, "it")  # Italian is read, though not spoken
 
-# What else a field has stands in other files, or is where its table stands.
-_ELSEWHERE = {"key", "table", "headings", "notes", "spellings", "named"}
-_KEYS = {one.name for one in fields(Field)} - _ELSEWHERE
-_OF_COLUMN = {"units", "bounds", "usual", "zero_says_none"}  # a range has them too
-_SHEET_KEYS = {"required", "one_of", "items", "site_wide"}
+_OF_COLUMN = ("units", "bounds", "usual", "zero_says_none")  # a range has them too
 
 
 @lru_cache
@@ -43,57 +38,36 @@ def load_file(name: str) -> Data:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def read_plan(data: Data, name: str) -> SheetPlan:
-    """Sheet with its columns, also those that the template does not offer.
-
-    Raises
-    ------
-    ValueError
-        If the file has a key that is not known, or a name of what it does not hold.
-    """
-    entry = data["sheets"][name]
-    _require_known(entry, _SHEET_KEYS, f"sheets.{name}")
-    for key in (*entry.get("one_of", ()), *entry.get("site_wide", ())):
-        _find(data[name], key, f"sheets.{name}")
+def _read_plan(name: str) -> SheetPlan:
+    """Sheet with its columns, also those that the template does not offer."""
+    entry = dict(load_file("columns")["sheets"][name])
+    items = _read_fields(entry.pop("items")) if "items" in entry else ()
     return SheetPlan(
         name=name,
-        fields=read_fields(data, name),
-        required=entry.get("required", False),
-        one_of=tuple(entry.get("one_of", ())),
-        site_wide=tuple(entry.get("site_wide", ())),
+        fields=_read_fields(name),
         unclear=_list_unclear(name),
         names=_list_names(f"sheet.{name}", "sheets", name),
-        items=read_fields(data, entry["items"]) if "items" in entry else (),
+        items=items,
+        **{key: _freeze(value) for key, value in entry.items()},
     )
 
 
-def read_fields(data: Data, table: str) -> tuple[Field, ...]:
+def _read_fields(table: str) -> tuple[Field, ...]:
     """Columns of a sheet, or what its lines may name, in the order of the file."""
-    return tuple(_read_field(data, table, key) for key in data[table])
+    return tuple(_read_field(table, key) for key in load_file("columns")[table])
 
 
-def _read_field(data: Data, table: str, key: str) -> Field:
+def _read_field(table: str, key: str) -> Field:
+    data = load_file("columns")
     entry = data[table][key]
-    place = f"{table}.{key}"
-    _require_known(entry, _KEYS, place)
     if "column" in entry:
-        column = _find(data["Nets"], entry["column"], place)
-        entry = {**{one: column[one] for one in _OF_COLUMN & column.keys()}, **entry}
-    if entry.get("kind", "number") not in get_args(Kind):
-        raise ValueError(f"{place}: no kind {entry['kind']}")
-    for other in _list_others(entry):
-        _find(data[table], other, place)
-    if "refers_to" in entry:
-        _find(data["sheets"], entry["refers_to"], place)
-    values = {one: _read_value(one, entry[one], place) for one in entry}
-    if "units" in entry:
-        values["units"] = tuple(_find(data["units"], entry["units"], place))
-    if "empty" in entry:
-        values["empty"] = _find(data["empty"], entry["empty"], place)
+        column = data["Nets"][entry["column"]]
+        entry = {**{one: column[one] for one in _OF_COLUMN if one in column}, **entry}
+    values = {one: _READ.get(one, _freeze)(value) for one, value in entry.items()}
     return Field(
         key=key,
         table=table,
-        headings=_list_names(f"column.{place}", table, key),
+        headings=_list_names(f"column.{table}.{key}", table, key),
         notes={
             one: load_file(f"words/{one}").get(table, {}).get(key, "")
             for one in LANGUAGES
@@ -103,55 +77,20 @@ def _read_field(data: Data, table: str, key: str) -> Field:
     )
 
 
-def _list_others(entry: Data) -> list[str]:
-    """Other columns of the sheet that a column names."""
-    beside = [key for *_, powers in entry.get("beside", ()) for key in powers]
-    alternative = [entry["alternative_to"]] if "alternative_to" in entry else []
-    return [*entry.get("instead", ()), *beside, *alternative]
-
-
-def _find(entries: Data, name: str, place: str) -> Any:
-    if name not in entries:
-        raise ValueError(f"{place}: no {name} among {', '.join(entries)}")
-    return entries[name]
-
-
-def _require_known(entry: Data, known: set[str], place: str) -> None:
-    if unknown := entry.keys() - known:
-        raise ValueError(f"{place}: unknown {', '.join(sorted(unknown))}")
-
-
-def _read_value(key: str, value: Any, place: str) -> Any:
-    reader = _READ.get(key)
-    try:
-        return reader(value) if reader else value
-    except ValueError as error:
-        raise ValueError(f"{place}: {key} {error}") from None
-
-
-def _read_span(value: list[float]) -> tuple[float, float]:
-    low, high = map(float, value)
-    if low > high:
-        raise ValueError(f"from {low} down to {high}")
-    return low, high
-
-
-def _read_usual(value: list[Any]) -> Usual:
-    *span, source = value
-    return Usual(*_read_span(span), source)
-
-
-def _read_beside(values: list[Any]) -> tuple[Usual, ...]:
-    return tuple(Usual(*_read_span(span), powers=powers) for *span, powers in values)
+def _freeze(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value
 
 
 # Reader of a key's value, where it is not taken as it is.
 _READ: Mapping[str, Any] = {
-    "bounds": _read_span,
-    "usual": _read_usual,
-    "beside": _read_beside,
+    "units": lambda name: tuple(load_file("columns")["units"][name]),
+    "empty": lambda name: load_file("columns")["empty"][name],
+    "bounds": lambda span: tuple(map(float, span)),
+    "usual": lambda usual: Usual(float(usual[0]), float(usual[1]), usual[2]),
+    "beside": lambda values: tuple(
+        Usual(float(low), float(high), powers=powers) for low, high, powers in values
+    ),
     "default": float,
-    **dict.fromkeys(("words", "instead", "of_product"), tuple),
 }
 
 
@@ -195,41 +134,17 @@ def _load_headings(language: str) -> Data:
     return load_file(f"headings/{language}")
 
 
-NETS = read_plan(load_file("columns"), "Nets")
-PROJECT = read_plan(load_file("columns"), "Project")
-# As offices type it, also with what holds for all net rows; the template does not offer
-# that.
-PROJECT_AS_TYPED = replace(PROJECT, items=(*PROJECT.items, *NETS.list_site_wide()))
-# As offices type it, also with both ends in one cell; the template does not offer that.
-RANGES_AS_TYPED = read_plan(load_file("columns"), "Ranges")
-RANGES = replace(
-    RANGES_AS_TYPED,
-    fields=tuple(one for one in RANGES_AS_TYPED.fields if one.is_offered),
-)
-# Layers by net row, one a line; a row without lines here is of uniform snow.
-SNOW = read_plan(load_file("columns"), "Snow")
+_PLANS = {name: _read_plan(name) for name in load_file("columns")["sheets"]}
+PROJECT_ITEMS = _PLANS["Project"].items
+NETS, RANGES, SNOW = _PLANS["Nets"], _PLANS["Ranges"], _PLANS["Snow"]
 # The keys of the resistances are the modes of `model.MEMBER_MODES`.
-ANCHORS = read_plan(load_file("columns"), "Anchors")
-ROPES = read_plan(load_file("columns"), "Ropes")
-POSTS = read_plan(load_file("columns"), "Posts")
-# Single pull-out tests, one a line; they count for their type in their ground.
-TESTS = read_plan(load_file("columns"), "Tests")
-# Links between ropes and anchors, one a line; a chain by type.
-LINKS = read_plan(load_file("columns"), "Links")
-# Types of the first and last support of a row, where they are not those of the others.
-ENDS = read_plan(load_file("columns"), "Ends")
-# Measurements, one a line, to stand beside a history; nothing is checked with them.
-MONITORING = read_plan(load_file("columns"), "Monitoring")
-# Checks that somebody has proven elsewhere, one a line.
-DECLARED = read_plan(load_file("columns"), "Declared")
-# A station's snow heights, one day a line.
-WINTER = read_plan(load_file("columns"), "Winter")
-
-SHEETS: tuple[SheetPlan, ...] = (
-    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, TESTS, LINKS, ENDS),
-    *(MONITORING, DECLARED, WINTER),
-)
-PROJECT_ITEMS = PROJECT.items
+ANCHORS, ROPES, POSTS = _PLANS["Anchors"], _PLANS["Ropes"], _PLANS["Posts"]
+TESTS, LINKS, ENDS = _PLANS["Tests"], _PLANS["Links"], _PLANS["Ends"]
+MONITORING, DECLARED = _PLANS["Monitoring"], _PLANS["Declared"]
+WINTER = _PLANS["Winter"]
+# Also with what holds for all net rows; the template does not offer that.
+PROJECT = replace(_PLANS["Project"], items=(*PROJECT_ITEMS, *NETS.list_site_wide()))
+SHEETS: tuple[SheetPlan, ...] = tuple((_PLANS | {PROJECT.name: PROJECT}).values())
 RANGE_QUANTITIES = RANGES.items
 # What else may range: then no line of sheet Nets gives it. Keys are those of
 # `envelope.parameters.PARAMETERS`.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Literal
@@ -13,7 +13,7 @@ from netdesign.site.columns.unit_names import normalise_unit
 from netdesign.words.catalogue import LANGUAGES, Language, load_texts
 from netdesign.words.message import Message, say
 
-Kind = Literal["number", "count", "word", "id", "text"]
+Kind = Literal["number", "count", "word", "id", "date", "text"]
 _LONGEST_HEADING = 100
 _NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
 _STRUCTURE = re.compile(
@@ -49,7 +49,7 @@ class Field:
     table : str
         Sheet or list that it belongs to.
     kind : str
-        ``number``, ``count`` (whole number), ``word``, ``id`` or ``text``.
+        ``number``, ``count`` (whole number), ``word``, ``id``, ``date`` or ``text``.
     units : tuple of str
         Units that a heading may give; the first is that of bounds, default and
         reports.
@@ -65,10 +65,18 @@ class Field:
         Whether its numbers are not compared from line to line.
     of_product : tuple of str
         Quantities of a product that its number must agree with.
+    computed_from, computed_with : tuple of str
+        Keys of columns that a resistance follows from, and of those that may be empty.
     required : bool
         Whether the heading and every cell below it must be there.
     instead : tuple of str
         Keys of columns of which one says what a missing cell or heading would.
+    not_beside : tuple of str
+        Keys of columns that say the same, or the contrary.
+    not_with : mapping of str to sequence of str
+        Words of other columns with which it means nothing.
+    needs : tuple of str
+        Keys of columns that may not be empty beside it.
     default : float or None
         Value of an empty cell, in the first unit.
     words : tuple of str
@@ -86,6 +94,8 @@ class Field:
         of a required column.
     is_offered : bool
         Whether the template has it.
+    symbol : str
+        In the drawing of the template.
     headings : mapping of str to tuple of str
         Accepted headings by language, its name first; also of a language that the
         program only reads.
@@ -107,8 +117,13 @@ class Field:
     zero_says_none: bool = False
     scatters: bool = False
     of_product: tuple[str, ...] = ()
+    computed_from: tuple[str, ...] = ()
+    computed_with: tuple[str, ...] = ()
     required: bool = False
     instead: tuple[str, ...] = ()
+    not_beside: tuple[str, ...] = ()
+    not_with: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    needs: tuple[str, ...] = ()
     default: float | None = None
     words: tuple[str, ...] = ()
     is_grade: bool = False
@@ -117,6 +132,7 @@ class Field:
     column: str = ""
     empty: Mapping[str, str] = field(default_factory=dict)
     is_offered: bool = True
+    symbol: str = ""
     headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     notes: Mapping[Language, str] = field(default_factory=dict)
     spellings: Mapping[str, str] = field(default_factory=dict)
@@ -170,7 +186,7 @@ class Field:
             return say(key, low=low, high=high, unit=unit)
         if self.kind == "word":
             return say("accepted.words", words=tuple(map(self.name_word, self.words)))
-        return say("accepted.text")
+        return say("accepted.date" if self.kind == "date" else "accepted.text")
 
     def name_word(self, word: str) -> Message | str:
         """One of its words; what is alike in all languages stays."""
@@ -261,14 +277,6 @@ class SheetPlan:
     def list_site_wide(self) -> tuple[Field, ...]:
         """Columns that may stand once."""
         return tuple(one for one in self.fields if one.key in self.site_wide)
-
-    def find_unclear(self, name: str) -> tuple[Field, ...]:
-        """Fields that a normalised heading may mean, if it is an unclear one."""
-        for heading, keys in self.unclear.items():
-            if normalise(heading) == name:
-                known = (*self.fields, *self.items)
-                return tuple(one for one in known if one.key in keys)
-        return ()
 
 
 def is_one_of(sheet_name: str, names: Iterable[str]) -> bool:

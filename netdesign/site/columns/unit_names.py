@@ -1,13 +1,15 @@
 """Units of a workbook: their spellings, and what turns them into a first unit.
 
 A table and no unit library: it has to refuse what the trade writes with two
-meanings (``grad``, ``t``), and an engineer can read all of it at a glance.
+meanings (``grad``, ``t``), and an engineer can read all of ``units.toml`` at a glance.
 """
 
 from __future__ import annotations
 
+import tomllib
 import unicodedata
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from importlib.resources import files
 
 from netdesign.units import (
     cubic_meter_from_cubic_centimeter,
@@ -32,79 +34,17 @@ UNCLEAR_UNITS = {
     "t/m": say("unclear_unit.t_per_m"),
 }
 
-_SPELLINGS = {
-    "°": "deg",
-    "degree": "deg",
-    "degrees": "deg",
-    "degre": "deg",
-    "degres": "deg",
-    "radian": "rad",
-    "radians": "rad",
-    "gons": "gon",
-    "percent": "%",
-    "percents": "%",
-    "pourcent": "%",
-    "prozent": "%",
-    "metre": "m",
-    "metres": "m",
-    "meter": "m",
-    "kn/ml": "kN/m",
-    "kn/m'": "kN/m",
-    "kn/lfm": "kN/m",
-    "kn/m": "kN/m",
-    "n/m": "N/m",
-    "mn/m": "MN/m",
-    "kn": "kN",
-    "n": "N",
-    "mpa": "MPa",
-    "n/mm2": "MPa",
-    "kpa": "kPa",
-    "kn/m2": "kPa",
-    "day": "d",
-    "days": "d",
-    "j": "d",
-    "jour": "d",
-    "jours": "d",
-    "tag": "d",
-    "tage": "d",
-    "hour": "h",
-    "hours": "h",
-    "heure": "h",
-    "heures": "h",
-    "stunde": "h",
-    "stunden": "h",
-    "kgm-3": "kg/m3",
-    "kn/m3": "kN/m3",
-    "°c": "degC",
-    "c": "degC",
-    "degc": "degC",
-    "1": "-",
-    "–": "-",
-    "—": "-",
+_UNITS = tomllib.loads(
+    files(__package__).joinpath("units.toml").read_text(encoding="utf-8")
+)
+_SPELLINGS: Mapping[str, str] = {
+    one: unit for unit, them in _UNITS["spellings"].items() for one in them
 }
-
-# Metres above the sea, as countries write them; points do not count.
-_ABOVE_SEA = ("müm", "müa", "mngf", "masl", "mslm")
-
-_FACTORS = {
-    ("cm", "m"): 1e-2,
-    ("mm", "m"): 1e-3,
-    ("cm", "mm"): 10.0,
-    ("m", "mm"): 1e3,
-    ("mm2", "cm2"): 1e-2,
-    ("mm4", "cm4"): 1e-4,
-    ("mm3", "cm3"): 1e-3,
-    ("kPa", "MPa"): 1e-3,
-    ("MPa", "kPa"): 1e3,
-    ("h", "d"): 1 / 24,
-    ("N", "kN"): 1e-3,
-    ("MN", "kN"): 1e3,
-    ("N/m", "kN/m"): 1e-3,
-    ("MN/m", "kN/m"): 1e3,
-    ("gon", "deg"): 0.9,
-    ("%", "-"): 1e-2,
-    ("g/cm3", "kg/m3"): 1e3,
-    ("t/m3", "kg/m3"): 1e3,
+_ABOVE_SEA = tuple(_UNITS["above_sea"]["m"])
+_FACTORS: Mapping[tuple[str, str], float] = {
+    (unit, first): factor
+    for unit, others in _UNITS["factors"].items()
+    for first, factor in others.items()
 }
 _CONVERSIONS: dict[tuple[str, str], Callable[[float], float]] = {
     ("rad", "deg"): degree_from_radian,

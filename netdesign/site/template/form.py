@@ -9,7 +9,7 @@ from pathlib import Path
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import Answers
-from netdesign.site.cells.findings import Finding, fold_findings
+from netdesign.site.cells.findings import fold_findings
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import TESTS
 from netdesign.site.mapping import is_meant
@@ -87,10 +87,10 @@ def read_form(path: Path) -> list[Row]:
     workbook = read_workbook(path, lambda name: is_meant(name, TESTS, Answers()))
     findings = list(workbook.remarks)
     table = find_table(workbook, _FORM, findings)
-    rows = list(read_rows(table, findings)) if table else []
+    rows = read_rows(table, findings)
     if not rows:
         rule, accepted = say("plan.no_test"), say("plan.form_wanted")
-        findings.append(Finding(file=workbook.file, rule=rule, accepted=accepted))
+        findings.append(workbook.finding(rule, accepted))
     errors = [one for one in findings if one.severity == "error"]
     if errors:  # the form's other columns are for the record on the site
         raise SiteDataError(errors, fold_findings(errors, workbook.file))

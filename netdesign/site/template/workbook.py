@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from io import BytesIO
 from pathlib import Path
@@ -163,13 +163,12 @@ def _add_formats(workbook: Workbook) -> dict[str, Format]:
 def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> Worksheet:
     """Sheet of a plan: headings with notes, what cells accept, its lines."""
     sheet = book.workbook.add_worksheet(plan.name_in(book.language))
-    last_row = max(_PRINTED_ROWS, len(lines))
-    if plan in (PROJECT, RANGES):
-        last_row = len(lines)
+    plan = replace(plan, fields=tuple(one for one in plan.fields if one.is_offered))
+    last_row = len(lines) if plan.items else max(_PRINTED_ROWS, len(lines))
     _set_up_page(sheet, book, plan, last_row)
     headings = [field.heading_for(book.language) for field in plan.fields]
     widths = [
-        _TEXT_WIDTH if field.kind == "text" else _fit_words(heading)
+        _TEXT_WIDTH if field.kind in ("text", "date") else _fit_words(heading)
         for field, heading in zip(plan.fields, headings, strict=True)
     ]
     lines_high = max(map(count_lines, headings, widths))
@@ -185,9 +184,9 @@ def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> Worksheet:
             sheet.write_blank(row, column, None, _choose_format(field, book))
     for row, line in enumerate(lines, start=1):
         _write_line(sheet, book, plan, row, line)
-    if plan is PROJECT:
+    if plan.name == PROJECT.name:
         _offer_profiles(sheet, lines)
-    if plan is RANGES:
+    if plan.name == RANGES.name:
         _offer_quantities(sheet, book)
     return sheet
 
@@ -299,24 +298,6 @@ def _offer_quantities(sheet: Worksheet, book: Book) -> None:
     sheet.data_validation(1, 1, _LAST_ROW, 1, {"validate": "list", "source": units})
 
 
-if TYPE_CHECKING:
-    from xlsxwriter.format import Format
-    from xlsxwriter.workbook import Workbook
-    from xlsxwriter.worksheet import Worksheet
-
-# Symbols of the fields of sheet Nets, in drawing and table.
-SYMBOLS: Mapping[str, str] = {
-    "slope_angle": "ψ",
-    "snow_thickness": "d",
-    "snow_height": "H",
-    "upslope_length": "L",
-    "net_height": "Dₖ",
-    "post_tilt": "δ",
-    "uphill_anchor_distance": "e₁",
-    "downhill_anchor_distance": "e₂",
-    "inclination": "θ",
-}
-
 _LINE = 15.5  # height of a line of text [pt]
 _WIDTHS = (9, 28, 16, 19, 46)  # symbol, quantity, unit, range, meaning
 _PICTURE_ROW, _PICTURE_ROWS = 5, 25
@@ -373,16 +354,9 @@ def _read_picture(language: Language) -> bytes:
 
 
 def describe_accepted(field: Field, language: Language) -> str:
-    """Accepted content of a cell, as a phrase: bounds with their unit, or words."""
-    if field.words:
-        words = (render(field.name_word(word), language) for word in field.words)
-        return ", ".join(words)
-    low, high = field.bounds
-    if low == high:
-        return ""
-    between = {"en": "to", "fr": "à", "de": "bis"}[language]
-    ends = (set_marks(f"{end:.10g}", language) for end in (low, high))
-    return f" {between} ".join(ends) + f" {field.unit}".rstrip(" -")
+    """Accepted content of a cell, as a phrase; empty where anything is."""
+    is_open = not field.words and field.bounds[0] == field.bounds[1]
+    return "" if is_open else render(field.accepted, language)
 
 
 def describe_field(field: Field, language: Language) -> str:
@@ -415,8 +389,7 @@ def _write_quantities(sheet: Worksheet, workbook: Workbook, language: Language) 
     for column, key in enumerate(headings):
         sheet.write_string(row, column, texts[key], head)
     fields = [field for field in NETS.fields if not field.refers_to]
-    fields += [field for field in USUAL_QUANTITIES if field.key not in SYMBOLS]
-    fields += [field for field in USUAL_QUANTITIES if field.key in SYMBOLS]
+    fields += sorted(USUAL_QUANTITIES, key=lambda field: bool(field.symbol))
     for number, field in enumerate(fields, start=row + 1):
         _write_quantity(sheet, number, field, language, symbol, cell)
 
@@ -429,7 +402,7 @@ def _write_quantity(
     symbol: Format,
     cell: Format,
 ) -> None:
-    sheet.write_string(row, 0, SYMBOLS.get(field.key, ""), symbol)
+    sheet.write_string(row, 0, field.symbol, symbol)
     accepted = describe_accepted(field, language)
     note = field.notes[language]
     texts = (field.label_in(language), ", ".join(field.units), accepted, note)

@@ -179,9 +179,7 @@ def test_a_percentage_typed_elsewhere_is_a_finding(tmp_path, name, column, field
         read_site(write_csv(tmp_path / "site.csv", sheets))
     (finding,) = (one for one in caught.value.findings if one.severity == "error")
     assert finding.text == text
-    assert (
-        str(finding.rule) == f"is a percentage, the unit of the column is {field.unit}"
-    )
+    assert str(finding.rule) == f"is in %, the unit of the column is {field.unit}"
 
 
 def cell_of_ods(value, shown, kind="float"):

@@ -6,7 +6,7 @@
 from pathlib import Path
 
 import netdesign
-from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.all_tables import PROJECT_ITEMS, SHEETS
 
 USAGE = Path(netdesign.__file__).parent / "USAGE.md"
 HEAD = (
@@ -17,7 +17,8 @@ HEAD = (
 
 def list_columns(plan):
     """Columns of a sheet and what its lines may name, which may be left empty."""
-    return [one for one in (*plan.fields, *plan.items) if one.empty]
+    known = (*plan.fields, *(PROJECT_ITEMS if plan.name == "Project" else plan.items))
+    return [one for one in known if one.empty]
 
 
 def build_table():

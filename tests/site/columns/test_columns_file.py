@@ -1,8 +1,8 @@
-"""columns.toml: what it says is known to the program, and slips in it are refused."""
+"""columns.toml: what it says is known to the program, and names what there is."""
 
-import copy
 import math
 import tomllib
+from typing import get_args
 
 import pytest
 
@@ -12,9 +12,8 @@ from netdesign.resistance.products import find_product
 from netdesign.site.columns.all_tables import (
     SHEETS,
     load_file,
-    read_fields,
-    read_plan,
 )
+from netdesign.site.columns.fields import Kind
 from netdesign.site.columns.unit_names import KNOWN_UNITS
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.axis import LEAST_AXIS, MOST_AXIS
@@ -127,36 +126,19 @@ def test_a_range_has_the_units_bounds_and_usual_numbers_of_its_column():
             assert not one.beside
 
 
-# A slip in the file: what is set, and what the refusal names
-@pytest.mark.parametrize(
-    ("table", "key", "slip", "told"),
-    [
-        ("Nets", "slack", {"bonds": [0, 1]}, "Nets.slack: unknown bonds"),
-        ("Nets", "slack", {"label": "slack"}, "Nets.slack: unknown label"),
-        ("Nets", "slack", {"units": "shares"}, "Nets.slack: no shares among length"),
-        ("Nets", "slack", {"kind": "real"}, "Nets.slack: no kind real"),
-        ("Nets", "slack", {"empty": "nothing"}, "Nets.slack: no nothing among"),
-        ("Nets", "slack", {"instead": ["tautness"]}, "Nets.slack: no tautness among"),
-        ("Nets", "slack", {"alternative_to": "tautness"}, "no tautness among"),
-        ("Nets", "slack", {"beside": [[1, 2, {"sag": 1}]]}, "no sag among"),
-        (
-            "Nets",
-            "slack",
-            {"bounds": [0.3, 0.0]},
-            "Nets.slack: bounds from 0.3 down to 0.0",
-        ),
-        ("Nets", "slack", {"bounds": [0.3]}, "Nets.slack: bounds "),
-        ("quantities", "slack", {"column": "sag"}, "quantities.slack: no sag among"),
-        ("Nets", "post", {"refers_to": "Masts"}, "Nets.post: no Masts among Project"),
-        ("sheets", "Nets", {"columns": []}, "sheets.Nets: unknown columns"),
-        ("sheets", "Nets", {"one_of": ["size"]}, "sheets.Nets: no size among id"),
-    ],
-)
-def test_a_slip_is_refused_by_its_place(table, key, slip, told):
-    data = copy.deepcopy(dict(load_file("columns")))
-    data[table][key] |= slip
-    with pytest.raises(ValueError, match=told):
-        read_plan(data, key) if table == "sheets" else read_fields(data, table)
+def test_what_a_column_names_is_there():
+    """Other columns, kinds, sheets; an unknown key, unit or statement is an error."""
+    for plan in SHEETS:
+        keys = {one.key for one in plan.fields}
+        assert keys.issuperset((*plan.one_of, *plan.site_wide))
+        for one in plan.fields:
+            beside = [key for usual in one.beside for key in usual.powers]
+            named = {*beside, *one.instead, *one.not_beside, one.alternative_to}
+            named |= {*one.computed_from, *one.computed_with}
+            assert named - {""} <= keys
+            assert one.kind in get_args(Kind)
+            assert one.refers_to in ("", *PLANS)
+            assert one.bounds[0] <= one.bounds[1]
 
 
 def test_a_column_that_stands_twice_is_refused():

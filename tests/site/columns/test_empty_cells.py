@@ -3,7 +3,7 @@
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.all_tables import PROJECT_ITEMS, SHEETS
 from netdesign.site.reader import read_site
 from tests.site.columns.empty_cells import (
     USAGE,
@@ -20,8 +20,10 @@ def test_the_table_says_what_the_columns_say():
 
 @pytest.mark.parametrize("plan", SHEETS, ids=[plan.name for plan in SHEETS])
 def test_every_optional_column_stands_in_the_table_once(plan):
-    optional = [one for one in plan.fields if not one.required or one.instead]
-    assert list_columns(plan) == [*optional, *plan.items]
+    offered = [one for one in plan.fields if one.is_offered]
+    optional = [one for one in offered if not one.required or one.instead]
+    items = PROJECT_ITEMS if plan.items[:1] == PROJECT_ITEMS[:1] else plan.items
+    assert list_columns(plan) == [*optional, *items]
     lines = build_table().splitlines()
     told = "; ".join(
         one.split(" | ")[1] for one in lines if one[2:].startswith(f"{plan.name} |")

@@ -13,14 +13,14 @@ from netdesign.site.columns.all_tables import (
     ENDS,
     NETS,
     POSTS,
-    RANGES_AS_TYPED,
+    RANGES,
     ROPES,
     SNOW,
 )
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.tables import find_table, read_rows
 
-PLANS = (NETS, RANGES_AS_TYPED, SNOW, ANCHORS, ROPES, POSTS, ENDS)
+PLANS = (NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, ENDS)
 FACTORS = {
     "times 10": 10.0,
     "times 100": 100.0,
@@ -48,7 +48,7 @@ def list_numbers(path):
         found = {}
         for number, line in zip(table.rows, read_rows(table, []), strict=True):
             for key, reading in line.items():
-                is_end = plan is RANGES_AS_TYPED and key in ("low", "high")
+                is_end = plan is RANGES and key in ("low", "high")
                 if reading.cell is None or reading.cell.is_blank:
                     continue
                 if is_end or isinstance(reading.value, float):

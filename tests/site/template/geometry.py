@@ -12,9 +12,9 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from netdesign.site.columns.all_tables import load_file
+from netdesign.site.columns.all_tables import NETS, USUAL_QUANTITIES, load_file
 from netdesign.site.template import workbook
-from netdesign.site.template.workbook import SYMBOLS, name_picture
+from netdesign.site.template.workbook import name_picture
 from netdesign.words.catalogue import Language
 from netdesign.words.numerals import LANGUAGES
 
@@ -25,6 +25,9 @@ _INK, _SOFT, _ACCENT, _SNOW = "#1b1e22", "#596069", "#b23a1e", "#e6edf4"
 _DPI = 200
 _COLOURS = 48
 _SIZE_IN = (7.36, 5.4)
+SYMBOLS = {
+    one.key: one.symbol for one in (*NETS.fields, *USUAL_QUANTITIES) if one.symbol
+}
 
 # Of the section that is drawn; chosen so that nothing covers anything else.
 _SLOPE = math.radians(33)

@@ -15,13 +15,12 @@ from netdesign.site.model import LIFTED_MODE
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
 from netdesign.site.template.workbook import (
-    SYMBOLS,
     _read_picture,
     load_example,
     write_site_workbook,
 )
 from netdesign.words.catalogue import LANGUAGES
-from tests.site.template.geometry import draw_geometry
+from tests.site.template.geometry import SYMBOLS, draw_geometry
 
 
 @pytest.fixture(scope="module")
