@@ -7,15 +7,16 @@ import io
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from netdesign.checks import Standard
-from netdesign.checks.routes import find_proof_factor
+from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.outcome import StudyError, TerrainError
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.anchor_distance import Bore
-from netdesign.study.bores import place_anchors
+from netdesign.structure.members import Member
+from netdesign.study.bores import place_anchors, place_end_anchors
 from netdesign.study.pulls import build_pull_again
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.sideways import place_row
@@ -103,7 +104,7 @@ def map_verdicts(
     study, site : Study and Site
         Of one workbook.
     standard : Standard
-        Profile of the study, for proof loads.
+        Profile of the study, for the loads of acceptance tests.
     places : mapping of str to MeasuredPlace
         Rows by their names.
     language : str
@@ -112,8 +113,10 @@ def map_verdicts(
     Raises
     ------
     StudyError
-        If a row of the study has no place, or another number of posts.
+        If it is a what-if, or a row of the study has no place.
     """
+    if study.what_if:
+        raise StudyError(say("terrain.what_if"))
     by_id = {row.id: row for row in site.rows}
     missing = tuple(row.id for row in study.rows if row.id not in places)
     if missing:
@@ -122,7 +125,7 @@ def map_verdicts(
     for row in study.rows:
         place, given = places[row.id], by_id[row.id]
         found.append(_map_row(row, place, language))
-        found += _map_posts(row, place)
+        found += _map_posts(row, given, place, language)
         found += _map_anchors(row, given, standard, place, language)
     return found
 
@@ -139,18 +142,27 @@ def _map_row(row: RowStudy, place: MeasuredPlace, language: Language) -> Feature
     return {**place.feature, "properties": properties}
 
 
-def _map_posts(row: RowStudy, place: MeasuredPlace) -> Iterator[Feature]:
+def _map_posts(
+    row: RowStudy, given: NetRow, place: MeasuredPlace, language: Language
+) -> Iterator[Feature]:
+    """Feet of the net and of the posts, with the verdict of each support."""
+    middle = 0.5 * sum(_list_inclinations(row))
+    base = place_row(given, middle).post_base[0]
     for number, post in enumerate(place.posts, 1):
-        checks = _list_checks(row, place, number)
-        yield _point(
-            post,
-            {
-                "kind": "post",
-                "row": row.id,
-                "post": number,
-                "verdict": _find_worst(checks),
-            },
-        )
+        verdict = _find_worst(_list_checks(row, place, number))
+        for kind, x in (("net_foot", 0.0), ("post", base)):
+            bore = Bore(start=(x, 0.0, 0.0), direction=(0.0, -1.0, 0.0), length=None)
+            head, _, _ = turn_to_map(bore, post, place, number)
+            yield _point(
+                head,
+                {
+                    "kind": kind,
+                    "row": row.id,
+                    "post": number,
+                    "part": render(say(f"terrain.part_{kind}"), language),
+                    "verdict": verdict,
+                },
+            )
 
 
 def _list_checks(row: RowStudy, place: MeasuredPlace, post: int) -> list[CheckRecord]:
@@ -174,46 +186,71 @@ def _map_anchors(
     place: MeasuredPlace,
     language: Language,
 ) -> Iterator[Feature]:
-    """Heads of the anchors of each post, with direction and design force."""
+    """Heads of all anchors of a row, with direction and design force."""
     middle = 0.5 * sum(_list_inclinations(row))
     points = place_row(given, middle)
-    factor = find_proof_factor(standard)
     pulls = [build_pull_again(given, one, 0.0) for one in row.pulls]
-    for number, post in enumerate(place.posts, 1):
-        checks = _list_checks(row, place, number)
-        for anchor, bore in place_anchors(given, points, pulls):
-            if number == len(place.posts) and bore.start[2] > _HALF * _span(given):
-                continue  # of the bay behind the last post
-            own = [one for one in checks if one.member == anchor]
-            forces = [one.read_band("E_d")[1] for one in own if one.mode == "pull_out"]
-            design = max((one for one in forces if one is not None), default=None)
-            proof = None if design is None or factor is None else factor * design
-            types = [one.resistance_type for one in own if one.resistance_type]
-            head, azimuth, dip = turn_to_map(bore, post, place, number)
-            yield _point(
-                head,
-                {
-                    "kind": "anchor",
-                    "row": row.id,
-                    "post": number,
-                    "part": render(name_member(anchor), language),
-                    "type": types[0] if types else "",
-                    "azimuth_deg": round(azimuth, 1),
-                    "dip_deg": round(dip, 1),
-                    "length_m": bore.length,
-                    "design_kN": None if design is None else round(design, 1),
-                    "proof_kN": None if proof is None else round(proof, 1),
-                    "net_inclination_deg": round(math.degrees(middle), 1),
-                    "verdict": _find_worst(own),
-                },
-            )
+    found = list(place_anchors(given, points, pulls))
+    outer = list(place_end_anchors(given, points, pulls))
+    last = len(place.posts)
+    for number in range(1, last + 1):
+        inside = (one for one in found if not _is_beyond(*one, number, last))
+        at_end = [*outer] if number == 1 else []
+        if number == last:  # there the bay after the post is outside, too
+            mirrored = ((part, _mirror(bore)) for part, bore in outer)
+            at_end = [one for one in mirrored if one[0] not in tuple(Member)]
+        for part, bore in (*inside, *at_end):
+            checks = _list_checks(row, place, number)
+            own = [one for one in checks if one.member == part]
+            yield _map_anchor(row, standard, place, language, number, (part, bore), own)
 
 
-_HALF = 0.4  # of a bay: beyond it an anchor belongs to the bay, not to the post
+def _is_beyond(part: str, bore: Bore, number: int, last: int) -> bool:
+    """A foot anchor in mid-panel behind the last post, where no panel is."""
+    is_mid = part == Member.FOOT_ANCHOR and bore.start[2] != 0.0
+    return is_mid and number == last
 
 
-def _span(row: NetRow) -> float:
-    return row.layout.post_spacing
+def _mirror(bore: Bore) -> Bore:
+    """The same at the other end of the row."""
+    x, y, z = bore.start
+    along, out, aside = bore.direction
+    return replace(bore, start=(x, y, -z), direction=(along, out, -aside))
+
+
+def _map_anchor(
+    row: RowStudy,
+    standard: Standard,
+    place: MeasuredPlace,
+    language: Language,
+    number: int,
+    anchor: tuple[str, Bore],
+    checks: Sequence[CheckRecord],
+) -> Feature:
+    part, bore = anchor
+    forces = [one.read_band("E_d")[1] for one in checks if one.mode == "pull_out"]
+    design = max((one for one in forces if one is not None), default=None)
+    factor = standard.find(ACCEPTANCE_TEST)
+    proof = None if design is None or factor is None else factor.value * design
+    types = [one.resistance_type for one in checks if one.resistance_type]
+    head, azimuth, dip = turn_to_map(bore, place.posts[number - 1], place, number)
+    return _point(
+        head,
+        {
+            "kind": "anchor",
+            "row": row.id,
+            "post": number,
+            "part": render(name_member(part), language),
+            "type": types[0] if types else "",
+            "azimuth_deg": round(azimuth, 1),
+            "dip_deg": round(dip, 1),
+            "is_rising": dip < 0.0,
+            "length_m": bore.length,
+            "design_kN": None if design is None else round(design, 1),
+            "proof_kN": None if proof is None else round(proof, 1),
+            "verdict": _find_worst(checks),
+        },
+    )
 
 
 def _list_inclinations(row: RowStudy) -> tuple[float, float]:
@@ -297,7 +334,7 @@ def _write_setting_out(features: Sequence[Feature]) -> str:
     table.writerow(SETTING_OUT)
     for one in features:
         properties = one["properties"]
-        if properties["kind"] not in ("post", "anchor"):
+        if properties["kind"] == "net row":
             continue
         places = dict(
             zip(
@@ -306,7 +343,7 @@ def _write_setting_out(features: Sequence[Feature]) -> str:
                 strict=True,
             )
         )
-        values = {"part": properties["kind"], **properties, **places}
+        values = {**properties, **places}
         table.writerow(
             ["" if values.get(k) is None else values[k] for k in SETTING_OUT]
         )

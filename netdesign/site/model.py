@@ -183,6 +183,15 @@ class Resistance(GivenResistance):
     wear: Wear | None = None  # of steel that corrodes
 
 
+def _name_column(key: str) -> Message:
+    """Name of a column, with its sheet unless it is that of the net rows."""
+    sheet = key.partition(".")[0]
+    named = say(f"column.{key}")
+    if sheet == "Nets":
+        return named
+    return say("check.on_sheet", name=named, sheet=say(f"sheet.{sheet}"))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowPanel:
     """The panel between two posts of a row.
@@ -227,7 +236,7 @@ class RowEnd:
             "end_guy_angle": self.guy_angle,
         }
         lacking = (key for key, value in said.items() if value is None)
-        return tuple(say(f"column.Ends.{key}") for key in lacking)
+        return tuple(_name_column(f"Ends.{key}") for key in lacking)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -349,7 +358,15 @@ class NetRow:
                 "Anchors.least_cover": 1.0 if kind.soil else kind.least_cover,
                 "Anchors.least_edge": kind.least_edge,
             }
-        return tuple(say(f"column.{key}") for key, value in said.items() if not value)
+        return tuple(_name_column(key) for key, value in said.items() if not value)
+
+    def list_unsaid_bore(
+        self, anchor: Member, position: Position
+    ) -> tuple[Message, ...]:
+        """Name of an anchor's drilled length, where nobody gives it."""
+        kind = self.find_anchor_type(anchor, position)
+        is_said = kind is not None and kind.drilled is not None
+        return () if is_said else (_name_column("Anchors.drilled_length"),)
 
     def list_unsaid_wear(self, given: Resistance) -> tuple[Message, ...]:
         """Names of what is not given of the corrosion of a member's steel."""
@@ -365,7 +382,7 @@ class NetRow:
             said |= {"Anchors.soil": wear.soil, "Anchors.bar_diameter": is_known}
         elif wear.protection or sheet == "Ropes":
             said[f"{sheet}.protected_years"] = wear.protected_years
-        return tuple(say(f"column.{key}") for key, value in said.items() if not value)
+        return tuple(_name_column(key) for key, value in said.items() if not value)
 
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""

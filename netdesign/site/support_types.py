@@ -141,7 +141,7 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
         ),
         *(one for one in bent if one is not None),
         *(
-            _hold_by_ground(row[one], one, kind)
+            _hold_by_ground(row[one], one, kind, types)
             for one, kind in anchors.items()
             if kind.soil
         ),
@@ -311,10 +311,13 @@ def _bend_anchor(
     return replace(_open(named, member, "bending", anchor), wear=wear)
 
 
-def _hold_by_ground(named: Reading, member: Member, anchor: AnchorType) -> Resistance:
+def _hold_by_ground(
+    named: Reading, member: Member, anchor: AnchorType, types: Types
+) -> Resistance:
     """Resistance of the ground that an anchor may pull out with itself."""
     around = GroundAround(soil=anchor.soil, anchor=anchor) if anchor.soil else None
-    return _open(named, member, "wedge", around)
+    place = types["Anchors"][named.word]["soil_cohesion"].place
+    return _open(named, member, "wedge", around, source=place)
 
 
 def _open(

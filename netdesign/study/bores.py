@@ -63,7 +63,7 @@ def _measure_least(
 ) -> float:
     """Least distance of anchors of the row, and to those of a row above alike [m]."""
     bores = list(list_bores(row, points, pulls))
-    of_end = _list_of_end(row, points)
+    of_end = [bore for _, bore in place_end_anchors(row, points, pulls)]
     upslope = row.upslope_length
     if "upslope_length" in ranges.further:
         upslope = ranges["upslope_length"].low
@@ -73,8 +73,18 @@ def _measure_least(
     return min(least, find_distance_to_row_above(bores, upslope))
 
 
-def _list_of_end(row: NetRow, points: SupportPoints) -> Iterator[Bore]:
-    """Lateral anchor beside the first post's foot, and anchor of its end guy."""
+def place_end_anchors(
+    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
+) -> Iterator[tuple[str, Bore]]:
+    """Anchors beyond the first post: of its outer guys, lateral, of the end guy.
+
+    Along the row they lie before that post. Those whose places nobody gives are none.
+    """
+    if row.guys.count > 1 and row.guys.are_shared:
+        for anchor, bore in place_anchors(row, points, pulls):
+            if anchor != Member.FOOT_ANCHOR:
+                x, y, z = bore.start
+                yield anchor, replace(bore, start=(x, y, -z))
     end = row.row_end
     if end is None or end.lateral_distance is None or end.lateral_axis is None:
         return
@@ -86,7 +96,8 @@ def _list_of_end(row: NetRow, points: SupportPoints) -> Iterator[Bore]:
         (EndMember.END_GUY_ANCHOR, (points.head[0], 0.0, -reach), guy),
     ):
         direction = (0.0, -math.sin(axis), -math.cos(axis))
-        yield Bore(start=start, direction=direction, length=drilled.get(member))
+        bore = Bore(start=start, direction=direction, length=drilled.get(member))
+        yield member, bore
 
 
 def check_cover(

@@ -160,7 +160,10 @@ def _find_ground_resistance(
     if not pull.is_axis_known:
         return replace(given, lack=say("bending.no_axis"))
     depths, width = around.anchor.list_depths(pull.axis), _find_ground_width(row, pull)
-    if not depths or not min(depths) > 0.0:
+    if not depths:
+        names = row.list_unsaid_bore(pull.anchor, pull.position)
+        return replace(given, lack=say("check.unsaid", names=names))
+    if not min(depths) > 0.0:
         return replace(given, lack=say("wedge.no_depth"))
     is_pulled_up = pull.anchor == Member.DOWNHILL_ANCHOR
     found = {

@@ -16,7 +16,7 @@ from typing import Literal
 
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
-from netdesign.site.model import BaseFriction
+from netdesign.site.model import BaseFriction, GroundAround
 from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
@@ -52,9 +52,9 @@ def list_remedies(
     What needs a solve is looked for where there is a ``check``.
     """
     if not _is_worth_telling(task, one) or isinstance(
-        one.given.dimensions, BaseFriction
+        one.given.dimensions, BaseFriction | GroundAround
     ):
-        return []  # sliding is in proportion to what presses the base
+        return []  # sliding goes with what presses the base; a ground is as it is
     changes = _list_resistance_remedies(task, one)
     used = one.result.find("μ")
     if used is None or used.high is None:
