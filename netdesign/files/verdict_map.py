@@ -200,9 +200,16 @@ def _map_anchors(
             mirrored = ((part, _mirror(bore)) for part, bore in outer)
             at_end = [one for one in mirrored if one[0] not in tuple(Member)]
         for part, bore in (*inside, *at_end):
-            checks = _list_checks(row, place, number)
+            is_last_bay = _is_shared(given, part, bore) and number == last - 1
+            checks = _list_checks(row, place, last if is_last_bay else number)
             own = [one for one in checks if one.member == part]
             yield _map_anchor(row, standard, place, language, number, (part, bore), own)
+
+
+def _is_shared(row: NetRow, part: str, bore: Bore) -> bool:
+    """An anchor of the bay behind a post, which holds a guy of the next post, too."""
+    is_of_guy = part in (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+    return is_of_guy and bool(row.guys.are_shared) and bore.start[2] > 0.0
 
 
 def _is_beyond(part: str, bore: Bore, number: int, last: int) -> bool:
