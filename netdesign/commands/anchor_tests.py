@@ -84,10 +84,12 @@ def anchor_tests(
     from netdesign.checks import load_standard
     from netdesign.site.template.form import read_form
 
-    rows = read_form(file)
+    rows, still_open = read_form(file)
     profile = load_standard(standard or DEFAULT_STANDARD)
     for told in _evaluate(rows, profile):
         tell(told, language)
+    if still_open:
+        tell(say("plan.open_tests", count=still_open), language)
     for line in _list_lines(rows, language):
         click.echo(line)
 

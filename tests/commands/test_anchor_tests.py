@@ -72,11 +72,24 @@ def test_as_many_held_tests_as_planned_prove_the_anchor(tmp_path, planned):
 def test_a_form_is_read_as_it_was_filled_in(tmp_path, language):
     path = tmp_path / "form.xlsx"
     fill(path, language)
-    rows = read_form(path)
+    rows, still_open = read_form(path)
+    assert still_open == 0
     assert [row["force"].number for row in rows] == list(LOADS)
     assert {row["result"].word for row in rows} == {"held"}
     assert {row["ground"].word for row in rows} == {"till"}
     assert {row["proof_load"].number for row in rows} == {300.0}
+
+
+def test_a_form_may_be_filled_in_by_and_by(tmp_path, call):
+    book, sheet = fill(tmp_path / "form.xlsx", "en")
+    for cell in ("C3", "D3"):
+        sheet[cell] = None
+    book.save(tmp_path / "form.xlsx")
+    rows, still_open = read_form(tmp_path / "form.xlsx")
+    assert (len(rows), still_open) == (len(LOADS) - 1, 1)
+    ended = call("tests", "form.xlsx")
+    assert ended.code == 0
+    assert "not filled in yet: 1" in ended.out
 
 
 def test_a_form_tells_resistance_acceptance_and_lines(tmp_path, call):

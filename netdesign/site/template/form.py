@@ -12,6 +12,7 @@ from netdesign.site.cells.cells import Answers
 from netdesign.site.cells.findings import fold_findings
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import TESTS
+from netdesign.site.headings import Table
 from netdesign.site.mapping import is_meant
 from netdesign.site.readings import Row
 from netdesign.site.tables import find_table, read_rows
@@ -27,6 +28,7 @@ _FORM = replace(
         for one in TESTS.fields
     ),
 )
+_FILLED = ("force", "result", "displacement")  # on the site
 _WIDTH = 17
 
 
@@ -76,8 +78,8 @@ def build_form(
     return content.getvalue()
 
 
-def read_form(path: Path) -> list[Row]:
-    """Tests of a form that is filled in.
+def read_form(path: Path) -> tuple[list[Row], int]:
+    """Tests of a form that are filled in, and the number of those still to be done.
 
     Raises
     ------
@@ -87,6 +89,10 @@ def read_form(path: Path) -> list[Row]:
     workbook = read_workbook(path, lambda name: is_meant(name, TESTS, Answers()))
     findings = list(workbook.remarks)
     table = find_table(workbook, _FORM, findings)
+    open_rows = [row for row in table.rows if _is_open(table, row)] if table else []
+    if table is not None:
+        done = [row for row in table.rows if row not in open_rows]
+        table = replace(table, rows=tuple(done))
     rows = read_rows(table, findings)
     if not rows:
         rule, accepted = say("plan.no_test"), say("plan.form_wanted")
@@ -94,4 +100,10 @@ def read_form(path: Path) -> list[Row]:
     errors = [one for one in findings if one.severity == "error"]
     if errors:  # the form's other columns are for the record on the site
         raise SiteDataError(errors, fold_findings(errors, workbook.file))
-    return rows
+    return rows, len(open_rows)
+
+
+def _is_open(table: Table, row: int) -> bool:
+    """Nothing stands yet in the cells that the site fills in."""
+    filled = [table.columns[key].number for key in _FILLED if key in table.columns]
+    return all(table.sheet.cell(row, column).is_blank for column in filled)
