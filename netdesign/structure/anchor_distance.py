@@ -44,16 +44,18 @@ def find_least_distance(bores: Sequence[Bore]) -> float:
     return min((measure_distance(one, other) for one, other in pairs), default=math.inf)
 
 
-def find_distance_to_row_above(bores: Sequence[Bore], upslope: float) -> float:
-    """Least distance to the anchors of a row above that is built alike [m].
+def find_distance_to_row_above(
+    bores: Sequence[Bore], alike: Sequence[Bore], upslope: float
+) -> float:
+    """Least distance to anchors of a row above that is built alike [m].
 
     Nobody knows how the two rows stand along each other: seen along the row, where
     distances are least. Theory: structure/THEORY.md, eq. (S21).
 
     Parameters
     ----------
-    bores : sequence of Bore
-        Anchors of the row.
+    bores, alike : sequence of Bore
+        Anchors of the row; and those that the row above has as well.
     upslope : float
         Distance of the row above, along the slope [m].
 
@@ -61,13 +63,12 @@ def find_distance_to_row_above(bores: Sequence[Bore], upslope: float) -> float:
     -----------
     tests/verification/test_anchor_distance.py
     """
-    flat = {_flatten(one) for one in bores}
-    above = [
-        replace(one, start=(one.start[0] - upslope, *one.start[1:])) for one in flat
+    here, above = ({_flatten(one) for one in found} for found in (bores, alike))
+    moved = [
+        replace(one, start=(one.start[0] - upslope, *one.start[1:])) for one in above
     ]
-    return min(
-        (measure_distance(*pair) for pair in product(flat, above)), default=math.inf
-    )
+    pairs = product(here, moved)
+    return min((measure_distance(*pair) for pair in pairs), default=math.inf)
 
 
 def _flatten(bore: Bore) -> Bore:

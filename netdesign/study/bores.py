@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import chain, product
 
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import conclude, not_proven
@@ -16,6 +17,7 @@ from netdesign.structure.anchor_distance import (
     Bore,
     find_distance_to_row_above,
     find_least_distance,
+    measure_distance,
 )
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import EndMember, Member
@@ -49,28 +51,49 @@ def check_anchor_distance(
     gap = gap or _find_lack(row, pulls)
     ends = ranges["inclination"]
     places = [place_row(row, one) for one in (ends.low, ends.high)]
-    least = min(_measure_least(row, ranges, one, pulls) for one in places)
-    told = {"least": least, "limit": limit.value}
-    reason = say("bores.apart", **told)
-    if gap is not None or not least >= limit.value:
-        reason = not_proven(gap or say("bores.near", **told))
+    pairs = (_list_nearest(row, ranges, place, pulls) for place in places)
+    least, anchors = min(chain(*pairs), key=lambda one: one[0])
+    is_apart, most = least >= limit.value, limit.value
+    key = "bores.apart" if is_apart else "bores.near"
+    reason = say(key, least=least, limit=most, anchors=anchors)
+    if gap is not None or not is_apart:
+        reason = not_proven(gap or reason)
     verdict = Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN
     return conclude("anchors", verdict, reason, limit)
 
 
-def _measure_least(
+def _list_nearest(
     row: NetRow, ranges: Ranges, points: SupportPoints, pulls: Sequence[AnchorPull]
-) -> float:
-    """Least distance of anchors of the row, and to those of a row above alike [m]."""
-    bores = list(list_bores(row, points, pulls))
-    of_end = [bore for _, bore in place_end_anchors(row, points, pulls)]
+) -> Iterator[tuple[float, tuple[Message, Message]]]:
+    """Least distances of two kinds of anchors [m], in the row and to a row above."""
     upslope = row.upslope_length
     if "upslope_length" in ranges.further:
         upslope = ranges["upslope_length"].low
-    least = find_least_distance([*bores, *of_end])
-    if not row.has_row_above:
-        return least
-    return min(least, find_distance_to_row_above(bores, upslope))
+    of_row: dict[str, list[Bore]] = {}
+    for anchor, bore in _list_beside(row, points, pulls):
+        of_row.setdefault(anchor, []).append(bore)
+    for (one, bores), (other, others) in product(of_row.items(), repeat=2):
+        named = (name_member(one), name_member(other))
+        if one == other:
+            yield find_least_distance(bores), named
+        elif one < other:
+            distances = (measure_distance(*pair) for pair in product(bores, others))
+            yield min(distances), named
+        if row.has_row_above:
+            there = say("bores.of_row_above", anchor=named[1])
+            yield find_distance_to_row_above(bores, others, upslope), (named[0], there)
+
+
+def _list_beside(
+    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
+) -> Iterator[tuple[str, Bore]]:
+    """Anchors of some posts beside each other, from the row's end on."""
+    for anchor, bore in place_anchors(row, points, pulls):
+        x, y, z = bore.start
+        for post in range(_POSTS):
+            place = (x, y, z + post * row.layout.post_spacing)
+            yield anchor, replace(bore, start=place)
+    yield from place_end_anchors(row, points, pulls)
 
 
 def place_end_anchors(
@@ -148,16 +171,6 @@ def _find_lack(row: NetRow, pulls: Sequence[AnchorPull]) -> Message | None:
         return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
     names = row.row_end.list_unsaid_places() if row.row_end else ()
     return say("check.unsaid", names=names) if names else None
-
-
-def list_bores(
-    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
-) -> Iterator[Bore]:
-    """Anchors of some posts beside each other, and of the panels between them."""
-    for _, bore in place_anchors(row, points, pulls):
-        x, y, z = bore.start
-        for post in range(_POSTS):
-            yield replace(bore, start=(x, y, z + post * row.layout.post_spacing))
 
 
 def place_anchors(

@@ -74,11 +74,12 @@ def test_anchors_of_a_row_above_come_towards_those_of_the_row():
     uphill = a_bore((-3.7, 0.0, 1.1), (-1.0, -1.0, 0.0))
     downhill = a_bore((4.9, 0.0, 1.1), (1.0, -1.0, 0.0))
     apart = 17.3 - 3.7 - 4.9 - 2.0 * 5.0 / math.sqrt(2.0)
-    found = find_distance_to_row_above([uphill, downhill], 17.3)
+    both = [uphill, downhill]
+    found = find_distance_to_row_above(both, both, 17.3)
     assert found == pytest.approx(apart)
     # 10 m apart they cross, wherever they stand along the row
     beside = a_bore((-3.7, 0.0, 9.2), (-1.0, -1.0, 0.0))
-    assert find_distance_to_row_above([beside, downhill], 10.0) == pytest.approx(0.0)
+    assert find_distance_to_row_above([beside], [downhill], 10.0) == pytest.approx(0.0)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -88,7 +89,7 @@ def test_seen_along_the_row_no_drawn_anchors_are_nearer(seed):
         a_bore(tuple(draw.uniform(-5, 5, 3)), tuple(draw.normal(size=3)))
         for _ in range(4)
     ]
-    least = find_distance_to_row_above(bores, 9.0)
+    least = find_distance_to_row_above(bores, bores, 9.0)
     for one in bores:
         for other in bores:
             x, y, z = other.start
