@@ -267,8 +267,12 @@ def _rate(
     """Largest utilisation of a cell's checks, at most 1; None if any does not pass.
 
     A check that is declared as proven elsewhere stays so; no other becomes one. A type
-    may bring checks of its own: a bar bends where a rope anchor turns.
+    may bring checks of its own: a bar bends where a rope anchor turns. One of whose
+    ground nobody says the strength is none in the place of one where somebody does.
     """
+    lost = set(ids) - {one.id for one in tried}
+    if any("wedge" in name for name in lost):
+        return None
     declared = {one.id for one in built if one.verdict is Verdict.DECLARED}
     places = {one.position for one in tried if one.id in ids}
     used = 0.0

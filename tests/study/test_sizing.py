@@ -156,6 +156,25 @@ def test_a_type_of_a_cell_for_all_rows_passes_in_all_of_them(tmp_path):
     assert found.used == max(one.utilisation_band[1] for one in checks)
 
 
+def test_no_type_takes_the_place_of_one_whose_ground_has_a_strength(tmp_path):
+    """A40-tested passes in R7, by a cover; the same ground is known to be weak."""
+    lines = copy.deepcopy(load_example())
+    for sheet, key in (("Nets", "id"), ("Ends", "row"), ("Declared", "row")):
+        lines[sheet] = [one for one in lines[sheet] if one[key] == "R7"]
+    for one in lines["Anchors"]:
+        if one["id"] == "A28-computed":
+            del one["least_cover"]
+            one |= {"soil_cohesion": 21, "soil_friction": 36, "soil_weight": 19.3}
+    for line, samples in zip(lines["Ranges"], (3, 3, 1), strict=True):
+        line["samples"] = samples
+    lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
+    write_lines(tmp_path / "site.xlsx", lines)
+    solved = solve(read_site(tmp_path / "site.xlsx"))
+    _, cells, _ = size((tmp_path / "site.xlsx", solved))
+    (foot,) = (one for one in cells if one.column == "foot_anchor")
+    assert (foot.was, foot.now) == ("A28-computed", "")
+
+
 def test_where_no_force_is_known_no_type_is_at_fault(tmp_path):
     path = tmp_path / "site.xlsx"
     lines = copy.deepcopy(load_example())
