@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, TypeVar
 
+from netdesign.calculation.steps import Step
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
@@ -43,11 +44,14 @@ _OF_CHECK = (
 _OF_STEPS = {
     "demand_low_kN": ("E_d", 0),
     "demand_high_kN": ("E_d", 2),
+    "utilisation_low": ("μ", 0),
+    "utilisation_high": ("μ", 2),
     "action_factor": ("γ_E", 1),
     "resistance_characteristic_kN": ("R_k", 1),
     "resistance_factor": ("γ_R", 1),
 }
 _TOLD = ("E_d", "γ_E", "R_k", "γ_R", "R_d", "μ")  # symbols of all of these
+_BANDED = ("E_d", "μ")  # whose ends are told, or follow
 _MOST_DIGITS = 17  # tell any two numbers apart
 _NOTHING = (None, "", "-")
 # In the order of the terminal.
@@ -58,6 +62,7 @@ _AREAS = (
 # What follows from a utilisation, or from a largest force, that is told beside it.
 _FOLLOWS = (
     *("diff_check.demand_kN", "diff_check.demand_low_kN", "diff_check.demand_high_kN"),
+    *("diff_check.utilisation_low", "diff_check.utilisation_high"),
     "diff.upper_bound",
 )
 # Names of what is told by its count alone.
@@ -484,10 +489,17 @@ def _keep_check_rest(check: CheckRecord) -> CheckRecord:
     told = dict.fromkeys(_OF_CHECK) | {"verdict": Verdict.PASS, "clause": ""}
     told |= {"resistance_basis": "", "resistance_type": "", "is_unbounded": False}
     steps = [
-        replace(one, value=None, low=None, high=None) if one.symbol in _TOLD else one
-        for one in check.steps
+        _keep_step_rest(one) if one.symbol in _TOLD else one for one in check.steps
     ]
     return replace(check, steps=steps, **told)  # type: ignore[arg-type]
+
+
+def _keep_step_rest(step: Step) -> Step:
+    """A step without its value; ends that differ from it stay if nobody tells them."""
+    if step.symbol in _BANDED:
+        return replace(step, value=None, low=None, high=None)
+    low, high = (None if one == step.value else one for one in (step.low, step.high))
+    return replace(step, value=None, low=low, high=high)
 
 
 def _show(old: Any, new: Any, words: Words) -> tuple[str, str]:

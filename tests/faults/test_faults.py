@@ -136,14 +136,14 @@ KILL_A_WORKER = """
 import os, signal
 import netdesign.solving.workers as w
 w._WORTH_A_POOL = 1
-feed = w.ProcessPool._feed
-def kill_one(pool, waiting):
-    w.ProcessPool._feed = feed  # once: the next call may find a pool that is broken
-    arrivals = feed(pool, waiting)
+spread = w.ProcessPool.spread
+def kill_one(pool, work, waiting):
+    w.ProcessPool.spread = spread  # once: the next call may find a pool that is broken
+    arrivals = spread(pool, work, waiting)
     yield next(arrivals)
     os.kill(next(iter(pool._pool._processes)), signal.SIGKILL)
     return (yield from arrivals)
-w.ProcessPool._feed = kill_one
+w.ProcessPool.spread = kill_one
 """
 
 

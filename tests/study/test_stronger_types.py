@@ -40,7 +40,7 @@ def test_whatever_is_known_of_grounds_no_type_of_another_one_is_offered(workbook
         ground = dice.choice(("till", "rock", ""))
         drawn = {f"Anchors!I{n}": dice.choice(("till", "rock", "")) for n in LINES}
         built = {f"Anchors!I{n}": dice.choice((ground, "")) for n in USED}
-        instead = drawn | built | {"Nets!AP2": ground}
+        instead = drawn | built | {"Nets!AQ2": ground}
         instead = {cell: one for cell, one in instead.items() if one != "till"}
         site = read_site(workbook, instead=instead or None)
         grounds = {one.type_id: one.ground for one in site.catalogue}

@@ -156,7 +156,7 @@ def move_down(inputs):
     ("detail", "language", "most"),
     [
         ("full", "en", 29),
-        pytest.param("full", "fr", 30, marks=pytest.mark.long),
+        pytest.param("full", "fr", 32, marks=pytest.mark.long),
         ("summary", "en", 3),
         pytest.param("summary", "de", 3, marks=pytest.mark.long),
     ],
