@@ -80,33 +80,9 @@ def derive_cells(
     grid : str
         Name of the grid's file, for the notes.
     """
-    slope, length = row.slope, row.upslope.length
-    mean = math.degrees(float(row.slopes.mean()))
-    end = say(f"terrain.end_{row.upslope.end}", row=row.upslope.row)
     cells = [
-        DerivedCell(
-            key="slope_angle",
-            value=round(math.degrees(_choose(slope, CARED_ANGLE)), 2),
-            note=say(
-                "terrain.of_slope",
-                grid=grid,
-                posts=len(row.posts),
-                low=math.degrees(slope.low),
-                high=math.degrees(slope.high),
-                mean=mean,
-            ),
-        ),
-        DerivedCell(
-            key="upslope_length",
-            value=round(_choose(length, CARED_LENGTH), 2),
-            note=say(
-                "terrain.of_length",
-                grid=grid,
-                low=length.low,
-                high=length.high,
-                end=end,
-            ),
-        ),
+        _derive_slope(row, grid),
+        *_derive_snow(row, grid),
         DerivedCell(
             key="altitude",
             value=round(float(row.posts[:, 2].max()), 1),
@@ -123,19 +99,46 @@ def derive_cells(
             note=say("terrain.of_row", grid=grid),
         ),
     ]
-    is_below = row.upslope.end == "row"
-    cells.append(
-        DerivedCell(
-            key="row_above",
-            value="alike" if is_below else "none",
-            note=say("terrain.of_row_above", grid=grid, end=end),
-        )
-    )
     gap = find_gap(row, rows)
     if gap is not None:
         note = say("terrain.of_gap", grid=grid)
         cells.append(DerivedCell(key="gap", value=round(gap, 2), note=note))
     return cells
+
+
+def _derive_slope(row: MeasuredRow, grid: str) -> DerivedCell:
+    slope = row.slope
+    return DerivedCell(
+        key="slope_angle",
+        value=round(math.degrees(_choose(slope, CARED_ANGLE)), 2),
+        note=say(
+            "terrain.of_slope",
+            grid=grid,
+            posts=len(row.posts),
+            low=math.degrees(slope.low),
+            high=math.degrees(slope.high),
+            mean=math.degrees(float(row.slopes.mean())),
+        ),
+    )
+
+
+def _derive_snow(row: MeasuredRow, grid: str) -> Iterator[DerivedCell]:
+    """Longest snow above any post; and whether a row stands above any of them."""
+    length = row.upslope.length
+    end = say(f"terrain.end_{row.upslope.end}", row=row.upslope.row)
+    yield DerivedCell(
+        key="upslope_length",
+        value=round(_choose(length, CARED_LENGTH), 2),
+        note=say(
+            "terrain.of_length", grid=grid, low=length.low, high=length.high, end=end
+        ),
+    )
+    is_below = any(one.end == "row" for one in row.ends)
+    yield DerivedCell(
+        key="row_above",
+        value="alike" if is_below else "none",
+        note=say("terrain.of_row_above", grid=grid, end=end),
+    )
 
 
 def _choose(band: Band, cared: float) -> float:

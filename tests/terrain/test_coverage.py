@@ -8,6 +8,7 @@ import pytest
 from netdesign.terrain.coverage import find_coverage, is_inside
 from netdesign.terrain.measure import measure_plan
 from netdesign.terrain.neighbours import find_gap, find_overlap
+from netdesign.terrain.site_lines import derive_cells
 from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
 
 PSI = math.radians(38.3)
@@ -65,3 +66,17 @@ def test_places_inside_a_ring_with_a_bay():
     shape = ring((0, 0), (4, 0), (4, 4), (2, 1), (0, 4))
     places = ring((1, 1), (2, 3), (3.5, 3), (5, 1), (2, 0.5))
     assert is_inside(places, shape).tolist() == [True, False, True, False, True]
+
+
+def test_a_row_above_some_posts_alone_is_one():
+    """The longest snow goes on beside it; the anchors of both may meet all the same."""
+    grid = build_grid(plane(PSI), size=160.0)
+    row = draw_line([(-15.0, -20.0), (15.0, -20.0)])
+    above = draw_line([(4.0, -6.0), (31.0, -6.0)], name="R2")
+    _, rows = measure_plan(grid, plan_of(row, above), most=50.0)
+    assert rows[0].upslope.end == "cap"
+    cells = {one.key: one.value for one in derive_cells(rows[0], rows, "g.asc")}
+    assert cells["row_above"] == "alike"
+    assert {one.key: one.value for one in derive_cells(rows[1], rows, "g.asc")}[
+        "row_above"
+    ] == "none"

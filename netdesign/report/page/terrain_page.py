@@ -59,24 +59,7 @@ def render_terrain(
     """
     words = Words(language)
     extract = extract_ground(surface, plan)
-    name, sha256 = grid
-    first = [
-        words("terrain_page.grid", file=show_text(name), sha256=sha256),
-        words(
-            "terrain_page.fit",
-            noise=surface.noise,
-            window=surface.window,
-            cell=surface.grid.cell,
-        ),
-    ]
-    if coverage.area:
-        told = say(
-            "terrain.coverage",
-            area=coverage.area,
-            uncovered=coverage.uncovered,
-            share=100.0 * coverage.share,
-        )
-        first.append(words.show(told))
+    first = _describe_grid(surface, coverage, grid, words)
     kinks = [words.show(one) for one in map(describe_kinks, rows) if one]
     maps = (
         Figure(
@@ -114,6 +97,31 @@ def render_terrain(
         ),
     )
     return render_page(blocks, words("terrain_page.title"), language).encode()
+
+
+def _describe_grid(
+    surface: Surface, coverage: Coverage, grid: tuple[str, str], words: Words
+) -> list[str]:
+    """Sentences on the grid, its fit, and the coverage of the starting zones."""
+    name, sha256 = grid
+    first = [
+        words("terrain_page.grid", file=show_text(name), sha256=sha256),
+        words(
+            "terrain_page.fit",
+            noise=surface.noise,
+            window=surface.window,
+            cell=surface.grid.cell,
+        ),
+    ]
+    if coverage.area:
+        told = say(
+            "terrain.coverage",
+            area=coverage.area,
+            uncovered=coverage.uncovered,
+            share=100.0 * coverage.share,
+        )
+        first.append(words.show(told))
+    return first
 
 
 def _tabulate(rows: Sequence[MeasuredRow], words: Words) -> Table:
