@@ -140,6 +140,8 @@ def _read_number(words: list[str]) -> float:
 
 
 def _refuse_header(line: str) -> TerrainError:
+    if not line.strip().isprintable():
+        return TerrainError(say("terrain.no_text"))
     return TerrainError(say("terrain.header", line=f"{line.strip()!r:.60}"))
 
 

@@ -25,6 +25,7 @@ LEAST_STEEP = math.radians(25.0)  # below it the snow holds itself
 KINK, BROKEN = math.radians(5.0), math.radians(15.0)  # bends of a row at a post
 CARED_ANGLE, CARED_LENGTH = math.radians(0.5), 0.1  # a check cares about [rad, m]
 LEAST_LENGTH = 1.0  # of snow above a row; less is none [m]
+_FAR = 30.0  # along the ground; no anchors of two rows reach each other from there [m]
 _ERRORS = 2.0  # standard errors of a band
 
 
@@ -80,6 +81,9 @@ class MeasuredRow:
         At the posts inside the row [rad].
     above : FallLines
         Lines of fall, up to their ends.
+    has_row_above : bool or None
+        Some row of the plan stands above a post, however far; None where the lines of
+        fall are known for less than the anchors of two rows may reach.
     below_row, below_length : str, float or None
         Row below, and how far along the line of fall [m]; "" and None without one.
     """
@@ -94,6 +98,7 @@ class MeasuredRow:
     bends: Floats
     above: FallLines
     ends: tuple[Upslope, ...]
+    has_row_above: bool | None = None
     below_row: str = ""
     below_length: float | None = None
 
@@ -158,6 +163,7 @@ def measure_row(
         bends=bends,
         above=above,
         ends=ends,
+        has_row_above=_find_row_above(surface, plan, line, above),
         below_row=row,
         below_length=length,
     )
@@ -247,6 +253,22 @@ def _end_above(
     if value < length:
         end, row = "flat", ""
     return Upslope(length=Band(low=low, value=value, high=high), end=end, row=row)
+
+
+def _find_row_above(
+    surface: Surface, plan: Plan, line: NetLine, above: FallLines
+) -> bool | None:
+    """Presence of a row above any post, beyond the end of its snow, too."""
+    posts = range(above.points.shape[1])
+    others = [one.points for one in plan.lines if one.id != line.id]
+    crossings = (
+        find_crossing(above, post, points, least=surface.grid.cell)
+        for post in posts
+        for points in others
+    )
+    if any(one is not None for one in crossings):
+        return True
+    return None if min(map(above.find_length, posts)) < _FAR else False
 
 
 def _find_flat(above: FallLines, post: int, least: float) -> float:

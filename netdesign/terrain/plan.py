@@ -81,10 +81,8 @@ def read_plan(path: Path) -> Plan:
     text = read_text(path)
     try:
         document = json.loads(text, parse_constant=_refuse_constant)
-    except (ValueError, RecursionError) as error:
-        raise TerrainError(
-            say("terrain.unreadable", file=path.name, cause=explain(error))
-        ) from None
+    except (ValueError, RecursionError):
+        raise TerrainError(say("terrain.no_json", file=path.name)) from None
     return parse_plan(document, path.name)
 
 

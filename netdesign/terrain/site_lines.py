@@ -133,12 +133,12 @@ def _derive_snow(row: MeasuredRow, grid: str) -> Iterator[DerivedCell]:
             "terrain.of_length", grid=grid, low=length.low, high=length.high, end=end
         ),
     )
-    is_below = any(one.end == "row" for one in row.ends)
-    yield DerivedCell(
-        key="row_above",
-        value="alike" if is_below else "none",
-        note=say("terrain.of_row_above", grid=grid, end=end),
-    )
+    if row.has_row_above is not None:  # left empty, a row above alike is taken
+        yield DerivedCell(
+            key="row_above",
+            value="alike" if row.has_row_above else "none",
+            note=say("terrain.of_row_above", grid=grid, end=end),
+        )
 
 
 def _choose(band: Band, cared: float) -> float:

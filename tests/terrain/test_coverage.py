@@ -80,3 +80,14 @@ def test_a_row_above_some_posts_alone_is_one():
     assert {one.key: one.value for one in derive_cells(rows[1], rows, "g.asc")}[
         "row_above"
     ] == "none"
+
+
+@pytest.mark.parametrize(("most", "value"), [(9.0, None), (50.0, "alike")])
+def test_a_row_beyond_the_cap_is_not_denied(most, value):
+    """A cap of 9 m does not see the row at 18 m: the cell stays empty."""
+    grid = build_grid(plane(PSI), size=160.0)
+    row = draw_line([(-15.0, -20.0), (15.0, -20.0)])
+    above = draw_line([(-20.0, -6.0), (20.0, -6.0)], name="R2")
+    _, rows = measure_plan(grid, plan_of(row, above), most=most)
+    cells = {one.key: one.value for one in derive_cells(rows[0], rows, "g.asc")}
+    assert cells.get("row_above") == value
