@@ -67,6 +67,30 @@ def measure_pull(x: Number, y: Number, anchor: str) -> Number:
     return measure_turn(facing * x, y)
 
 
+def find_dip(axis: float, slope: float, anchor: str) -> float:
+    """Dip of an anchor below the horizontal; structure/THEORY.md, eq. (S14a).
+
+    Parameters
+    ----------
+    axis : float
+        As `measure_pull` counts it [rad].
+    slope : float
+        Slope angle [rad].
+    anchor : str
+        Which of the three it is.
+
+    Returns
+    -------
+    float
+        Negative of a borehole that rises from its mouth [rad].
+
+    Verified by
+    -----------
+    tests/verification/test_anchor_dip.py
+    """
+    return axis + slope if anchor == Member.DOWNHILL_ANCHOR else axis - slope
+
+
 def turn_by_splay(inclination: float, splay: float) -> float:
     """Inclination of a guy that leaves the section; structure/THEORY.md, eq. (S12).
 

@@ -41,7 +41,12 @@ from netdesign.study.member_force import (
     name_governing,
     name_unsaid,
 )
-from netdesign.study.pulls import AnchorPull, check_directions, find_pull
+from netdesign.study.pulls import (
+    AnchorPull,
+    check_directions,
+    doubt_mortar,
+    find_pull,
+)
 from netdesign.study.records import CheckRecord
 from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import check_sideways
@@ -184,10 +189,10 @@ def _judge_member(
         return _leave_open(basis, given, width, unsaid)
     row = basis.row
     force = find_force(known, given, width)
-    given, unsure = _find_lasting(basis, given)
+    pull = find_pull(known.pulls, given.member, width.position)
+    given, unsure = _find_lasting(basis, given, pull)
     doubt = None
     if force is not None:
-        pull = find_pull(known.pulls, given.member, width.position)
         given = find_resistance_for_force(given, basis, pull)
         doubt = _find_doubt(basis, list_bringing(known, force))
     gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
@@ -210,11 +215,14 @@ def _judge_member(
     )
 
 
-def _find_lasting(basis: Basis, given: Resistance) -> tuple[Resistance, Message | None]:
+def _find_lasting(
+    basis: Basis, given: Resistance, pull: AnchorPull | None
+) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
     row = basis.row
     lasting, worn = corrode(given, row, basis.standard)
-    return lasting, worn or doubt_ground(row, given) or doubt_sharing(row, given)
+    doubt = worn or doubt_ground(row, given) or doubt_sharing(row, given)
+    return lasting, doubt or doubt_mortar(given, pull)
 
 
 def _find_unsaid(

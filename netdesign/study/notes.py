@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from netdesign.checks import Standard
 from netdesign.checks.schema import ACCEPTANCE_TEST
@@ -27,6 +27,9 @@ from netdesign.winter.model_code import find_model_code_density
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
+
+# A supplier's manual asks for at least this below the horizontal (Geobrugg GBE-3000A).
+_LEAST_DIP_DEG = 15.0
 
 
 def list_site_notes(site: Site, law: CreepLaw, accuracy: float) -> list[Message]:
@@ -160,19 +163,19 @@ def list_row_notes(
     return [*notes, *_list_pull_notes(pulls)]
 
 
-def _list_pull_notes(pulls: Sequence[AnchorPull]) -> list[Message]:
-    """Axes of anchors that are drilled along the pull."""
-    return [
-        say(
-            "row.drilled_along_pull",
-            member=name_member(one.anchor),
-            axis=degree_from_radian(one.axis),
-        )
-        for one in pulls
-        if one.is_axis_known
-        and not one.is_axis_given
-        and one.position == "intermediate"
-    ]
+def _list_pull_notes(pulls: Sequence[AnchorPull]) -> Iterator[Message]:
+    """Axes of anchors that are drilled along the pull, and what mortar runs out of."""
+    for one in pulls:
+        if not one.is_axis_known or one.position != "intermediate":
+            continue
+        anchor, dip = name_member(one.anchor), degree_from_radian(one.dip)
+        if not one.is_axis_given:
+            axis = degree_from_radian(one.axis)
+            yield say("row.drilled_along_pull", member=anchor, axis=axis)
+        if dip < 0.0:
+            yield say("row.borehole_rises", member=anchor, rise=-dip)
+        elif dip < _LEAST_DIP_DEG:
+            yield say("row.borehole_flat", member=anchor, dip=dip, least=_LEAST_DIP_DEG)
 
 
 def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:

@@ -13,10 +13,11 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
-from netdesign.site.model import NetRow
+from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.anchors import GroundForce
 from netdesign.structure.axis import (
     PullRange,
+    find_dip,
     find_pull_range,
     measure_pull,
     turn_by_splay,
@@ -56,6 +57,8 @@ class AnchorPull:
         Of the anchor, or "".
     angle : float
         Largest between pull and axis, with the part along the row at the foot [rad].
+    dip : float
+        Of the axis below the horizontal; negative of a borehole that rises [rad].
     """
 
     anchor: Member
@@ -66,6 +69,7 @@ class AnchorPull:
     is_axis_known: bool
     kind: str
     angle: float
+    dip: float
 
     @property
     def is_checked(self) -> bool:
@@ -162,6 +166,7 @@ def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:
             is_axis_given=one.is_axis_given,
             is_axis_known=one.is_axis_known,
             angle_deg=degree_from_radian(one.angle),
+            dip_deg=degree_from_radian(one.dip),
         )
         for one in pulls
     ]
@@ -214,6 +219,24 @@ def build_pull(
         is_axis_known=given is not None or row.drills_along_pull,
         kind=kind.kind if kind else "",
         angle=turned,
+        dip=find_dip(axis, row.slope_angle, anchor),
+    )
+
+
+def doubt_mortar(given: Resistance, pull: AnchorPull | None) -> Message | None:
+    """Doubt that mortar fills a borehole, of a bond computed as if it did.
+
+    From a borehole that rises mortar runs out. A test shows what such a bond bears.
+    """
+    is_computed = given.mode == "pull_out" and given.basis == "computed"
+    if not is_computed or pull is None:
+        return None
+    if not pull.is_axis_known:
+        return say("bending.no_axis")
+    return (
+        say("bores.rises", rise=-degree_from_radian(pull.dip))
+        if pull.dip < 0.0
+        else None
     )
 
 

@@ -72,6 +72,7 @@ class PullRecord:
     is_axis_given: bool  # else the middle of the pulls
     is_axis_known: bool = True  # given, or drilled along the pull
     angle_deg: float  # largest between pull and axis, with the part along the row
+    dip_deg: float  # of the axis below the horizontal; negative where the hole rises
 
 
 @dataclass(frozen=True, kw_only=True)

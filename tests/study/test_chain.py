@@ -407,3 +407,31 @@ def test_notes_say_what_snow_the_guys_bear_and_how_high_the_loaded_net_is(solved
     assert not [
         one for one in map(str, weak) if "Uphill guy" in one and "across" in one
     ]
+
+
+@pytest.mark.parametrize("basis", ["computed", "tested"])
+@pytest.mark.parametrize("axis", [-9.3, 14.1, 38.9, 41.2, 63.0])
+def test_a_bond_computed_for_a_borehole_that_rises_is_not_proven(solved, axis, basis):
+    row = solved[0].rows[0]
+    strong = change(
+        row.resistances, Member.FOOT_ANCHOR, value=9e6, basis=basis, tests=None
+    )
+    axes = {**dict(row.axes), Member.FOOT_ANCHOR: math.radians(axis)}
+    study, checks = judge(solved, resistances=strong, axes=tuple(axes.items()))
+    rises = axis < math.degrees(row.slope_angle)
+    check = checks["foot_anchor.pull_out"]
+    is_open = rises and basis == "computed"
+    assert (check.verdict is Verdict.NOT_PROVEN) is is_open, check.reason
+    assert ("mortar runs out" in str(check.reason)) is is_open
+    of_foot = (x for x in study.rows[0].notes if "Foot anchor: the borehole" in str(x))
+    assert ("rises" in str(next(of_foot, ""))) is rises
+
+
+def test_a_bond_computed_for_an_axis_that_nobody_gives_is_not_proven(solved):
+    row = solved[0].rows[0]
+    strong = change(
+        row.resistances, Member.FOOT_ANCHOR, value=9e6, basis="computed", tests=None
+    )
+    changes = {"axes": (), "drills_along_pull": False}
+    check = judge(solved, resistances=strong, **changes)[1]["foot_anchor.pull_out"]
+    assert check.verdict is Verdict.NOT_PROVEN

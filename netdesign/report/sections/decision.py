@@ -207,11 +207,26 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     panels = [row.id for row in study.rows if row.panel and row.panel.assumed]
     if panels:
         yield words("todo.panels", rows=name_rows(panels, study, words))
+    yield from _list_rising(study, words)
     if any(_is_assumed_stiffness(echo) for echo in study.range_inputs):
         yield words("todo.stiffness")
     defaults = count_defaults(study, words)
     if defaults:
         yield words("todo.defaults", count=defaults)
+
+
+def _list_rising(study: Study, words: Words) -> Iterator[str]:
+    """Anchors whose boreholes rise, so that mortar runs out of them."""
+    rising = [
+        (row.id, show_member(words, one.anchor))
+        for row in study.rows
+        for one in row.pulls
+        if one.is_axis_known and one.dip_deg < 0.0
+    ]
+    if rising:
+        ids, anchors = (list(dict.fromkeys(one)) for one in zip(*rising, strict=True))
+        named = show_text(name_rows(ids, study, words))
+        yield words("todo.rising", anchors=words.join(anchors), rows=named)
 
 
 def _is_assumed_stiffness(echo: InputEcho) -> bool:

@@ -43,7 +43,10 @@ def build_schedule(study: Study, words: Words) -> Table:
         for place in ("inside", "at_end")
         for symbol in ("E_k", "E_d")
     ]
-    headings = ("member", "type", "schedule_place", "schedule_force", "directions")
+    headings = (
+        *("member", "type", "schedule_place", "schedule_force"),
+        *("directions", "schedule_dip"),
+    )
     return Table(
         caption=words("caption.schedule"),
         columns=(
@@ -73,6 +76,7 @@ def _list_lines(row: RowStudy, words: Words) -> Iterator[tuple[Cell, ...]]:
             text_cell(_describe_place(row, member, words)),
             text_cell(words(f"schedule.{force}")),
             text_cell(_show_pulls(row, member, words)),
+            text_cell(_show_dips(row, member, words)),
             *_show_forces([one for one in checks if one.position != _END], words),
             *_show_forces([one for one in checks if one.position == _END], words),
             text_cell(describe_needed(checks, words)),
@@ -119,10 +123,23 @@ def _name_force(check: CheckRecord) -> str:
 
 def _show_pulls(row: RowStudy, member: str, words: Words) -> str:
     """Directions of the pulls on an anchor, from the slope surface."""
-    ends = [(x.least_deg, x.largest_deg) for x in row.pulls if x.anchor == member]
-    if not ends:
+    pulls = [one for one in row.pulls if one.anchor == member]
+    return _show_span(
+        [x for one in pulls for x in (one.least_deg, one.largest_deg)], words
+    )
+
+
+def _show_dips(row: RowStudy, member: str, words: Words) -> str:
+    """Dip of an anchor's borehole below the horizontal; negative where it rises."""
+    pulls = [one for one in row.pulls if one.anchor == member and one.is_axis_known]
+    return _show_span([one.dip_deg for one in pulls], words)
+
+
+def _show_span(angles: Sequence[float], words: Words) -> str:
+    """Least and largest of some angles [deg]; one where both look alike."""
+    if not angles:
         return MISSING
-    low, high = min(x for x, _ in ends), max(x for _, x in ends)
+    low, high = min(angles), max(angles)
     shown = [words.show_number("least_deg", end) for end in (low, high)]
     is_one = shown[0] == shown[1]
     return append_unit(

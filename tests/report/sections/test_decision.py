@@ -107,6 +107,15 @@ def test_nothing_is_open_where_all_passes_and_is_confirmed():
     assert ENGLISH("todo.none") in render_html(bare, detail="summary")
 
 
+def test_a_borehole_that_rises_is_a_point_to_settle_with_its_rows():
+    study = build_study(rows=2)
+    first, second = study.rows
+    rising = replace(first, pulls=[replace(one, dip_deg=-0.4) for one in first.pulls])
+    told = list(list_open_points(replace(study, rows=[rising, second]), ENGLISH))
+    (point,) = [one for one in told if "mortar" in one]
+    assert f"Foot anchor ({first.id})" in point
+
+
 @pytest.mark.parametrize("verdict", [Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN])
 def test_study_without_rows_is_shown_only_if_not_proven(verdict):
     study = replace(STUDY, rows=[], verdict=verdict)

@@ -40,7 +40,7 @@ def test_forces_are_the_upper_ends_of_their_checks():
                 and show_member(ENGLISH, one.member) == line[1].text
             ]
             known = [end for end in ends if end is not None]
-            assert line[7].number == (max(known) if known else None)
+            assert line[8].number == (max(known) if known else None)
 
 
 def test_the_least_resistance_passes_and_anything_below_does_not():
