@@ -9,7 +9,7 @@ import numpy as np
 from netdesign.numerics.arrays import Floats
 from netdesign.terrain.surface import Surface
 
-_STEP = 3.0  # of a drawn line: its bends are those of the ground, not of the noise [m]
+STEP = 3.0  # of a drawn line: its bends are those of the ground, not of the noise [m]
 
 
 def follow_contour(surface: Surface, start: Floats, length: float) -> Floats:
@@ -30,14 +30,30 @@ def follow_contour(surface: Surface, start: Floats, length: float) -> Floats:
         [m].
     """
     points = [start]
-    for _ in range(math.ceil(length / _STEP)):
-        here = points[-1]
-        middle = here + 0.5 * _STEP * _turn(surface, here)
-        points.append(here + _STEP * _turn(surface, middle))
+    for _ in range(math.ceil(length / STEP)):
+        points.append(go_along(surface, points[-1][None], STEP)[0])
     return np.stack(points)
 
 
-def _turn(surface: Surface, point: Floats) -> Floats:
-    """Direction along the contour, uphill on its left."""
-    east, north = surface.at(point[None]).gradient[0]
-    return np.array((north, -east)) / math.hypot(east, north)
+def go_along(surface: Surface, here: Floats, step: float | Floats) -> Floats:
+    """Places a step farther on their contours, by the midpoint rule.
+
+    Parameters
+    ----------
+    surface : Surface
+        Ground.
+    here : ndarray, shape (n, 2)
+        [m].
+    step : float or ndarray, shape (n, 1)
+        With the slope on the left; negative the other way [m].
+    """
+    middle = here + 0.5 * step * _turn(surface, here)
+    return np.asarray(here + step * _turn(surface, middle))
+
+
+def _turn(surface: Surface, places: Floats) -> Floats:
+    """Directions along the contours, uphill on their left; NaN on flat ground."""
+    east, north = surface.at(places).gradient.T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turned = np.column_stack((north, -east)) / np.hypot(east, north)[:, None]
+    return np.asarray(turned)

@@ -12,7 +12,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Mask
+from netdesign.numerics.arrays import Floats
+from netdesign.terrain.crossings import is_in_any, is_inside
 from netdesign.terrain.measure import LEAST_STEEP, MeasuredRow
 from netdesign.terrain.plan import Plan
 from netdesign.terrain.surface import Surface
@@ -67,15 +68,17 @@ def find_coverage(
     nothing = np.empty((0, 2))
     if not plan.zones:
         return Coverage(area=0.0, uncovered=0.0, side=surface.grid.cell, places=nothing)
-    side, places = _list_places(surface, plan)
-    is_in_zone = _is_in_any(places, plan.zones)
-    places = places[is_in_zone]
-    steep = surface.at(places).steepness >= LEAST_STEEP
-    places = places[steep]
+    side, places = list_steep_places(surface, plan.zones)
     held = np.zeros(len(places), dtype=bool)
     for row in rows:
         for strip in list_strips(row, reach[row.line.id]):
             held |= is_inside(places, strip)
+    by_id = {row.line.id: row for row in rows}
+    for gap in plan.closed_gaps:
+        most = min(reach[one] for one in gap.rows)
+        beside = zip(gap.rows, gap.ends, strict=True)
+        left, right = (_cut_above(by_id[one], end, most) for one, end in beside)
+        held |= is_inside(places, np.concatenate((left, right[::-1])))
     open_places = places[~held]
     return Coverage(
         area=side**2 * len(places),
@@ -85,54 +88,35 @@ def find_coverage(
     )
 
 
-def _list_places(surface: Surface, plan: Plan) -> tuple[float, Floats]:
-    """Side of squares over the zones, and their middles."""
-    corners = np.concatenate(plan.zones)
+def list_steep_places(
+    surface: Surface, zones: Sequence[Floats]
+) -> tuple[float, Floats]:
+    """Side of squares over the zones [m], and middles of those on steep ground in them.
+
+    Shape of the middles (n, 2) [m].
+    """
+    corners = np.concatenate(zones)
     low, high = corners.min(axis=0), corners.max(axis=0)
     size = float(np.prod(np.maximum(high - low, surface.grid.cell)))
     side = max(surface.grid.cell, math.sqrt(size / _MOST_PLACES))
     axes = [np.arange(a + side / 2.0, b, side) for a, b in zip(low, high, strict=True)]
     east, north = np.meshgrid(*axes)
-    return side, np.column_stack((east.ravel(), north.ravel()))
-
-
-def _is_in_any(places: Floats, rings: Sequence[Floats]) -> Mask:
-    found = np.zeros(len(places), dtype=bool)
-    for ring in rings:
-        found |= is_inside(places, ring)
-    return found
+    places = np.column_stack((east.ravel(), north.ravel()))
+    places = places[is_in_any(places, zones)]
+    return side, places[surface.at(places).steepness >= LEAST_STEEP]
 
 
 def list_strips(row: MeasuredRow, reach: float) -> list[Floats]:
     """Ground that each bay of a row holds, as rings, shape (n, 2) [m]."""
-    paths = []
-    for post, end in enumerate(row.ends):
-        most = min(end.length.value, reach)
-        paths.append(_cut(row, post, most))
+    paths = [_cut_above(row, post, reach) for post in range(len(row.ends))]
     return [np.concatenate((left, right[::-1])) for left, right in pairwise(paths)]
 
 
-def _cut(row: MeasuredRow, post: int, most: float) -> Floats:
-    """Line of fall above a post up to a length, shape (n, 2) [m]."""
+def _cut_above(row: MeasuredRow, post: int, reach: float) -> Floats:
+    """Line of fall above a post as far as the row holds, shape (n, 2) [m]."""
+    most = min(row.ends[post].length.value, reach)
     points, lengths = row.above.points[:, post], row.above.lengths[:, post]
     known = np.isfinite(lengths)
     points, lengths = points[known], lengths[known]
     end = [np.interp(most, lengths, part) for part in points.T]
     return np.vstack((points[lengths < most], end))
-
-
-def is_inside(places: Floats, ring: Floats) -> Mask:
-    """Places inside a ring by the even-odd rule, shape (n,)."""
-    found = np.zeros(len(places), dtype=bool)
-    low, high = ring.min(axis=0), ring.max(axis=0)
-    near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
-    if not near.size:
-        return found
-    x, y = places[near, 0][:, None], places[near, 1][:, None]
-    x0, y0 = ring.T
-    x1, y1 = np.roll(ring, -1, axis=0).T
-    spans = (y0 > y) != (y1 > y)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        crossing = x0 + (y - y0) / (y1 - y0) * (x1 - x0)
-    found[near] = ((x < crossing) & spans).sum(axis=1) % 2 == 1
-    return found

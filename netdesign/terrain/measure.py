@@ -14,7 +14,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crossings import find_crossing
+from netdesign.terrain.crossings import find_crossing, find_exit
 from netdesign.terrain.fall_line import FallLines, follow_fall
 from netdesign.terrain.grid import Grid
 from netdesign.terrain.plan import NetLine, Plan
@@ -142,7 +142,8 @@ def measure_row(
     above = follow_fall(surface, places, most=most, is_up=True)
     below = follow_fall(surface, places, most=line.net_height, is_up=False)
     ends = tuple(
-        _end_above(surface, plan, line, above, post, most) for post in range(len(posts))
+        _end_above(surface, plan, line, above, post, most, of_zone)
+        for post, of_zone in enumerate(_list_zone_ends(plan, above))
     )
     slopes = np.array(
         [
@@ -231,6 +232,7 @@ def _end_above(
     above: FallLines,
     post: int,
     most: float,
+    of_zone: float | None,
 ) -> Upslope:
     """First end of the snow above a post: a row, the zone's edge, flat ground."""
     spread = _ERRORS * surface.slope_error
@@ -245,14 +247,28 @@ def _end_above(
         if other.id != line.id:
             found = find_crossing(above, post, other.points, least=surface.grid.cell)
             ends += [("row", other.id, found)] if found is not None else []
-    for zone in plan.zones:
-        found = find_crossing(above, post, np.vstack((zone, zone[:1])), least=0.0)
-        ends += [("zone", "", found)] if found is not None else []
+    for gap in plan.closed_gaps:
+        if line.id not in gap.rows:
+            found = find_crossing(above, post, gap.points, least=surface.grid.cell)
+            ends += [("row", gap.rows[0], found)] if found is not None else []
+    if of_zone is not None:
+        ends.append(("zone", "", of_zone))
     end, row, length = min(ends, key=lambda one: one[2])
     low, value, high = (min(one, length) for one in flat)
     if value < length:
         end, row = "flat", ""
     return Upslope(length=Band(low=low, value=value, high=high), end=end, row=row)
+
+
+def _list_zone_ends(plan: Plan, above: FallLines) -> list[float | None]:
+    """Lengths above the posts at which the zone ends [m]; None without a zone.
+
+    Above a post beside the zone lies none of its snow: 0, if other posts have some.
+    """
+    posts = range(above.points.shape[1])
+    found = [find_exit(above, post, plan.zones) for post in posts]
+    has_zone = any(one is not None for one in found)
+    return [0.0 if one is None and has_zone else one for one in found]
 
 
 def _find_row_above(

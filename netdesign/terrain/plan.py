@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ from netdesign.words.message import Message, say
 
 MOST_BYTES = 20_000_000
 ZONE = "starting zone"
+CLOSED = 2.0 + 1e-6  # a gap between two rows up to it holds as they do [m]
 _OPEN = ("id", "post_spacing", "net_height")  # that the terrain cannot be asked
 
 
@@ -55,6 +57,25 @@ class NetLine:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ClosedGap:
+    """A gap so narrow that the two rows beside it hold what lies above it.
+
+    Attributes
+    ----------
+    rows : tuple of str
+        Their names.
+    ends : tuple of int
+        Of each row's points: 0 the first, -1 the last.
+    points : ndarray, shape (2, 2)
+        Where the gap begins and ends [m].
+    """
+
+    rows: tuple[str, str]
+    ends: tuple[int, int]
+    points: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
     """Rows and starting zones of a file.
 
@@ -68,6 +89,20 @@ class Plan:
 
     lines: tuple[NetLine, ...]
     zones: tuple[Floats, ...] = ()
+
+    @property
+    def closed_gaps(self) -> tuple[ClosedGap, ...]:
+        """Gaps between two rows that hold the snow as the rows do."""
+        ends = [(one, end) for one in self.lines for end in (0, -1)]
+        return tuple(
+            ClosedGap(rows=(one.id, other.id), ends=(end, of_other), points=points)
+            for (one, end), (other, of_other) in combinations(ends, 2)
+            if one is not other
+            and math.dist(
+                *(points := np.array((one.points[end], other.points[of_other])))
+            )
+            <= CLOSED
+        )
 
 
 def read_plan(path: Path) -> Plan:
