@@ -173,7 +173,7 @@ class SceneFileError(NetDesignError):
 
 
 class TerrainError(NetDesignError):
-    """A grid, or lines on it, were refused; the message lists every fault."""
+    """A grid, lines on it, or prices were refused; the message lists every fault."""
 
     exit_code = 3
 

@@ -8,6 +8,7 @@ judged.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -18,6 +19,7 @@ from netdesign.structure.members import EndMember, Member
 from netdesign.study.cases import have_same_forces
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite
+from netdesign.study.cost import Prices, find_unit_cost
 from netdesign.study.judge import judge_site
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.stronger_types import find_ground, holds_in_ground
@@ -81,17 +83,26 @@ class _Slot:
         return self.types[number] if number < len(self.types) else None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Rating:
+    """How good a type is that passes: by rank, the least first; its utilisation."""
+
+    rank: float
+    used: float
+
+
 def size_site(
     solved: SolvedSite,
     study: Study,
     standard: Standard,
     run: CheckRun,
     read: ReadInstead,
+    prices: Prices | None = None,
 ) -> list[SizedCell]:
     """Find the smallest type for every cell whose checks do not all pass.
 
     The smallest is the one that is used most while everything passes; of two alike the
-    first by its name.
+    first by its name. With prices it is the cheapest, of every cell.
 
     Parameters
     ----------
@@ -105,20 +116,59 @@ def size_site(
         Settings of the run.
     read : callable
         Gives the site with other texts in some cells; refuses what the workbook does.
+    prices : mapping or None
+        Of every type.
 
     Returns
     -------
     list of SizedCell
         In the order of rows and columns; empty where every check passes.
     """
-    slots = [slot for slot in _join_slots(study, solved.site) if slot.open_rows]
+    slots = [
+        slot for slot in _join_slots(study, solved.site) if slot.open_rows or prices
+    ]
     placed = [slot for slot in slots if slot.cell]
-    found: dict[_Slot, dict[str, float]] = {slot: {} for slot in slots}
+    found: dict[_Slot, dict[str, _Rating]] = {slot: {} for slot in slots}
+    for slot in placed:
+        if not slot.open_rows:
+            found[slot][slot.was] = _rate_built(slot, study, prices)
     for number in range(max((len(slot.types) for slot in placed), default=0)):
         trial = {slot: kind for slot in placed if (kind := slot.choose(number))}
-        for slot, used in _try_types(trial, solved, study, standard, run, read):
-            found[slot][trial[slot]] = used
-    return [_choose(slot, found[slot]) for slot in slots]
+        for slot, rating in _try_types(
+            trial, solved, study, standard, run, read, prices
+        ):
+            found[slot][trial[slot]] = rating
+    cells = [_choose(slot, found[slot]) for slot in slots]
+    return [one for one in cells if one.now != one.was]
+
+
+def _rate_built(slot: _Slot, study: Study, prices: Prices | None) -> _Rating:
+    """Rating of the types that pass as they are."""
+    rows = [row for row in study.rows if row.id in slot.checks]
+    used = max(
+        _rate(slot.column, slot.checks[x.id], x.checks, x.checks) or 0.0 for x in rows
+    )
+    return _Rating(rank=_rank(slot, slot.was, rows, used, prices), used=used)
+
+
+def _rank(
+    slot: _Slot,
+    kind: str,
+    rows: Sequence[RowStudy],
+    used: float,
+    prices: Prices | None,
+) -> float:
+    """The least is chosen: the cheapest, or the one that is used most."""
+    if prices is None:
+        return -used
+    costs = [
+        find_unit_cost(part, prices)
+        for row in rows
+        for part in row.parts
+        if part.part == slot.column and part.type_id == kind
+    ]
+    known = [one for one in costs if one is not None]
+    return max(known) if known and len(known) == len(costs) else math.inf
 
 
 def _join_slots(study: Study, site: Site) -> list[_Slot]:
@@ -142,19 +192,19 @@ def _join(one: _Slot, other: _Slot) -> _Slot:
     )
 
 
-def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
+def _choose(slot: _Slot, passing: Mapping[str, _Rating]) -> SizedCell:
     best = min(
         passing,
-        key=lambda kind: (-passing[kind], kind),
+        key=lambda kind: (passing[kind].rank, kind),
         default="",
     )
     return SizedCell(
-        row_id=", ".join(slot.open_rows),
+        row_id=", ".join(slot.open_rows or slot.checks),
         column=slot.column,
         cell=slot.cell,
         was=slot.was,
         now=best,
-        used=passing.get(best),
+        used=passing[best].used if best else None,
         tried=len(slot.types) if slot.cell else 0,
         left_out=slot.left_out,
     )
@@ -226,8 +276,9 @@ def _try_types(
     standard: Standard,
     run: CheckRun,
     read: ReadInstead,
-) -> Iterator[tuple[_Slot, float]]:
-    """Cells that pass with their types of a trial, each with its utilisation."""
+    prices: Prices | None,
+) -> Iterator[tuple[_Slot, _Rating]]:
+    """Cells that pass with their types of a trial, each with its rating."""
     site = read({slot.cell: kind for slot, kind in trial.items()})
     wanted = {row_id for slot in trial for row_id in slot.checks}
     old = zip(solved.site.rows, solved.rows, strict=True)
@@ -255,7 +306,10 @@ def _try_types(
             if row_id in tried  # its forces are known with this type
         ]
         if len(used) == len(slot.checks) and None not in used:
-            yield slot, max(one for one in used if one is not None)
+            most = max(one for one in used if one is not None)
+            of_slot = [row for row in judged.rows if row.id in slot.checks]
+            rank = _rank(slot, trial[slot], of_slot, most, prices)
+            yield slot, _Rating(rank=rank, used=most)
 
 
 def _rate(

@@ -1,0 +1,110 @@
+"""Nets that may be built, from the lines of a workbook, and lines of proposed rows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from netdesign.outcome import SiteDataError, TerrainError
+from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.all_tables import ENDS, NETS
+from netdesign.site.reader import read_cells
+from netdesign.site.tables import find_table, read_rows
+from netdesign.terrain.layout import Construction, ProposedRow
+from netdesign.terrain.plan import NetLine
+from netdesign.words.message import say
+
+Cells = Mapping[str, object]
+_NEEDED = ("id", "net_height", "post_spacing")
+# What a place decides, not what is built there.
+_OF_PLACE = frozenset(
+    ("id", "slope_angle", "snow_thickness", "snow_height", "upslope_length")
+    + ("snow_layers", "gap", "altitude", "neighbour", "row_above", "edge_distance")
+    + ("row_length", "post_count", "post_spacing")
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Catalogue:
+    """Nets of a workbook.
+
+    Attributes
+    ----------
+    constructions : tuple of Construction
+        The lowest first.
+    cells : mapping
+        Columns of sheet Nets by construction, without those of a place.
+    ends : mapping
+        Lines of sheet Ends by construction.
+    """
+
+    constructions: tuple[Construction, ...]
+    cells: Mapping[str, Cells]
+    ends: Mapping[str, Sequence[Cells]]
+
+    def draw(self, row: ProposedRow, name: str) -> NetLine:
+        """Line of a proposed row with what is built there."""
+        built = row.construction
+        cells = {
+            **self.cells[built.id],
+            "id": name,
+            "net_height": built.net_height,
+            "post_spacing": row.spacing,
+            "snow_height": row.snow,
+        }
+        return NetLine(id=name, points=row.points, cells=cells)
+
+    def list_ends(self, rows: Mapping[str, str]) -> list[Cells]:
+        """Lines of sheet Ends of rows, by their names and constructions."""
+        return [
+            {**line, "row": name}
+            for name, built in rows.items()
+            for line in self.ends.get(built, ())
+        ]
+
+
+def read_catalogue(path: Path) -> Catalogue:
+    """Nets that the lines of sheet Nets describe; where those stand does not count.
+
+    Raises
+    ------
+    SiteDataError
+        If the sheets cannot be read.
+    TerrainError
+        If no line has a name, a net height and a post spacing.
+    """
+    workbook = read_cells(path)
+    findings: list[Finding] = []
+    nets, ends = (
+        [
+            {key: one.value for key, one in row.items() if one.state == "given"}
+            for row in read_rows(find_table(workbook, plan, findings), findings)
+        ]
+        for plan in (NETS, ENDS)
+    )
+    errors = [one for one in findings if one.severity == "error"]
+    if errors:
+        raise SiteDataError(errors)
+    whole = [one for one in nets if all(key in one for key in _NEEDED)]
+    if not whole:
+        raise TerrainError(say("layout.no_net", file=path.name))
+    found = [
+        Construction(
+            id=str(one["id"]),
+            net_height=float(str(one["net_height"])),
+            post_spacing=float(str(one["post_spacing"])),
+        )
+        for one in whole
+    ]
+    return Catalogue(
+        constructions=tuple(sorted(found, key=lambda one: one.net_height)),
+        cells={
+            str(one["id"]): {k: v for k, v in one.items() if k not in _OF_PLACE}
+            for one in whole
+        },
+        ends={
+            one.id: [line for line in ends if str(line.get("row")) == one.id]
+            for one in found
+        },
+    )
