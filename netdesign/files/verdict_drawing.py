@@ -43,25 +43,37 @@ def draw_verdicts(
     bytes
         The same each time.
     """
+    from ezdxf._options import options
     from ezdxf.filemanagement import new
 
-    drawing = new("R2010", units=_METRES)
-    for one in features:
-        properties = one["properties"]
-        layer = _find_layer(drawing, properties, shades, language)
-        places = one["geometry"]["coordinates"]
-        space = drawing.modelspace()
-        if one["geometry"]["type"] == "LineString":
-            space.add_polyline3d(places, dxfattribs={"layer": layer})
-            _add_label(drawing, places[0], layer, properties["id"])
-            continue
-        space.add_point(places, dxfattribs={"layer": layer})
-        name = f"{properties['row']}-{properties['post']}"
-        _add_label(drawing, places, layer, f"{name} {_describe(properties)}")
-        if properties.get("length_m"):
-            end = _find_end(places, properties)
-            space.add_line(places, end, dxfattribs={"layer": layer})
-    return _write(drawing)
+    before = options.write_fixed_meta_data_for_testing  # no time, no name by chance
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        drawing, text = new("R2010", units=_METRES), io.StringIO()
+        for one in features:
+            _draw(drawing, one, shades, language)
+        drawing.write(text)
+        return drawing.encode(text.getvalue())
+    finally:
+        options.write_fixed_meta_data_for_testing = before
+
+
+def _draw(
+    drawing: Drawing, feature: Feature, shades: Mapping[str, str], language: Language
+) -> None:
+    """A row with its name; or a point with its label, and the axis of an anchor."""
+    properties, places = feature["properties"], feature["geometry"]["coordinates"]
+    layer = _find_layer(drawing, properties, shades, language)
+    space, on_layer = drawing.modelspace(), {"layer": layer}
+    if feature["geometry"]["type"] == "LineString":
+        space.add_polyline3d(places, dxfattribs=on_layer)
+        _add_label(drawing, places[0], layer, properties["id"])
+        return
+    space.add_point(places, dxfattribs=on_layer)
+    name = f"{properties['row']}-{properties['post']}"
+    _add_label(drawing, places, layer, f"{name} {_describe(properties)}")
+    if properties.get("length_m"):
+        space.add_line(places, _find_end(places, properties), dxfattribs=on_layer)
 
 
 def _find_layer(
@@ -115,16 +127,3 @@ def _find_end(head: Point, properties: Mapping[str, Any]) -> Point:
         head[1] + flat * math.cos(azimuth),
         head[2] - length * math.sin(dip),
     )
-
-
-def _write(drawing: Drawing) -> bytes:
-    """Bytes of the drawing without the time and without names by chance."""
-    from ezdxf._options import options
-
-    text, before = io.StringIO(), options.write_fixed_meta_data_for_testing
-    options.write_fixed_meta_data_for_testing = True
-    try:
-        drawing.write(text)
-    finally:
-        options.write_fixed_meta_data_for_testing = before
-    return drawing.encode(text.getvalue())

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _LIBRARIES = ("rasterio", "pyogrio", "ezdxf")
 _CODE = re.compile(r"[A-Z]{2,10}:\w{1,20}")  # never a file or an address
-_MEMBER = re.compile(r"(?:urn:ogc:def:crs:)?(EPSG|OGC):[\d.]*:?(\w{1,20})")
+_MEMBER = re.compile(r"(?:urn:ogc:def:crs:)?(EPSG|OGC):(?:[\d.]*:)?(\w{1,20})")
 _MERCATOR = re.compile(r'PROJECTION\["(Popular_Visualisation_Pseudo_)?Mercator')
 _LONGEST_NAME = 60
 

@@ -11,7 +11,7 @@ from netdesign.site.columns.fields import Field, normalise
 from netdesign.site.columns.lexicon import Lexicon
 from netdesign.words.message import Message, say
 
-_LENGTH = 10  # bytes; a letter of two may not have found room
+_LENGTH = 10  # bytes; a blank at the end is lost, or a letter of two has no room
 _DOUBLE = re.compile(r"(.{1,8})_\d{1,2}")  # a second column whose cut name is alike
 
 
@@ -46,7 +46,7 @@ def read_cut_names(names: Sequence[str]) -> CutNames:
     lexicon = Lexicon.of(NETS.fields, NETS)
     for name in names:
         exact, size = lexicon.match(name).field, len(name.encode())
-        if size < _LENGTH - 1 or (size < _LENGTH and (exact or name.isascii())):
+        if size < _LENGTH - 1 or (size < _LENGTH and exact):
             continue
         found = _find_fields(name)
         found |= {exact.key: exact} if exact else {}

@@ -30,11 +30,12 @@ _PARTS = (SHAPEFILE, ".shx", ".dbf")  # of a shapefile, and what may be beside i
 _BESIDE = (".prj", ".cpg")
 _SHAPES = b"\x00\x00\x27\x0a"  # what a shapefile begins with
 _SQLITE, _NAMES = b"SQLite format 3\x00", (b"GPKG", b"GP10", b"GP11")
-_NO_TIME = "2000-01-01T00:00:00.000Z"  # the same bytes each time
+# The same bytes each time.
+_TIME, _NO_TIME = "OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z"
 # What pyogrio raises on a file that is damaged.
 _DAMAGE = (
     *(ArithmeticError, AttributeError, LookupError, OSError, RuntimeError),
-    *(MemoryError, TypeError, ValueError),
+    *(MemoryError, NameError, TypeError, ValueError),
 )
 
 
@@ -189,9 +190,12 @@ def _list_features(
 
 
 def _read_geometry(wkb: bytes | None) -> dict[str, Any] | None:
-    """Geometry of GeoJSON; a line without points where there is none of its kinds."""
+    """Geometry of GeoJSON; a line without points, which is a fault, where none is read.
+
+    A damaged record comes without a geometry: left out, a row would be missing.
+    """
     try:
-        found = decode_wkb(wkb) if wkb else {"type": "Point"}
+        found = decode_wkb(wkb or b"")
     except ValueError:
         return {"type": "LineString"}
     return None if found["type"] in ("Point", "MultiPoint") else found
@@ -215,31 +219,38 @@ def write_geopackage(features: Sequence[Mapping[str, Any]], crs: str) -> bytes:
         Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
     """
     import pyogrio
-    from pyogrio import raw
 
     system = require_plane(crs) or None
     kinds = dict.fromkeys(one["properties"]["kind"] for one in features)
-    setting = "OGR_CURRENT_DATE"
-    before = pyogrio.get_gdal_config_option(setting)
-    pyogrio.set_gdal_config_options({setting: _NO_TIME})
+    before = pyogrio.get_gdal_config_option(_TIME)
+    pyogrio.set_gdal_config_options({_TIME: _NO_TIME})
     try:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "map.gpkg")
             for kind in kinds:
                 own = [one for one in features if one["properties"]["kind"] == kind]
-                names, columns, masks = _list_columns(own)
-                raw.write(
-                    *(path, _stack([encode_wkb(one["geometry"]) for one in own])),
-                    *(columns, names, masks),
-                    layer=kind.replace("_", " "),
-                    driver="GPKG",
-                    geometry_type=f"{own[0]['geometry']['type']} Z",
-                    crs=system,
-                    append=path.exists(),
-                )
+                _append_layer(path, kind.replace("_", " "), own, system)
             return path.read_bytes()
     finally:
-        pyogrio.set_gdal_config_options({setting: before})
+        pyogrio.set_gdal_config_options({_TIME: before})
+
+
+def _append_layer(
+    path: Path, name: str, features: Sequence[Mapping[str, Any]], crs: str | None
+) -> None:
+    from pyogrio import raw
+
+    shapes = _stack([encode_wkb(one["geometry"]) for one in features])
+    names, columns, masks = _list_columns(features)
+    with warnings.catch_warnings(action="ignore"):  # of a system that nobody knows
+        raw.write(
+            *(path, shapes, columns, names, masks),
+            layer=name,
+            driver="GPKG",
+            geometry_type=f"{features[0]['geometry']['type']} Z",
+            crs=crs,
+            append=path.exists(),
+        )
 
 
 def _list_columns(
