@@ -119,6 +119,9 @@ THIRD_PARTY = {
     "markupsafe": ("report.page.*",),
     "weasyprint": ("report.page.pdf",),
     "docx": ("report.document.*",),
+    "rasterio": ("terrain.geotiff", "terrain.crs"),
+    "pyogrio": ("terrain.layers",),
+    "ezdxf": ("files.verdict_drawing",),
     "PIL": ("report.drawing.raster",),  # matplotlib writes PNG by it
     "matplotlib": (
         *("report.drawing.*", "evidence.*", "examples.*"),
@@ -138,6 +141,9 @@ ONLY_INSIDE_FUNCTIONS = {"openpyxl", "defusedxml", "xlsxwriter", "jinja2"} | {
     "pandas",
     "rich",
     "distributed",
+    "rasterio",
+    "pyogrio",
+    "ezdxf",
 }
 
 

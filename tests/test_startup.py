@@ -8,7 +8,7 @@ import pytest
 
 HEAVY = (
     *("numpy", "scipy", "skfem", "pandas", "matplotlib", "openpyxl", "xlsxwriter"),
-    *("jinja2", "pydantic", "rich"),
+    *("jinja2", "pydantic", "rich", "rasterio", "pyogrio", "ezdxf"),
 )
 
 # Of a plain steady scene: 96 today, of more than 500.
@@ -61,6 +61,7 @@ def imported(*arguments, cwd, whole=False, code=0):
         ["solve", "--help"],
         ["report", "--help"],
         ["standards", "--help"],
+        ["terrain", "--help"],
         ["diff", "--help"],
         ["doctor", "--help"],
         ["completion", "bash"],

@@ -90,12 +90,16 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     \b
     netdesign terrain --example
     netdesign terrain grid.asc rows.geojson --out site.xlsx
-    netdesign terrain grid.asc rows.geojson --types types.xlsx --most 40
+    netdesign terrain grid.tif rows.gpkg --types types.xlsx --most 40
     netdesign terrain --verdicts study.json --rows rows.geojson --out checked.geojson
+    netdesign terrain --verdicts study.json --rows rows.geojson --out checked.dxf
 
-    GRID is an ESRI ASCII grid in metres. ROWS are GeoJSON LineStrings in its
-    coordinates; their properties are columns of sheet Nets: id, net height, post
-    spacing and any other. Each derived cell has a note with its band and its stretch.
+    GRID is an ESRI ASCII grid or a GeoTIFF, in metres. ROWS are lines in its
+    coordinates: GeoJSON, a shapefile (.shp) or a GeoPackage (.gpkg). Their properties
+    are columns of sheet Nets: id, net height, post spacing and any other. Each derived
+    cell has a note with its band and its stretch. The map of verdicts is GeoJSON, a
+    GeoPackage or a drawing (.dxf). All but ASCII grid and GeoJSON need
+    pip install "netdesign[terrain]".
     """
     language: Language = asked["language"]
     if asked["study_file"] is not None:
@@ -121,21 +125,27 @@ def _map_study(
     """Verdicts and anchors of a stored study on the map."""
     from netdesign.commands.stored_study import read_own_site, require_sound
     from netdesign.edge.output import require_free, write_files
-    from netdesign.files.verdict_map import map_verdicts, read_places, write_verdicts
+    from netdesign.files.verdict_map import (
+        map_verdicts,
+        read_places,
+        require_format,
+        write_verdicts,
+    )
     from netdesign.study.document import load_study
     from netdesign.study.record_provenance import load_own_profile
     from netdesign.terrain.plan import read_text
 
     out = asked["out"]
-    if places_file is None or out is None or out.suffix.lower() != ".geojson":
+    if places_file is None or out is None:
         raise UsageRefusal(say("terrain.verdicts_need"))
+    require_format(out.name)
     study = load_study(study_file)
     require_sound(study, study_file, None, None, language)
     site = read_own_site(study, study_file, None)
-    places = read_places(read_text(places_file), places_file.name)
+    places, crs = read_places(read_text(places_file), places_file.name)
     profile = load_own_profile(study.profile)
     features = map_verdicts(study, site, profile, places, language)
-    contents = write_verdicts(features, out.name)
+    contents = write_verdicts(features, out.name, crs, language)
     files = {out.parent / name: content for name, content in contents.items()}
     require_free(list(files), overwrite=asked["force"])
     write_files(files, overwrite=asked["force"])
@@ -193,6 +203,7 @@ def _measure(
     """Measure the rows, tell what was found, and write it."""
     from netdesign.edge.output import write_files
     from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
+    from netdesign.terrain.crs import require_same
     from netdesign.terrain.geojson import list_row_features, write_features
     from netdesign.terrain.grid import read_grid
     from netdesign.terrain.measure import measure_plan
@@ -200,6 +211,9 @@ def _measure(
     from netdesign.terrain.site_lines import read_other_sheets, write_workbook
 
     ground, plan = read_grid(grid), read_plan(rows)
+    require_same(ground.crs, plan.crs)
+    for note in (*ground.notes, *plan.notes):
+        tell(note, language, err=True)
     others = read_other_sheets(asked["types"]) if asked["types"] else None
     surface, measured = measure_plan(ground, plan, most=asked["most"])
     coverage = _cover(surface, plan, measured, asked["standard"])
@@ -216,7 +230,7 @@ def _measure(
     )
     places = {
         folder / name: write_workbook(measured, grid.name, others, language),
-        folder / _ROWS: write_features(features),
+        folder / _ROWS: write_features(features, ground.crs or plan.crs),
         folder / PAGE_FILE: page,
     }
     write_files(places, overwrite=asked["force"])

@@ -1,4 +1,4 @@
-"""Verdicts and anchors of a study on the map: GeoJSON, a QGIS style, setting out."""
+"""Verdicts and anchors of a study on the map, in any of its formats; setting out."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from typing import Any
 
 from netdesign.checks import Standard
 from netdesign.checks.schema import ACCEPTANCE_TEST
-from netdesign.outcome import StudyError, TerrainError
+from netdesign.files.verdict_drawing import draw_verdicts
+from netdesign.outcome import OutputError, StudyError, TerrainError
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.anchor_distance import Bore
 from netdesign.structure.members import Member
@@ -20,7 +21,9 @@ from netdesign.study.bores import place_anchors, place_end_anchors
 from netdesign.study.pulls import build_pull_again
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.sideways import place_row
+from netdesign.terrain.crs import read_member, require_extra
 from netdesign.terrain.geojson import Feature, write_features
+from netdesign.terrain.layers import write_geopackage
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 from netdesign.words.names import name_check, name_member
@@ -29,6 +32,8 @@ SETTING_OUT = (
     *("row", "post", "part", "type", "east_m", "north_m", "height_m"),
     *("azimuth_deg", "dip_deg", "length_m", "design_kN", "proof_kN", "verdict"),
 )
+GEOJSON = ".geojson"
+FORMATS = (GEOJSON, ".gpkg", ".dxf")
 _SHADES = {
     "pass": "44,122,75,255",
     "fail": "178,48,30,255",
@@ -57,8 +62,8 @@ class MeasuredPlace:
     posts: list[tuple[float, float, float]]
 
 
-def read_places(text: str, file: str) -> dict[str, MeasuredPlace]:
-    """Rows of ``rows.geojson`` by name.
+def read_places(text: str, file: str) -> tuple[dict[str, MeasuredPlace], str]:
+    """Rows of ``rows.geojson`` by name, and their reference system.
 
     Raises
     ------
@@ -66,14 +71,15 @@ def read_places(text: str, file: str) -> dict[str, MeasuredPlace]:
         If the file is not one that ``netdesign terrain`` wrote.
     """
     try:
-        features = json.loads(text)["features"]
-        rows = [one for one in features if one["properties"]["kind"] == "net row"]
+        document = json.loads(text)
+        rows = document["features"]
+        rows = [one for one in rows if one["properties"]["kind"] == "net row"]
         found = {str(one["properties"]["id"]): _read_place(one) for one in rows}
     except (ValueError, KeyError, TypeError, RecursionError):
         raise TerrainError(say("terrain.no_places", file=file)) from None
     if not found:
         raise TerrainError(say("terrain.no_places", file=file))
-    return found
+    return found, read_member(document)
 
 
 def _read_place(feature: Feature) -> MeasuredPlace:
@@ -316,22 +322,44 @@ def _point(place: Sequence[float], properties: dict[str, Any]) -> Feature:
     return {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
-def write_verdicts(features: Sequence[Feature], name: str) -> dict[str, bytes]:
-    """Contents by file: GeoJSON, style for QGIS, setting-out table.
+def require_format(name: str) -> None:
+    """Refuse a map of another format, or one that needs what is not installed.
+
+    Raises
+    ------
+    OutputError
+        Naming the file.
+    """
+    if not name.lower().endswith(FORMATS):
+        raise OutputError(say("terrain.no_format", file=name, formats=FORMATS))
+    if not name.lower().endswith(GEOJSON):
+        require_extra(name, OutputError)
+
+
+def write_verdicts(
+    features: Sequence[Feature], name: str, crs: str, language: Language
+) -> dict[str, bytes]:
+    """Contents by file: the map, its style for QGIS, setting-out table.
 
     Parameters
     ----------
     features : sequence of dict
         As ``map_verdicts`` gives them.
     name : str
-        Of the GeoJSON file.
+        Of the map; its end tells the format.
+    crs : str
+        Reference system of the coordinates; empty where nobody knows.
+    language : str
+        Of the layers of a drawing.
     """
-    stem = name.rpartition(".")[0] or name
-    return {
-        name: write_features(features),
-        f"{stem}.qml": _write_style().encode(),
-        f"{stem}-setting-out.csv": _write_setting_out(features).encode(),
-    }
+    stem, _, end = name.rpartition(".")
+    table = {f"{stem}-setting-out.csv": _write_setting_out(features).encode()}
+    if end.lower() == "dxf":
+        return {name: draw_verdicts(features, _SHADES, language)} | table
+    if end.lower() == "gpkg":
+        return {name: write_geopackage(features, crs)} | table
+    style = {f"{stem}.qml": _write_style().encode()}
+    return {name: write_features(features, crs)} | style | table
 
 
 def _write_setting_out(features: Sequence[Feature]) -> str:

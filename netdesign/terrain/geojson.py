@@ -8,14 +8,27 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from netdesign.numerics.arrays import Floats
+from netdesign.terrain.crs import write_member
 from netdesign.terrain.measure import MeasuredRow
 
 Feature = dict[str, Any]
 
 
-def write_features(features: Iterable[Feature]) -> bytes:
-    """GeoJSON of some features, the same bytes each time."""
-    document = {"type": "FeatureCollection", "features": list(features)}
+def write_features(features: Iterable[Feature], crs: str = "") -> bytes:
+    """GeoJSON of some features, the same bytes each time.
+
+    Parameters
+    ----------
+    features : iterable of dict
+        Their coordinates are those of the grid.
+    crs : str
+        Reference system, as ``EPSG:2056``: a map then finds the place.
+    """
+    document = {
+        "type": "FeatureCollection",
+        **write_member(crs),
+        "features": list(features),
+    }
     return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False).encode()
 
 

@@ -13,8 +13,10 @@ from netdesign.edge.causes import explain
 from netdesign.edge.given_files import read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.words.message import say
+from netdesign.terrain.crs import require_extra
+from netdesign.words.message import Message, say
 
+GEOTIFF = (".tif", ".tiff")
 MOST_CELLS = 16_000_000  # 4,000 x 4,000
 MOST_BYTES = 400_000_000
 LOWEST, HIGHEST = -500.0, 9000.0  # of any ground [m]
@@ -37,12 +39,18 @@ class Grid:
         Side of a cell [m].
     heights : ndarray, shape (n_y, n_x)
         From south to north and west to east [m]; NaN where nobody knows.
+    crs : str
+        Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
+    notes : tuple of Message
+        What its reader has to be told.
     """
 
     west: float
     south: float
     cell: float
     heights: Floats
+    crs: str = ""
+    notes: tuple[Message, ...] = ()
 
     @property
     def east(self) -> float:
@@ -56,13 +64,16 @@ class Grid:
 
 
 def read_grid(path: Path) -> Grid:
-    """Read an ESRI ASCII grid, in metres.
+    """Read an ESRI ASCII grid or a GeoTIFF, in metres.
 
     Raises
     ------
     TerrainError
         If the file is none; names what is accepted.
     """
+    is_geotiff = path.suffix.lower() in GEOTIFF
+    if is_geotiff:
+        require_extra(path.name)
     try:
         content = read_bounded(path, MOST_BYTES)
     except (OSError, ValueError) as error:
@@ -70,10 +81,16 @@ def read_grid(path: Path) -> Grid:
             say("terrain.unreadable", file=path.name, cause=explain(error))
         ) from None
     try:
-        return parse_grid(content)
+        return _parse_geotiff(content) if is_geotiff else parse_grid(content)
     except TerrainError as error:
         told = say("text.at_place", place=path.name, text=error.message)
         raise TerrainError(told) from None
+
+
+def _parse_geotiff(content: bytes) -> Grid:
+    from netdesign.terrain.geotiff import parse_geotiff  # which makes grids, too
+
+    return parse_geotiff(content)
 
 
 def parse_grid(content: bytes) -> Grid:
@@ -89,18 +106,14 @@ def parse_grid(content: bytes) -> Grid:
     cell = header["cellsize"]
     places = _CENTRES if _CENTRES[0] in header else _CORNERS
     west, south = (header[one] for one in places)
-    _require_metres(cell, west, south)
+    require_metres(cell, west, south)
     if places == _CORNERS:
         west, south = west + 0.5 * cell, south + 0.5 * cell
     values = _read_numbers(rest, columns * lines)
     nodata = header.get("nodata_value", -9999.0)
-    heights = np.where(values == nodata, math.nan, values).reshape(lines, columns)
-    outside = (heights < LOWEST) | (heights > HIGHEST)
-    if np.isnan(values).any() or outside.any():
-        wrong = values[np.isnan(values) | outside.ravel()][0]
-        raise TerrainError(
-            say("terrain.no_height", value=f"{wrong:g}", low=LOWEST, high=HIGHEST)
-        )
+    is_known = values != nodata
+    require_heights(values[is_known])
+    heights = np.where(is_known, values, math.nan).reshape(lines, columns)
     return Grid(west=west, south=south, cell=cell, heights=heights[::-1].copy())
 
 
@@ -125,7 +138,7 @@ def _read_header(content: bytes) -> tuple[dict[str, float], bytes]:
     unknown = set(found) - {*_NUMBERS, *_CORNERS, *_CENTRES}
     if unknown:
         raise _refuse_header(min(unknown))
-    _require_size(found)
+    require_size(found["ncols"], found["nrows"])
     return found, rest
 
 
@@ -145,15 +158,54 @@ def _refuse_header(line: str) -> TerrainError:
     return TerrainError(say("terrain.header", line=f"{line.strip()!r:.60}"))
 
 
-def _require_size(header: dict[str, float]) -> None:
-    columns, lines = header["ncols"], header["nrows"]
-    is_whole = columns.is_integer() and lines.is_integer()
+def require_heights(values: Floats) -> None:
+    """Refuse what no ground has.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        Heights that are said to be known [m].
+
+    Raises
+    ------
+    TerrainError
+        Naming the first that is none.
+    """
+    wrong = values[~((values >= LOWEST) & (values <= HIGHEST))]
+    if wrong.size:
+        ends = {"low": LOWEST, "high": HIGHEST}
+        raise TerrainError(say("terrain.no_height", value=f"{wrong[0]:g}", **ends))
+
+
+def require_size(columns: float, lines: float) -> None:
+    """Refuse a number of cells that is none, or too large.
+
+    Raises
+    ------
+    TerrainError
+        Naming it.
+    """
+    is_whole = float(columns).is_integer() and float(lines).is_integer()
     if not is_whole or not (min(columns, lines) >= 3 and columns * lines <= MOST_CELLS):
         size = {"columns": f"{columns:g}", "lines": f"{lines:g}"}
         raise TerrainError(say("terrain.size", **size, most=MOST_CELLS))
 
 
-def _require_metres(cell: float, west: float, south: float) -> None:
+def require_metres(cell: float, west: float, south: float) -> None:
+    """Refuse cells of degrees, or of a size that no grid of a slope has.
+
+    Parameters
+    ----------
+    cell : float
+        Its side [m].
+    west, south : float
+        A corner of the grid [m].
+
+    Raises
+    ------
+    TerrainError
+        Naming it.
+    """
     if 0.0 < cell < _DEGREES and abs(west) <= 360.0 and abs(south) <= 90.0:
         raise TerrainError(say("terrain.degrees", cell=f"{cell:g}"))
     if not _LEAST_CELL <= cell <= _LARGEST_CELL:

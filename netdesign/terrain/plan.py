@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 
 from netdesign.edge.causes import explain
-from netdesign.edge.given_files import decode_utf8, read_bounded
+from netdesign.edge.given_files import decode_utf8, list_faults, read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.lexicon import Lexicon
 from netdesign.site.columns.unit_names import convert_unit, normalise_unit
+from netdesign.terrain.crs import read_member
+from netdesign.terrain.layers import GEOPACKAGE, SHAPEFILE, Feature, read_layers
 from netdesign.words.message import Message, say
 
 MOST_BYTES = 20_000_000
@@ -85,10 +88,16 @@ class Plan:
         In the order of the file.
     zones : tuple of ndarray, shape (n, 2)
         Outer rings of the starting zones [m].
+    crs : str
+        Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
+    notes : tuple of Message
+        What the reader of the file has to be told.
     """
 
     lines: tuple[NetLine, ...]
     zones: tuple[Floats, ...] = ()
+    crs: str = ""
+    notes: tuple[Message, ...] = ()
 
     @property
     def closed_gaps(self) -> tuple[ClosedGap, ...]:
@@ -106,13 +115,17 @@ class Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """Read rows and zones from GeoJSON.
+    """Read rows and zones from GeoJSON, a shapefile or a GeoPackage.
 
     Raises
     ------
     TerrainError
         With all faults of the file at once.
     """
+    if path.suffix.lower() in (SHAPEFILE, GEOPACKAGE):
+        layers = read_layers(path)
+        plan = _build_plan(layers.features, path.name, list(layers.faults))
+        return replace(plan, crs=layers.crs, notes=layers.notes)
     text = read_text(path)
     try:
         document = json.loads(text, parse_constant=_refuse_constant)
@@ -150,9 +163,15 @@ def parse_plan(document: object, file: str) -> Plan:
         With all faults at once.
     """
     faults: list[Message] = []
+    plan = _build_plan(_list_features(document, faults), file, faults)
+    return replace(plan, crs=read_member(document))
+
+
+def _build_plan(features: Iterable[Feature], file: str, faults: list[Message]) -> Plan:
+    """Rows and zones of some features, each with its place."""
     lines: list[NetLine] = []
     zones: list[Floats] = []
-    for place, feature in _list_features(document, faults):
+    for place, feature in features:
         kind, parts = _read_geometry(feature, place, faults)
         properties = feature.get("properties")
         given = properties if isinstance(properties, Mapping) else {}
@@ -161,20 +180,17 @@ def parse_plan(document: object, file: str) -> Plan:
             lines += [line] if line else []
         elif kind == "zone" and given.get("kind") == ZONE:
             zones += parts
-    names = [one.id for one in lines]
-    doubles = dict.fromkeys(name for name in names if names.count(name) > 1)
-    faults += [say("terrain.twice", row=name) for name in doubles]
+    names = Counter(one.id for one in lines)
+    faults += [say("terrain.twice", row=one) for one, n in names.items() if n > 1]
     if not lines and not faults:
         faults.append(say("terrain.no_rows"))
     if faults:
-        told = (say("text.at_place", place=file, text=one) for one in faults)
-        raise TerrainError(say("text.lines", lines=tuple(told)))
+        told = [say("text.at_place", place=file, text=one) for one in faults]
+        raise TerrainError(list_faults(told))
     return Plan(lines=tuple(lines), zones=tuple(zones))
 
 
-def _list_features(
-    document: object, faults: list[Message]
-) -> Iterator[tuple[Message, Mapping[str, object]]]:
+def _list_features(document: object, faults: list[Message]) -> Iterator[Feature]:
     features = document.get("features") if isinstance(document, Mapping) else None
     if not isinstance(features, Sequence) or isinstance(features, str):
         faults.append(say("terrain.no_features"))
@@ -194,7 +210,13 @@ def _read_geometry(
     geometry = feature.get("geometry")
     given = geometry if isinstance(geometry, Mapping) else {}
     kind, points = given.get("type"), given.get("coordinates")
-    if kind == "LineString":
+    if kind == "MultiLineString" and isinstance(points, Sequence) and len(points) > 1:
+        told = say("terrain.parts", count=len(points))
+        faults.append(say("text.at_place", place=place, text=told))
+        return "", []
+    if kind == "MultiLineString":
+        found, least, named = [_read_points(_first(points))], 2, "line"
+    elif kind == "LineString":
         found, least, named = [_read_points(points)], 2, "line"
     elif kind == "Polygon":
         found, least, named = [_read_points(_first(points))], 4, "zone"

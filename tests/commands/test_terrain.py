@@ -7,6 +7,9 @@ import openpyxl
 import pytest
 
 from netdesign.site.template.workbook import write_site_workbook
+from netdesign.terrain.grid import read_grid
+from tests.terrain.map_files import write_rows as write_layer
+from tests.terrain.map_files import write_tif
 
 EAST, NORTH = 2_700_300.0, 1_180_200.0
 ROWS = (("A", 40, 40, 79), ("B", 62, 40, 79), ("C", 62, 80.5, 115))
@@ -104,6 +107,59 @@ def test_the_workbook_is_checked_as_any_other(slope, tmp_path, call):
     ended = call("check", out, "--dry-run")
     assert ended.code in (0, 4), ended.err
     assert "A" in ended.out
+
+
+@pytest.fixture(scope="module")
+def other_files(slope):
+    """The same grid and rows as a GeoTIFF of three bands and as other rows."""
+    grid = read_grid(slope / "slope.asc")
+    (slope / "slope.tif").write_bytes(write_tif(grid, count=3, compress="deflate"))
+    drawn = [
+        (one["geometry"]["coordinates"], one["properties"])
+        for one in write_rows()["features"]
+    ]
+    (ring,), zone = drawn.pop()
+    for end in (".gpkg", ".shp"):
+        cut = {"net stiffness [kN/m]": "net stiffness"}  # its unit is cut anyway
+        names = cut if end == ".shp" else {}
+        rows = [
+            (points, {names.get(key, key): value for key, value in given.items()})
+            for points, given in drawn
+        ]
+        write_layer(slope / f"rows{end}", rows)
+    write_layer(slope / "rows.gpkg", [(ring, zone)], kind=3, layer="zone")
+    return slope
+
+
+@pytest.mark.parametrize("rows", ["rows.gpkg", "rows.shp"])
+def test_files_of_other_programs_give_the_same_rows(other_files, tmp_path, call, rows):
+    told = {}
+    unequal = {"grid", "grid_sha256"}
+    if rows == "rows.shp":  # a shapefile of lines has no zone, which ends the snow
+        lengths = {"upslope_length_m", "upslope_end", "slope_mean_deg", "slope_deg"}
+        unequal |= lengths | {"slope_low_deg", "slope_high_deg"}
+    for grid, drawn in (("slope.asc", "rows.json"), ("slope.tif", rows)):
+        out = tmp_path / grid / "site.xlsx"
+        ended = call("terrain", other_files / grid, other_files / drawn, "--out", out)
+        assert ended.code == 0, ended.err
+        document = json.loads((out.parent / "rows.geojson").read_text())
+        told[grid] = [
+            {key: own for key, own in one["properties"].items() if key not in unequal}
+            for one in document["features"]
+        ]
+    assert told["slope.asc"] == told["slope.tif"]
+    assert document["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
+    assert "3 bands: the first one is read" in ended.err
+    assert ("is read as post spacing [m]" in ended.err) == (rows == "rows.shp")
+
+
+def test_a_grid_and_rows_in_two_systems_are_refused(other_files, tmp_path, call):
+    rows = tmp_path / "rows.geojson"
+    named = {"crs": {"properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}}
+    rows.write_text(json.dumps(write_rows() | named))
+    ended = call("terrain", other_files / "slope.tif", rows, "--json")
+    assert ended.code == 3
+    assert "(EPSG:2056) and WGS 84 (CRS84) are two reference systems" in ended.err
 
 
 def test_json_is_printed_and_nothing_written(slope, tmp_path, call, monkeypatch):

@@ -1,0 +1,103 @@
+"""Grids and rows as the files that offices have, written by the libraries."""
+
+import json
+import struct
+import warnings
+
+import numpy as np
+import pyogrio.raw
+import rasterio
+from rasterio.transform import Affine
+
+SWISS = "EPSG:2056"
+GIVEN = {"id": "A", "net height [m]": 3.5, "post spacing [m]": 3.0}
+
+
+def write_asc(grid):
+    lines, columns = grid.heights.shape
+    west, south = float(grid.west), float(grid.south)
+    head = (
+        f"ncols {columns}\nnrows {lines}\nxllcenter {west!r}\nyllcenter {south!r}\n"
+        f"cellsize {grid.cell}\nNODATA_value -9999\n"
+    )
+    heights = np.nan_to_num(grid.heights[::-1], nan=-9999.0)
+    rows = (" ".join(map(repr, one)) for one in heights.tolist())
+    return (head + "\n".join(rows)).encode()
+
+
+def write_tif(grid, *, crs=SWISS, transform=None, tags=None, place=True, **special):
+    """Bytes of a GeoTIFF of a grid; its first band holds the heights."""
+    heights = np.nan_to_num(grid.heights[::-1], nan=-9999.0)
+    profile = {
+        "height": len(heights),
+        "width": heights.shape[1],
+        "count": 1,
+        "dtype": "float64",
+        "nodata": -9999.0,
+        "crs": crs,
+    } | special
+    if place:
+        west, north = grid.west - 0.5 * grid.cell, grid.north + 0.5 * grid.cell
+        profile["transform"] = transform or Affine(
+            grid.cell, 0.0, west, 0.0, -grid.cell, north
+        )
+    with warnings.catch_warnings(action="ignore"), rasterio.MemoryFile() as file:
+        with file.open(driver="GTiff", **profile) as dataset:
+            dataset.write(heights.astype(profile["dtype"]), 1)
+            dataset.update_tags(**(tags or {}))
+        return file.read()
+
+
+def pack_wkb(points, kind=2, size=3):
+    """Line, ring or point as WKB of OGC, with heights or without."""
+    code = kind | (0x80000000 if size == 3 else 0)
+    flat = [one for point in points for one in (*point, 1500.0)[:size]]
+    numbers = struct.pack(f"<{len(flat)}d", *flat)
+    if kind == 1:
+        return struct.pack("<BI", 1, code) + numbers
+    counts = (1, len(points)) if kind == 3 else (len(points),)
+    return struct.pack(f"<BI{len(counts)}I", 1, code, *counts) + numbers
+
+
+def write_rows(path, rows, *, kind=2, layer="rows", crs=SWISS, size=3, **special):
+    """Rows of points and properties as the file that the name asks for."""
+    if path.suffix == ".geojson":
+        path.write_text(json.dumps(collect(rows)), encoding="utf-8")
+        return path
+    names = list(rows[0][1])
+    columns = [stack([given[name] for _, given in rows]) for name in names]
+    geometry = stack([pack_wkb(points, kind, size) for points, _ in rows])
+    shape = {1: "Point", 2: "LineString", 3: "Polygon"}[kind]
+    with warnings.catch_warnings(action="ignore"):  # of names that are cut
+        pyogrio.raw.write(
+            *(path, geometry, columns, names),
+            driver="GPKG" if path.suffix == ".gpkg" else "ESRI Shapefile",
+            layer=layer,
+            geometry_type=f"{shape} Z" if size == 3 else shape,
+            crs=crs,
+            append=path.exists(),
+            **special,
+        )
+    return path
+
+
+def collect(rows):
+    return {
+        "type": "FeatureCollection",
+        "features": [
+            {
+                "type": "Feature",
+                "properties": given,
+                "geometry": {"type": "LineString", "coordinates": list(points)},
+            }
+            for points, given in rows
+        ],
+    }
+
+
+def stack(values):
+    if all(isinstance(one, int | float) for one in values):
+        return np.array(values)
+    found = np.empty(len(values), dtype=object)
+    found[:] = values
+    return found

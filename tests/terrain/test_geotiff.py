@@ -1,0 +1,297 @@
+"""GeoTIFF: the same rows as from ASCII; what is none is refused in words."""
+
+import contextlib
+import math
+import struct
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rasterio.transform import Affine
+
+from netdesign.outcome import TerrainError
+from netdesign.terrain.geotiff import parse_geotiff
+from netdesign.terrain.grid import Grid, parse_grid, read_grid
+from netdesign.terrain.measure import measure_plan
+from tests.terrain.map_files import write_asc, write_tif
+from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
+
+DRAW = np.random.default_rng(20_261_126)
+HEIGHTS = np.round(1500.0 + DRAW.normal(0.0, 30.0, (5, 7)), 3)
+GRID = Grid(west=2_700_300.25, south=1_180_200.75, cell=0.5, heights=HEIGHTS)
+
+
+def cone(x, y):
+    return 2000.0 - 0.71 * np.hypot(x, y - 300.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("surface", [plane(math.radians(37.7)), cone])
+def test_rows_are_those_of_the_same_grid_in_ascii(surface, seed):
+    draw = np.random.default_rng(seed)
+    cell = float(draw.choice([0.5, 1.0, 2.0]))
+    placed = {
+        "turned": float(draw.uniform(-0.4, 0.4)),
+        "shift": tuple(draw.uniform((2_600_000, 1_100_000), (2_800_000, 1_200_000))),
+    }
+    size = float(draw.uniform(110.0, 170.0))
+    grid = build_grid(surface, cell=cell, size=size, **placed)
+    grid.heights[:2, :3] = math.nan
+    row = draw_line([(-13.0, -20.0), (14.0, -20.0)], **placed)
+    compress = str(draw.choice(["deflate", "lzw", "none"]))
+    text, tif = (
+        parse_grid(write_asc(grid)),
+        parse_geotiff(write_tif(grid, compress=compress)),
+    )
+    assert tif.heights == pytest.approx(text.heights, abs=0.0, nan_ok=True)
+    one, other = (measure_plan(g, plan_of(row), most=60.0)[1][0] for g in (text, tif))
+    assert other.slopes == pytest.approx(one.slopes, rel=1e-9)
+    assert other.posts == pytest.approx(one.posts, rel=1e-9)
+    length = one.upslope.length.value
+    assert other.upslope.length.value == pytest.approx(length, rel=1e-9)
+    assert tif.crs == "EPSG:2056"
+
+
+@pytest.mark.parametrize("tags", [{}, {"AREA_OR_POINT": "Point"}])
+def test_place_and_heights_are_those_of_the_middles(tags):
+    grid = parse_geotiff(write_tif(GRID, tags=tags))
+    assert (grid.west, grid.south, grid.cell) == (GRID.west, GRID.south, GRID.cell)
+    assert grid.heights == pytest.approx(HEIGHTS, abs=0.0)
+    assert grid.notes == ()
+
+
+@pytest.mark.parametrize("nodata", [-9999.0, math.nan, -3.4028234663852886e38])
+@pytest.mark.parametrize("kind", ["float32", "float64"])
+def test_cells_without_data_are_not_known(nodata, kind):
+    heights = HEIGHTS.copy()
+    heights[1, 2] = nodata
+    grid = Grid(west=0.0, south=0.0, cell=1.0, heights=heights)
+    lines = heights[::-1].astype(kind)
+    found = parse_geotiff(write_raw(grid, lines, nodata=nodata))
+    assert np.argwhere(np.isnan(found.heights)).tolist() == [[1, 2]]
+
+
+def write_raw(grid, lines, *, scale=1.0, offset=0.0, **special):
+    """The lines as they are, NaN among them."""
+    import rasterio
+
+    transform = Affine(grid.cell, 0, grid.west, 0, -grid.cell, grid.north)
+    with rasterio.MemoryFile() as file:
+        with file.open(
+            driver="GTiff", width=lines.shape[1], height=len(lines), count=1,
+            dtype=lines.dtype, transform=transform, crs="EPSG:2056", **special,
+        ) as dataset:  # fmt: skip
+            dataset.write(lines, 1)
+            dataset.scales, dataset.offsets = (scale,), (offset,)
+        return file.read()
+
+
+def test_whole_numbers_with_scale_and_offset_are_heights():
+    centimetres = np.round(100.0 * (HEIGHTS[::-1] - 1500.0)).astype("int16")
+    found = parse_geotiff(write_raw(GRID, centimetres, scale=0.01, offset=1500.0))
+    assert found.heights == pytest.approx(1500.0 + centimetres[::-1] / 100.0)
+
+
+def test_of_several_bands_the_first_is_taken_and_said():
+    grid = parse_geotiff(write_tif(GRID, count=3))
+    assert grid.heights == pytest.approx(HEIGHTS, abs=0.0)
+    assert [str(one) for one in grid.notes] == [
+        "The grid has 3 bands: the first one is read as heights"
+    ]
+
+
+@pytest.mark.parametrize("crs", [None, 'LOCAL_CS["site",UNIT["metre",1]]'])
+def test_a_grid_without_a_known_system_is_one_of_metres(crs):
+    grid = parse_geotiff(write_tif(GRID, crs=crs))
+    assert (grid.west, grid.crs) == (GRID.west, "")
+
+
+def holed(value):
+    heights = HEIGHTS.copy()
+    heights[1, 2] = value
+    return write_raw(GRID, heights)
+
+
+HALF, NORTH = 0.5, GRID.north + 0.25
+REFUSED = {
+    "is no map plane": {"crs": "EPSG:4326"},
+    "WGS 84 (EPSG:4978), which is no map": {"crs": "EPSG:4978"},
+    "US survey foot: give them": {"crs": "EPSG:2227"},
+    "heights in the unit US survey foot": {"crs": "EPSG:2056+6360"},
+    "no metres on the ground": {"crs": "EPSG:3857"},
+    "does not say where": {"place": False},
+    "is rotated": {"transform": Affine(HALF, 0.1, 7e5, 0.1, -HALF, NORTH)},
+    "upside down": {"transform": Affine(HALF, 0.0, 7e5, 0.0, HALF, NORTH)},
+    "cells of 0.5 x 0.6 m": {"transform": Affine(HALF, 0.0, 7e5, 0.0, -0.6, NORTH)},
+    "a cell of 5000 m": {"transform": Affine(5e3, 0.0, 7e5, 0.0, -5e3, NORTH)},
+    "a cell of 1e-05 degrees": {
+        "crs": None, "transform": Affine(1e-5, 0.0, 9.8, 0.0, -1e-5, 46.8)
+    },
+    "no GeoTIFF": {"dtype": "complex64"},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("said", REFUSED)
+def test_what_is_not_in_metres_on_a_plane_is_refused(said):
+    special = REFUSED[said]
+    if special.get("dtype"):
+        special = special | {"nodata": None}
+    with pytest.raises(TerrainError) as caught:
+        parse_geotiff(write_tif(GRID, **special))
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"), [(math.nan, "nan"), (1e308, "1e+308"), (-math.inf, "-inf")]
+)
+def test_heights_that_no_ground_has_are_refused(value, said):
+    with pytest.raises(TerrainError, match="a height of") as caught:
+        parse_geotiff(holed(value))
+    assert f"height of {said} m" in str(caught.value)
+
+
+# --- hostile files --------------------------------------------------------------------
+
+
+def find_tag(content, tag):
+    """Place of a tag's value in the first directory of a little-endian TIFF."""
+    (start,) = struct.unpack_from("<I", content, 4)
+    (count,) = struct.unpack_from("<H", content, start)
+    entries = (start + 2 + 12 * one for one in range(count))
+    return next(
+        at + 8 for at in entries if struct.unpack_from("<H", content, at)[0] == tag
+    )
+
+
+def lie(content, **values):
+    """The same file with other numbers in its header."""
+    tags = {"width": 256, "length": 257, "samples": 277, "rows": 278, "tile": 322}
+    found = bytearray(content)
+    for name, value in values.items():
+        at = find_tag(content, tags[name])
+        struct.pack_into("<HII", found, at - 6, 4, 1, value)  # as a long number
+    return bytes(found)
+
+
+def build_bomb():
+    """Two thousand million cells of nothing in some kilobytes."""
+    import rasterio
+
+    with rasterio.MemoryFile() as file:
+        with file.open(
+            driver="GTiff", width=50_000, height=40_000, count=1, dtype="uint8",
+            compress="deflate", tiled=True, blockxsize=4096, blockysize=4096,
+            sparse_ok=True, transform=Affine(1, 0, 7e5, 0, -1, 2e5),
+        ):  # fmt: skip
+            pass
+        return file.read()
+
+
+TILED = {"tiled": True, "blockxsize": 16, "blockysize": 16}
+HOSTILE = {
+    "bomb": build_bomb(),
+    "width": lie(write_tif(GRID), width=60_000, length=60_000),
+    "length": lie(write_tif(GRID, nodata=None), length=16_000_000 // 7),
+    "samples": lie(write_tif(GRID), samples=60_000),
+    "tile": lie(write_tif(GRID, **TILED), tile=65_520),
+    "text": b"ncols 3\nnrows 4\n",
+    "empty": b"",
+    "vrt": b'<VRTDataset rasterXSize="5" rasterYSize="5"></VRTDataset>',
+    "png": b"\x89PNG\r\n\x1a\n" + bytes(64),
+}
+WATCHED = """
+import resource, sys
+from pathlib import Path
+from netdesign.outcome import TerrainError
+from netdesign.terrain.grid import read_grid
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+for name in sys.argv[1:]:
+    try:
+        read_grid(Path(name))
+        print(name, "read")
+    except TerrainError as error:
+        print(str(error))
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) // 1024)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="memory is told otherwise there")
+def test_hostile_headers_are_refused_without_their_memory(tmp_path):
+    for name, content in HOSTILE.items():
+        (tmp_path / f"{name}.tif").write_bytes(content)
+    assert len(HOSTILE["bomb"]) < 100_000
+    names = [f"{name}.tif" for name in HOSTILE]
+    ended = subprocess.run(
+        [sys.executable, "-c", WATCHED, *names],
+        cwd=tmp_path, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    *told, megabytes = ended.stdout.splitlines()
+    assert [one.partition(":")[0] for one in told] == names, ended.stdout
+    assert "50000 x 40000 cells" in told[0]
+    assert int(megabytes) < 300  # of these a third is for the library itself
+    assert ended.stderr == ""
+    assert sorted(one.name for one in tmp_path.iterdir()) == sorted(names)
+
+
+def test_a_file_cut_anywhere_or_with_other_bytes_is_a_grid_or_refused(capfd):
+    draw = np.random.default_rng(11)
+    read = 0
+    for whole in (write_tif(GRID, compress="deflate"), write_tif(GRID, **TILED)):
+        for place in draw.integers(0, len(whole) - 1, 60):
+            spoilt = bytearray(whole)
+            for other in draw.integers(0, min(len(whole), 1200), 2):
+                spoilt[other] = draw.integers(0, 256)
+            for content in (whole[:place], bytes(spoilt)):
+                with contextlib.suppress(TerrainError):
+                    grid = parse_geotiff(content)
+                    known = grid.heights[np.isfinite(grid.heights)]
+                    assert (np.abs(known) <= 9000.0).all()
+                    read += 1
+    assert 0 < read < 200
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [("en", "or damaged"), ("fr", "ou endommagé"), ("de", "oder beschädigt")],
+)
+def test_a_damaged_grid_is_one_refusal_in_each_language(
+    tmp_path, call, language, words
+):
+    whole = write_tif(GRID, compress="deflate")
+    (tmp_path / "g.tif").write_bytes(whole[: len(whole) // 2])
+    ended = call("terrain", "g.tif", "rows.geojson", "--json", "--language", language)
+    assert ended.code == 3
+    assert words in ended.err
+    assert len(ended.err.splitlines()) == 1
+    for alien in ("GDAL", "TIFF directory", "rasterio", "Errno"):
+        assert alien not in ended.err
+
+
+def test_a_name_is_a_file_and_no_address(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("/vsicurl/http://127.0.0.1:9/g.tif", "http://127.0.0.1:9/g.tif"):
+        with pytest.raises(TerrainError, match="No such file or directory"):
+            read_grid(Path(name))
+
+
+def test_nothing_is_written_beside_and_nothing_beside_is_read(tmp_path):
+    path = tmp_path / "g.tif"
+    path.write_bytes(write_tif(GRID))
+    path.with_suffix(".tfw").write_text("9\n0\n0\n-9\n0\n0\n")
+    (tmp_path / "g.tif.aux.xml").write_text("<PAMDataset>")
+    assert read_grid(path).west == GRID.west
+    assert {one.name for one in tmp_path.iterdir()} == {
+        *("g.tif", "g.tfw", "g.tif.aux.xml")
+    }
+
+
+def test_without_the_extra_it_is_said_what_to_install(tmp_path, monkeypatch):
+    from netdesign.terrain import crs
+
+    (tmp_path / "g.tif").write_bytes(write_tif(GRID))
+    monkeypatch.setattr(crs, "find_spec", lambda _: None)
+    with pytest.raises(TerrainError, match=r'pip install "netdesign\[terrain\]"'):
+        read_grid(tmp_path / "g.tif")

@@ -1,0 +1,378 @@
+"""Rows of shapefiles and GeoPackages: those of GeoJSON; what is none is refused."""
+
+import contextlib
+import math
+import sqlite3
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from netdesign.outcome import TerrainError
+from netdesign.site.columns.all_tables import NETS
+from netdesign.terrain.crs import read_member, require_plane, require_same, write_member
+from netdesign.terrain.cut_names import read_cut_names
+from netdesign.terrain.plan import read_plan
+from netdesign.terrain.wkb import decode_wkb, encode_wkb
+from tests.terrain.map_files import GIVEN, SWISS, pack_wkb, write_rows
+
+DRAW = np.random.default_rng(4)
+GERMAN = {"Werkreihe": "Bödeli-1", "Netzhöhe [cm]": 350.0, "Stützenabstand [m]": 3.2}
+
+
+def draw_rows(**given):
+    """Three rows of drawn points."""
+    found = []
+    for number in range(3):
+        start = DRAW.uniform((2_600_000, 1_100_000), (2_800_000, 1_200_000))
+        steps = np.cumsum(DRAW.uniform(2.0, 9.0, (4 + number, 2)), axis=0)
+        points = [tuple(map(float, one)) for one in start + steps]
+        own = {key: text_of(value, number) for key, value in (given or GIVEN).items()}
+        found.append((points, own))
+    return found
+
+
+def text_of(value, number):
+    return f"{value}{number}" if isinstance(value, str) else value + 0.1 * number
+
+
+@pytest.mark.parametrize("end", [".gpkg", ".shp"])
+@pytest.mark.parametrize("size", [2, 3])
+def test_rows_are_those_of_geojson(tmp_path, end, size):
+    rows = draw_rows()
+    plain = read_plan(write_rows(tmp_path / "rows.geojson", rows))
+    found = read_plan(write_rows(tmp_path / f"rows{end}", rows, size=size))
+    assert [one.id for one in found.lines] == ["A0", "A1", "A2"]
+    for one, other in zip(plain.lines, found.lines, strict=True):
+        assert dict(one.cells) == pytest.approx(dict(other.cells))
+        assert one.points == pytest.approx(other.points, abs=1e-9)
+    assert found.crs == SWISS
+
+
+@pytest.mark.parametrize("code", ["UTF-8", "ISO-8859-1", "CP850"])
+def test_umlauts_and_cut_names_of_a_shapefile_are_read(tmp_path, code):
+    short = {"Werkreihe": "Bödeli-1", "Netzhöhe": 3.5, "Stützenabstand": 3.2}
+    rows = draw_rows(**short)
+    path = write_rows(tmp_path / "rows.shp", rows, encoding=code)
+    if code == "UTF-8":
+        path.with_suffix(".cpg").unlink()  # as old programs do
+    plan = read_plan(path)
+    assert [one.id for one in plan.lines] == ["Bödeli-10", "Bödeli-11", "Bödeli-12"]
+    assert plan.lines[1].net_height == pytest.approx(3.6)
+    assert plan.lines[2].post_spacing == pytest.approx(3.4)
+    (note,) = plan.notes
+    assert "which the shapefile has cut, is read as post spacing [m]" in str(note)
+
+
+def test_parts_of_a_shapefile_in_capitals_are_found(tmp_path):
+    write_rows(tmp_path / "rows.shp", draw_rows())
+    for one in list(tmp_path.iterdir()):
+        one.rename(tmp_path / one.name.upper())
+    assert len(read_plan(tmp_path / "ROWS.SHP").lines) == 3
+
+
+def test_units_of_a_geopackage_are_read_and_all_its_layers(tmp_path):
+    path = write_rows(tmp_path / "rows.gpkg", draw_rows(**GERMAN), layer="oben")
+    write_rows(path, draw_rows(**{**GIVEN, "id": "B"}), layer="unten")
+    ring = [(0.0, 0.0), (90.0, 0.0), (90.0, 90.0), (0.0, 0.0)]
+    write_rows(path, [(ring, {"kind": "starting zone"})], kind=3, layer="zone")
+    write_rows(path, [(ring[:1], {"kind": "station"})], kind=1, layer="station")
+    plan = read_plan(path)
+    assert [one.id[0] for one in plan.lines] == ["B"] * 6
+    assert plan.lines[0].net_height == pytest.approx(3.5)
+    assert plan.zones[0].tolist() == [list(one) for one in ring]
+
+
+def test_faults_name_the_layer_and_come_all_at_once(tmp_path):
+    rows = draw_rows()
+    path = write_rows(tmp_path / "rows.gpkg", rows, layer="one")
+    write_rows(
+        path, [(rows[0][0], {"id": "C"}), (rows[1][0], {"id": "D"})], layer="two"
+    )
+    with pytest.raises(TerrainError) as caught:
+        read_plan(path)
+    told = str(caught.value).splitlines()
+    assert len(told) == 4
+    assert all(one.startswith("rows.gpkg: layer two, feature ") for one in told)
+
+
+def test_an_empty_cell_is_none(tmp_path):
+    (first, given), *_ = draw_rows()
+    given = {"altitude [m]": 1850.0, "ground of the anchors": "till", **given}
+    empty = {"id": "B", "altitude [m]": math.nan, "ground of the anchors": None}
+    rows = [(first, given), (first, {**given, **empty})]
+    lines = read_plan(write_rows(tmp_path / "rows.gpkg", rows)).lines
+    assert (lines[0].cells["altitude"], lines[0].cells["ground"]) == (1850.0, "till")
+    assert "altitude" not in lines[1].cells
+    assert "ground" not in lines[1].cells
+
+
+# --- names that are cut ---------------------------------------------------------------
+
+
+def test_no_heading_that_is_cut_becomes_another_column():
+    """Of each heading in each language: its own column, or a question."""
+    asked = taken = 0
+    for field in NETS.fields:
+        for heading in field.raw_names:
+            for cut in (heading[:10], heading.encode()[:10].decode(errors="ignore")):
+                if len(cut.encode()) < 9 or (cut == heading and len(cut) < 10):
+                    continue
+                found = read_cut_names([cut])
+                if found.unclear:
+                    asked += 1
+                elif cut in found.full:
+                    assert found.full[cut] == field.heading_for("en"), heading
+                    taken += 1
+    assert asked > 50
+    assert taken > 200
+
+
+def test_a_cut_name_that_is_doubled_or_unclear_is_asked_for(tmp_path):
+    points = draw_rows()[0][0]
+    for extra in (
+        {"post spacing": 3.0, "post spacing old": 2.0},
+        {"downslope guy": 1.0},
+    ):
+        given = {"id": "A", "Dk": 3.5, **extra}
+        path = write_rows(tmp_path / f"r{len(extra)}.shp", [(points, given)])
+        with pytest.raises(TerrainError, match="is cut by the shapefile and may mean"):
+            read_plan(path)
+
+
+def test_names_that_are_not_cut_stay():
+    found = read_cut_names(["id", "Dk", "Werkreihe", "net height", "Höhe", "colour"])
+    assert (found.full, found.unclear, found.notes) == ({}, (), ())
+
+
+# --- reference systems ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("end", [".gpkg", ".shp"])
+@pytest.mark.parametrize(
+    ("crs", "said"),
+    [
+        ("EPSG:4326", "no map plane"),
+        ("EPSG:2227", "US survey foot"),
+        ("EPSG:3857", "no metres on the ground"),
+    ],
+)
+def test_rows_that_are_not_in_metres_on_a_plane_are_refused(tmp_path, end, crs, said):
+    path = write_rows(tmp_path / f"rows{end}", draw_rows(), crs=crs)
+    with pytest.raises(TerrainError, match=said) as caught:
+        read_plan(path)
+    assert str(caught.value).startswith(path.name)
+
+
+@pytest.mark.parametrize("end", [".gpkg", ".shp"])
+def test_rows_without_a_system_are_taken_as_metres(tmp_path, end):
+    path = write_rows(tmp_path / f"rows{end}", draw_rows(), crs=None)
+    assert read_plan(path).crs == ""
+
+
+def test_the_system_of_a_shapefile_is_that_of_its_grid(tmp_path):
+    """Its text has other names than the code's."""
+    path = write_rows(tmp_path / "rows.shp", draw_rows())
+    assert "CH1903+_LV95" in path.with_suffix(".prj").read_text()
+    require_same(require_plane(SWISS), read_plan(path).crs)
+    require_same(require_plane("EPSG:2056+5728"), SWISS)  # with heights
+    require_same("", SWISS)
+    with pytest.raises(TerrainError) as caught:
+        require_same(SWISS, require_plane("EPSG:25832"))
+    for part in ("CH1903+ / LV95 (EPSG:2056)", "UTM zone 32N (EPSG:25832)"):
+        assert part in str(caught.value)
+
+
+def test_layers_in_two_systems_are_refused(tmp_path):
+    path = write_rows(tmp_path / "rows.gpkg", draw_rows(), layer="a")
+    write_rows(path, draw_rows(), layer="b", crs="EPSG:31254")
+    with pytest.raises(TerrainError, match="two reference systems"):
+        read_plan(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        ("urn:ogc:def:crs:EPSG::2056", SWISS),
+        ("EPSG:2056", SWISS),
+        ("urn:ogc:def:crs:OGC:1.3:CRS84", "OGC:CRS84"),
+        ("http://127.0.0.1:9/crs", ""),
+        ("/etc/hosts", ""),
+        (7, ""),
+    ],
+)
+def test_the_system_that_geojson_names_is_a_code_or_none(name, code):
+    member = {"crs": {"type": "name", "properties": {"name": name}}}
+    assert read_member(member) == code
+    assert read_member(write_member(code)) == (code if code == SWISS else "")
+    assert read_member({"crs": [name]}) == ""
+
+
+def test_a_system_that_nobody_knows_is_none_and_asks_no_network(capfd):
+    for text in ("http://127.0.0.1:9/x", "/etc/hosts", "EPSG:99999999", "PROJCS["):
+        assert require_plane(text) == ""
+        with pytest.raises(TerrainError, match="two reference systems"):
+            require_same(SWISS, text)
+    assert capfd.readouterr() == ("", "")
+
+
+# --- hostile files --------------------------------------------------------------------
+
+
+def spoil(path, seed, tmp_path, *, suffixes):
+    """Copies that are cut, or have other bytes, at drawn places of one file."""
+    draw = np.random.default_rng(seed)
+    for number in range(40):
+        folder = tmp_path / f"{seed}-{number}"
+        folder.mkdir()
+        chosen = str(draw.choice(suffixes))
+        for one in path.parent.glob(f"{path.stem}.*"):
+            content = bytearray(one.read_bytes())
+            if one.suffix == chosen and number % 2:
+                content = content[: draw.integers(0, len(content))]
+            elif one.suffix == chosen:
+                for place in draw.integers(0, min(len(content), 900), 4):
+                    content[place] = draw.integers(0, 256)
+            (folder / one.name).write_bytes(content)
+        yield folder / path.name
+
+
+PARTS = {".gpkg": [".gpkg"], ".shp": [".shp", ".shx", ".dbf", ".prj", ".cpg"]}
+
+
+@pytest.mark.parametrize("end", PARTS)
+def test_files_cut_or_with_other_bytes_are_rows_or_refused(tmp_path, capfd, end):
+    whole = write_rows(tmp_path / f"rows{end}", draw_rows())
+    read = count = 0
+    for path in spoil(whole, 3, tmp_path, suffixes=PARTS[end]):
+        before = sorted(one.name for one in path.parent.iterdir())
+        count += 1
+        with contextlib.suppress(TerrainError):
+            plan = read_plan(path)
+            assert all((np.abs(one.points) < 1e8).all() for one in plan.lines)
+            read += 1
+        assert sorted(one.name for one in path.parent.iterdir()) == before
+    assert 0 < read < count
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("end", [".gpkg", ".shp"])
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [("en", "or damaged"), ("fr", "ou endommagé"), ("de", "oder beschädigt")],
+)
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"<OGRVRTDataSource></OGRVRTDataSource>", b"SQLite format 3\0" + bytes(90)],
+)
+def test_what_is_no_such_file_is_one_refusal(
+    tmp_path, call, end, language, words, content
+):
+    from netdesign.terrain.example import build_example, write_grid
+
+    (tmp_path / "g.asc").write_bytes(write_grid(build_example()))
+    for one in (".shp", ".shx", ".dbf", ".gpkg"):
+        (tmp_path / f"r{one}").write_bytes(content)
+    ended = call("terrain", "g.asc", f"r{end}", "--json", "--language", language)
+    assert ended.code == 3
+    assert words in ended.err
+    assert len(ended.err.splitlines()) == 1
+    assert "GDAL" not in ended.err
+
+
+WATCHED = """
+import resource, sys
+from pathlib import Path
+from netdesign.outcome import TerrainError
+from netdesign.terrain.plan import read_plan
+for name in sys.argv[1:]:
+    try:
+        print(name, "read", len(read_plan(Path(name)).lines))
+    except TerrainError as error:
+        print(str(error).splitlines()[0])
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+"""
+# Counts of records, of points, sizes of fields: place in its file, and bytes there.
+LIES = {
+    "records": (".dbf", 4, b"\xff\xff\xff\x7f"),
+    "width": (".dbf", 10, b"\xff\xff"),
+    "length": (".shp", 24, b"\x7f\xff\xff\xff"),
+    "record": (".shp", 104, b"\x7f\xff\xff\xff"),
+    "points": (".shp", 148, b"\xff\xff\xff\x7f"),
+    "parts": (".shp", 144, b"\xff\xff\xff\x7f"),
+    "index": (".shx", 24, b"\x7f\xff\xff\xff"),
+    "place": (".shx", 100, b"\x7f\xff\xff\xf0"),
+}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="memory is told otherwise there")
+def test_counts_that_lie_are_refused_without_their_memory(tmp_path):
+    names = [f"{name}.shp" for name in LIES]
+    for name, (suffix, at, lie) in LIES.items():
+        path = write_rows(tmp_path / f"{name}.shp", draw_rows()).with_suffix(suffix)
+        content = bytearray(path.read_bytes())
+        content[at : at + len(lie)] = lie
+        path.write_bytes(content)
+    ended = subprocess.run(
+        [sys.executable, "-c", WATCHED, *names],
+        cwd=tmp_path, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    *told, megabytes = ended.stdout.splitlines()
+    assert [one.partition(".shp")[0] for one in told] == list(LIES)
+    assert all("read" not in one or one.endswith("read 3") for one in told), told
+    assert sum("read" not in one for one in told) >= 4, told
+    assert int(megabytes) < 500
+    assert ended.stderr == ""
+
+
+def test_a_dxf_is_no_file_of_rows(tmp_path):
+    (tmp_path / "rows.dxf").write_text("0\nSECTION\n")
+    with pytest.raises(TerrainError, match="a shapefile"):
+        read_plan(tmp_path / "rows.dxf")
+
+
+@pytest.mark.parametrize("lacking", [".shx", ".dbf"])
+def test_a_part_that_a_shapefile_lacks_is_named(tmp_path, lacking):
+    path = write_rows(tmp_path / "rows.shp", draw_rows())
+    path.with_suffix(lacking).unlink()
+    with pytest.raises(TerrainError, match=f"lacks rows{lacking} beside it"):
+        read_plan(path)
+
+
+def test_a_geopackage_that_is_open_elsewhere_is_refused(tmp_path):
+    """Its rows of today may stand in a file beside it."""
+    path = write_rows(tmp_path / "rows.gpkg", draw_rows())
+    with contextlib.closing(sqlite3.connect(path)) as base:
+        base.execute("PRAGMA journal_mode=WAL")
+        base.execute("CREATE TABLE notes (text)")
+        base.commit()
+        with pytest.raises(TerrainError, match="close the file there"):
+            read_plan(path)
+    assert [one.id for one in read_plan(path).lines] == ["A0", "A1", "A2"]
+
+
+# --- geometries as bytes --------------------------------------------------------------
+
+
+def test_geometries_come_back_from_their_bytes():
+    line = {"type": "LineString", "coordinates": [(1.5, 2.5, 9.0), (3.25, 4.0, 8.0)]}
+    assert decode_wkb(encode_wkb(line))["coordinates"] == [[1.5, 2.5], [3.25, 4.0]]
+    point = {"type": "Point", "coordinates": (7.0, 8.0, 9.0)}
+    assert decode_wkb(encode_wkb(point)) == {"type": "Point", "coordinates": [7.0, 8.0]}
+    two = b"\x01\x05\0\0\0\x02\0\0\0" + 2 * pack_wkb([(1.0, 2.0), (3.0, 4.0)], size=2)
+    assert decode_wkb(two)["coordinates"] == [[[1.0, 2.0], [3.0, 4.0]]] * 2
+
+
+def test_drawn_bytes_are_a_geometry_or_none():
+    draw = np.random.default_rng(8)
+    whole = pack_wkb([(1.0, 2.0), (3.0, 4.0), (5.0, 6.0)], kind=3)
+    read = 0
+    for _ in range(500):
+        spoilt = bytearray(whole[: draw.integers(1, len(whole) + 1)])
+        for place in draw.integers(0, len(spoilt), 2):
+            spoilt[place] = draw.integers(0, 256)
+        with contextlib.suppress(ValueError):
+            assert decode_wkb(bytes(spoilt))["type"]
+            read += 1
+    assert 0 < read < 500
