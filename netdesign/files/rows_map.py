@@ -13,12 +13,13 @@ from netdesign.site.model import Site
 from netdesign.terrain.plan import ZONE, read_text
 from netdesign.words.message import say
 
+_FAR = 1e8  # beyond it nothing lies on a map in metres [m]
 Ring = Sequence[tuple[float, float]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowsMap:
-    """What a map of a site's rows is drawn from; nothing of it enters a check.
+    """Rows and zones that a map is drawn from; nothing of them enters a check.
 
     Attributes
     ----------
@@ -54,13 +55,12 @@ def read_rows_map(path: Path) -> RowsMap:
     if len(grids) > 1:
         raise TerrainError(say("terrain.two_grids", file=path.name))
     ((grid, sha256),) = grids
-    return RowsMap(
-        file=path.name,
-        grid=grid,
-        sha256=sha256,
-        rows=rows,
-        zones=_read_zones(text, path.name),
-    )
+    zones = _read_zones(text, path.name)
+    points = [point for place in rows.values() for point in place.posts]
+    corners = [point for zone in zones for point in zone]
+    if not all(abs(part) < _FAR for point in (*points, *corners) for part in point):
+        raise TerrainError(say("terrain.no_places", file=path.name))
+    return RowsMap(file=path.name, grid=grid, sha256=sha256, rows=rows, zones=zones)
 
 
 def _read_zones(text: str, file: str) -> tuple[Ring, ...]:

@@ -27,7 +27,7 @@ _ORDER = (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, None
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MappedRow:
-    """What the map says of a net row.
+    """Verdict of a net row as the map shows it.
 
     Attributes
     ----------

@@ -21,6 +21,13 @@ from netdesign.words.catalogue import Language
 if TYPE_CHECKING:
     from netdesign.files.rows_map import RowsMap
 
+# Its names are read on paper and on a telephone, and seen to be links.
+_OF_MAP = """
+#map a text { text-decoration: underline; }
+@media screen and (max-width: 620px) { #map figure svg { width: 640px; } }
+@media print { #map figure svg { width: 100%; } }
+"""
+
 
 def render_html(
     study: Study,
@@ -56,7 +63,8 @@ def render_html(
         " - ".join(title),
         language,
         skip=link("todo", words("heading.skip_to_todo")),
-        style=f"@page {{ @bottom-left {{ content: {_quote_css(running)}; }} }}",
+        style=f"@page {{ @bottom-left {{ content: {_quote_css(running)}; }} }}"
+        + (_OF_MAP if places else ""),
         is_report=True,
     )
 

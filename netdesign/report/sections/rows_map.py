@@ -31,7 +31,7 @@ def show_rows_map(
         for number, row in enumerate(study.rows, 1)
     }
     caption = words(
-        "map.caption", grid=show_text(places.grid), sha256=show_text(places.sha256)
+        "rows_map.caption", grid=show_text(places.grid), sha256=show_text(places.sha256)
     )
     others = tuple(show_text(one) for one in places.rows if one not in rows)
     if others:
