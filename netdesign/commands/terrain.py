@@ -50,7 +50,7 @@ _ROWS = "rows.geojson"
     "--types",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="SITE",
-    help="Workbook whose other sheets are taken over: types, row ends, ranges, project.",
+    help="Workbook whose other sheets are taken over: types, row ends, ranges.",
 )
 @click.option(
     "--verdicts",
