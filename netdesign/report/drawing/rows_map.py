@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from netdesign.files.rows_map import RowsMap
 from netdesign.files.verdict_map import MeasuredPlace
@@ -60,6 +60,7 @@ def draw_rows_map(
     words : Words
         Of the language.
     """
+    places = _localise(places)
     chart, frame = Chart(language=words.language), _frame(places)
     below = frame.top + frame.height
     board = LabelBoard(width=WIDTH, height=below)
@@ -77,12 +78,31 @@ def draw_rows_map(
     return chart.write(end, title)
 
 
+def _localise(places: RowsMap) -> RowsMap:
+    """Map in metres from its own corner, to a millimetre: the same wherever it lies."""
+    west, south = (min(part) for part in zip(*_list_points(places), strict=True))
+
+    def move(x: float, y: float) -> tuple[float, float]:
+        return round(x - west, 3), round(y - south, 3)
+
+    rows = {
+        name: replace(row, posts=[(*move(x, y), 0.0) for x, y, _ in row.posts])
+        for name, row in places.rows.items()
+    }
+    zones = tuple(tuple(move(x, y) for x, y in zone) for zone in places.zones)
+    return replace(places, rows=rows, zones=zones)
+
+
+def _list_points(places: RowsMap) -> list[tuple[float, float]]:
+    points = [(x, y) for row in places.rows.values() for x, y, _ in row.posts]
+    return [*points, *(point for zone in places.zones for point in zone)]
+
+
 def _frame(places: RowsMap) -> Frame:
     """Frame of a map whose metres are as long upwards as sideways."""
-    points = [(x, y) for row in places.rows.values() for x, y, _ in row.posts]
-    points += [point for zone in places.zones for point in zone]
     (west, east), (south, north) = (
-        (min(part) - _MARGIN, max(part) + _MARGIN) for part in zip(*points, strict=True)
+        (min(part) - _MARGIN, max(part) + _MARGIN)
+        for part in zip(*_list_points(places), strict=True)
     )
     scale = min((WIDTH - 2.0 * _SIDE) / (east - west), _HEIGHT / (north - south))
     width = scale * (east - west)
