@@ -94,6 +94,7 @@ def write_reports(
     *,
     language: Language = "en",
     kinds: Sequence[str] = ("html", "xlsx"),
+    rows_map: str | Path | None = None,
     overwrite: bool = False,
 ) -> list[Path]:
     """Write ``study.json`` and the reports of a study into a folder.
@@ -108,6 +109,8 @@ def write_reports(
         ``en``, ``fr`` or ``de``.
     kinds : sequence of str
         Of ``html``, ``xlsx``, ``docx``, ``pdf`` and ``csv``.
+    rows_map : str or Path, optional
+        ``rows.geojson`` of ``netdesign terrain``, for a map of the rows.
     overwrite : bool
         Whether files of others may be replaced; its own are.
 
@@ -121,7 +124,7 @@ def write_reports(
     OutputError
         If a file is in the way.
     NetDesignError
-        If the study contradicts its own numbers.
+        If the study contradicts its own numbers, or the map is not of its rows.
 
     Verified by
     -----------
@@ -137,7 +140,14 @@ def write_reports(
     files = [STUDY_FILE, *(names.get(kind, f"report.{kind}") for kind in kinds)]
     paths = [Path(folder) / name for name in files]
     require_free(paths, overwrite=overwrite, may_force=False)
-    contents = render_files([study], [paths], ReportStyle(language=language))
+    places = None
+    if rows_map is not None:
+        from netdesign.files.rows_map import read_rows_map, require_named
+
+        places = read_rows_map(Path(rows_map))
+        require_named(places, [row.id for row in study.rows])
+    style = ReportStyle(language=language, places=places)
+    contents = render_files([study], [paths], style)
     write_files(contents, overwrite=overwrite, is_recorded=True)
     return paths
 

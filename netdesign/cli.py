@@ -47,7 +47,16 @@ _OBJECTS = 100_000
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
 
 _OWN_MODULES = (
-    *("bench", "check", "completion", "doctor", "envelope", "paper", "report"),
+    *(
+        "bench",
+        "check",
+        "completion",
+        "doctor",
+        "envelope",
+        "layout",
+        "paper",
+        "report",
+    ),
     *("solve", "standards", "terrain", "validate", "verify", "winter"),
 )
 _COMMANDS = CommandTable(

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import os
-from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -30,32 +31,34 @@ from netdesign.commands.running import (
     own_command,
     print_document,
     print_faults,
+    report_places,
 )
 from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.words.catalogue import Language
+from netdesign.outcome import TerrainError
+from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from netdesign.checks import Standard
     from netdesign.numerics.arrays import Floats
-    from netdesign.solving.runner import Runner
-    from netdesign.study.check_run import CheckRun
-    from netdesign.study.check_site import Watch
+    from netdesign.site.model import Site
     from netdesign.study.cost import Prices
-    from netdesign.study.records import RowStudy, Study
+    from netdesign.study.records import Study
+    from netdesign.study.sizing import SizedCell
     from netdesign.terrain.constructions import Catalogue
     from netdesign.terrain.coverage import Coverage
     from netdesign.terrain.grid import Grid
-    from netdesign.terrain.layout import ProposedRow
     from netdesign.terrain.measure import MeasuredRow
     from netdesign.terrain.plan import Plan
+    from netdesign.terrain.site_lines import Lines
     from netdesign.terrain.surface import Surface
 
 DEFAULT_FOLDER = "netdesign-layout"
 _GUIDELINE = "swiss-guideline-2007"
 _SITE, _ROWS, _DRAWN, _PLAN = "site.xlsx", "rows.geojson", "plan.geojson", "plan.json"
+_ENDS = "Ends"  # sheet of the lines on the ends of rows
 _FILE = click.Path(path_type=Path, dir_okay=False)
 
 
@@ -107,17 +110,302 @@ def layout(grid: Path, zone: Path, **asked: Any) -> None:
     steepest slope between them. Each has the lowest net of sheet Nets that is as high
     as its snow, and the smallest or cheapest types of the workbook that pass.
     """
-    task = _read(grid, zone, asked)
     folder: Path = asked["out"] or Path(DEFAULT_FOLDER)
     _require_free(folder, asked)
-    plan, rows = _propose(task)
-    measured = _measure(task, plan)
-    studied = _check(task, rows, measured, asked)
-    document = _describe(task, rows, measured, studied)
-    _write(task, folder, measured, studied, document, asked)
+    task = _read(grid, zone, asked)
+    proposed = _propose(task, asked)
+    workbook, study, failed = _check(task, proposed, asked)
+    document = _describe(task, proposed, study)
+    _write(task, folder, proposed, workbook, study, document, asked)
     if asked["as_json"]:
         print_document(document)
     else:
         _tell_plan(document, asked["language"])
-    failed = print_faults(studied.faults, asked["language"])
-    raise SystemExit(failed or find_exit_code([studied.study]))
+    raise SystemExit(failed or find_exit_code([study]))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Given:
+    """What is read: ground, zones, nets and types, prices, limit profiles."""
+
+    grid: Grid
+    grid_file: Path
+    zones: Plan
+    catalogue: Catalogue
+    types: Path
+    prices: Prices | None
+    standard: Standard
+    friction: float  # of the ground, tan phi [-]
+    cap: float | None  # on the distance over the net height [-]
+    find_snow: Callable[[Floats], Floats]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Proposed:
+    """Rows as proposed and as measured, and what of the zones they hold."""
+
+    plan: Plan
+    built: Mapping[str, str]  # construction of each row
+    surface: Surface
+    rows: Sequence[MeasuredRow]
+    coverage: Coverage
+
+
+def _require_free(folder: Path, asked: Mapping[str, Any]) -> None:
+    from netdesign.edge.output import STUDY_FILE, require_free
+    from netdesign.report.page.terrain_page import PAGE_FILE
+
+    names = (_SITE, _ROWS, _DRAWN, _PLAN, STUDY_FILE, PAGE_FILE)
+    require_free([folder / one for one in names], overwrite=asked["force"])
+
+
+def _read(grid: Path, zone: Path, asked: Mapping[str, Any]) -> _Given:
+    from netdesign.checks import load_standard
+    from netdesign.checks.schema import GROUND_FRICTION, SPACING_CAP
+    from netdesign.terrain.constructions import read_catalogue
+    from netdesign.terrain.crs import require_same
+    from netdesign.terrain.grid import read_grid
+    from netdesign.terrain.plan import read_zones
+
+    spacing = load_standard(asked["spacing_standard"])
+    friction, cap = spacing.find(GROUND_FRICTION), spacing.find(SPACING_CAP)
+    if friction is None:
+        raise UsageRefusal(say("terrain.no_friction", profile=spacing.id))
+    ground, zones = read_grid(grid), read_zones(zone)
+    require_same(ground.crs, zones.crs)
+    for note in (*ground.notes, *zones.notes):
+        tell(note, asked["language"], err=True)
+    return _Given(
+        grid=ground,
+        grid_file=grid,
+        zones=zones,
+        catalogue=read_catalogue(asked["types"]),
+        types=asked["types"],
+        prices=_read_prices(asked),
+        standard=load_standard(asked["standard"]),
+        friction=friction.value,
+        cap=cap.value if cap else None,
+        find_snow=_choose_snow(ground, asked),
+    )
+
+
+def _read_prices(asked: Mapping[str, Any]) -> Prices | None:
+    from netdesign.files.prices import read_prices
+    from netdesign.terrain.constructions import list_types
+
+    if asked["prices"] is None:
+        return None
+    return read_prices(asked["prices"], list_types(asked["types"]))
+
+
+def _choose_snow(ground: Grid, asked: Mapping[str, Any]) -> Callable[[Floats], Floats]:
+    """Vertical snow height at places, by a grid, or by a height at an altitude."""
+    from netdesign.terrain.grid import read_grid
+    from netdesign.terrain.snow_height import follow_altitude, read_heights
+
+    height, altitude = asked["snow"], asked["snow_altitude"]
+    gradient = asked["snow_gradient"]
+    if (height is None) is (asked["snow_grid"] is None):
+        raise UsageRefusal(say("layout.snow"))
+    if (altitude is None) is not (gradient is None) or (height is None and gradient):
+        raise UsageRefusal(say("layout.gradient"))
+    if height is None:
+        return read_heights(read_grid(asked["snow_grid"]), asked["snow_grid"].name)
+    if gradient is None:
+        return follow_altitude(ground, height, 0.0, 0.0)
+    return follow_altitude(ground, height, altitude, gradient / 100.0)
+
+
+def _propose(given: _Given, asked: Mapping[str, Any]) -> _Proposed:
+    """Rows for the zones, and the same rows as ``netdesign terrain`` measures them."""
+    import numpy as np
+
+    from netdesign.checks.geometry import compute_largest_row_spacing
+    from netdesign.edge.progress import show_progress
+    from netdesign.terrain.coverage import find_coverage
+    from netdesign.terrain.layout import Task, propose_rows
+    from netdesign.terrain.measure import measure_plan
+    from netdesign.terrain.surface import choose_window
+
+    def find_reach(slope: float, net_height: float) -> float:
+        cap = (
+            math.inf if given.cap is None else given.cap * net_height / math.cos(slope)
+        )
+        return min(cap, compute_largest_row_spacing(slope, net_height, given.friction))
+
+    zones = given.zones.zones
+    task = Task(
+        surface=choose_window(given.grid, np.concatenate(zones)),
+        zones=zones,
+        constructions=given.catalogue.constructions,
+        find_snow=given.find_snow,
+        find_reach=find_reach,
+    )
+    rows = propose_rows(task)
+    if not rows:
+        raise TerrainError(say("layout.no_room"))
+    named = {f"R{number}": row for number, row in enumerate(rows, 1)}
+    lines = tuple(given.catalogue.draw(row, name) for name, row in named.items())
+    plan = replace(given.zones, lines=lines)
+    shown = {"quiet": asked["quiet"], "language": asked["language"]}
+    with show_progress(len(lines), "rows", **shown) as on_row:
+        surface, measured = measure_plan(
+            given.grid, plan, most=task.farthest, on_row=on_row
+        )
+    reach = {
+        row.line.id: find_reach(row.slope.high, row.line.net_height) for row in measured
+    }
+    return _Proposed(
+        plan=plan,
+        built={name: row.construction.id for name, row in named.items()},
+        surface=surface,
+        rows=measured,
+        coverage=find_coverage(surface, plan, measured, reach),
+    )
+
+
+def _check(
+    given: _Given, proposed: _Proposed, asked: Mapping[str, Any]
+) -> tuple[bytes, Study, int]:
+    """Workbook of the rows with the types that pass, its study, exit code of faults."""
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.study.check_run import CheckRun
+    from netdesign.study.check_site import judge_solved, solve_rows
+    from netdesign.study.sizing import size_site
+    from netdesign.terrain.constructions import put_types
+    from netdesign.terrain.site_lines import read_other_sheets, write_workbook
+
+    others, _ = read_other_sheets(given.types, ())
+    ends = [*others.get(_ENDS, ()), *given.catalogue.list_ends(proposed.built)]
+    lines: Lines = {**others, _ENDS: ends}
+    name, language = given.grid_file.name, asked["language"]
+    run = CheckRun(
+        settings=SolverSettings(accuracy=asked["accuracy"]),
+        jobs=asked["jobs"] or os.cpu_count() or 1,
+        command=own_command(),
+        started=format_time(),
+    )
+    workbook = write_workbook(proposed.rows, name, lines, language)
+    site = _read_site(workbook, {})
+    with open_run(site, run, asked, 2) as (runner, watch):
+        solved = solve_rows(site, run, runner, watch)
+        (study,) = judge_solved(solved, [given.standard], run, runner, watch)
+        read = partial(_read_site, workbook)
+        cells = size_site(solved, study, given.standard, run, read, given.prices)
+        rows, lines = put_types(proposed.rows, lines, *_sort_types(cells, language))
+        workbook = write_workbook(rows, name, lines, language)
+        again = solve_rows(_read_site(workbook, {}), run, runner, watch, solved)
+        (study,) = judge_solved(again, [given.standard], run, runner, watch)
+    return workbook, study, print_faults(runner.faults, language)
+
+
+def _sort_types(
+    cells: Sequence[SizedCell], language: Language
+) -> tuple[dict[str, dict[str, str]], dict[str, dict[str, str]]]:
+    """Types by row and column, of sheet Nets and of sheet Ends."""
+    of_nets: dict[str, dict[str, str]] = {}
+    of_ends: dict[str, dict[str, str]] = {}
+    nets = render(say("sheet.Nets"), language)
+    for one in cells:
+        if one.now:
+            found = of_nets if one.cell.startswith(f"{nets}!") else of_ends
+            found.setdefault(one.row_id, {})[one.column] = one.now
+    return of_nets, of_ends
+
+
+def _read_site(workbook: bytes, instead: Mapping[str, str]) -> Site:
+    from netdesign.site.reader import read_site
+
+    with TemporaryDirectory() as folder:
+        place = Path(folder) / _SITE
+        place.write_bytes(workbook)
+        return read_site(place, instead=instead)
+
+
+def _describe(given: _Given, proposed: _Proposed, study: Study) -> dict[str, Any]:
+    """The plan as a document: its rows with their verdicts, its sums, its cost."""
+    from netdesign.study.cost import add_costs
+
+    rows, costs = [], []
+    for row, checked in zip(proposed.rows, study.rows, strict=True):
+        one = {
+            "id": row.line.id,
+            "net": proposed.built[row.line.id],
+            "length_m": round(row.length, 2),
+            "posts": len(row.posts),
+            "post_spacing_m": round(row.line.post_spacing, 3),
+            "snow_height_m": round(float(row.line.cells["snow_height"]), 3),
+            "upslope_length_m": round(row.upslope.length.high, 2),
+            "verdict": str(checked.verdict),
+        }
+        if given.prices is not None:
+            costs.append(add_costs(checked.parts, given.prices)[0])
+            one["cost"] = round(costs[-1], 2)
+        rows.append(one)
+    found: dict[str, Any] = {
+        "schema": "netdesign.layout/1",
+        "verdict": str(study.verdict),
+        "length_m": round(sum(row.length for row in proposed.rows), 2),
+        "posts": sum(len(row.posts) for row in proposed.rows),
+        "zone_m2": proposed.coverage.area,
+        "uncovered_m2": proposed.coverage.uncovered,
+        "rows": rows,
+    }
+    if given.prices is not None:
+        found["cost"] = round(sum(costs), 2)
+    return found
+
+
+def _write(
+    given: _Given,
+    folder: Path,
+    proposed: _Proposed,
+    workbook: bytes,
+    study: Study,
+    document: Mapping[str, Any],
+    asked: Mapping[str, Any],
+) -> None:
+    from netdesign.edge.output import STUDY_FILE, write_files
+    from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
+    from netdesign.study.document import write_document
+    from netdesign.terrain.geojson import (
+        list_drawn_features,
+        list_row_features,
+        write_features,
+    )
+
+    language = asked["language"]
+    name, crs = given.grid_file.name, given.grid.crs or given.zones.crs
+    sha256 = hashlib.sha256(given.grid_file.read_bytes()).hexdigest()
+    measured = list_row_features(proposed.rows, given.zones.zones, name, sha256)
+    page = render_terrain(
+        *(proposed.surface, proposed.plan, proposed.rows, proposed.coverage),
+        *((name, sha256), language),
+    )
+    contents = {
+        _DRAWN: write_features(list_drawn_features(proposed.plan, language), crs),
+        _SITE: workbook,
+        _ROWS: write_features(measured, crs),
+        _PLAN: (json.dumps(document, indent=1) + "\n").encode(),
+        STUDY_FILE: write_document(study).encode(),
+        PAGE_FILE: page,
+    }
+    files = {folder / one: content for one, content in contents.items()}
+    write_files(files, overwrite=asked["force"])
+    if not asked["quiet"]:
+        report_places([list(files)], language, quiet=False)
+
+
+def _tell_plan(document: Mapping[str, Any], language: Language) -> None:
+    for row in document["rows"]:
+        told = {key: row[key] for key in ("length_m", "posts", "upslope_length_m")}
+        verdict = say(f"verdict.{row['verdict']}")
+        tell(
+            say("layout.row", row=row["id"], net=row["net"], verdict=verdict, **told),
+            language,
+        )
+    keys = ("length_m", "posts", "zone_m2", "uncovered_m2")
+    sums = {key: document[key] for key in keys}
+    tell(say("layout.sums", rows=len(document["rows"]), **sums), language)
+    if "cost" in document:
+        tell(say("layout.cost", cost=document["cost"]), language)

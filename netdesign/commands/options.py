@@ -301,6 +301,12 @@ report_options = join(
         metavar="FILE.docx",
         help="Write report.docx into it: its styles, header and footer stay.",
     ),
+    click.option(
+        "--rows-map",
+        type=_FILE,
+        metavar="ROWS",
+        help="The rows.geojson of `netdesign terrain`: a map of the rows by verdict.",
+    ),
     click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases."),
     choice(
         "--detail",

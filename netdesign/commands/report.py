@@ -25,6 +25,7 @@ from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
+    from netdesign.files.rows_map import RowsMap
     from netdesign.report.difference import Change
     from netdesign.report.files import ReportStyle
 
@@ -66,12 +67,12 @@ def list_wanted(asked: Mapping[str, Any]) -> list[str]:
 
 
 def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
-    """Style of the reports; reads the template, before anything is solved.
+    """Style of the reports; reads template and map, before anything is solved.
 
     Raises
     ------
     NetDesignError
-        If the template is no document.
+        If the template is no document, or the map not one of ours.
     """
     from netdesign.report.files import ReportStyle
 
@@ -81,8 +82,19 @@ def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
 
         content = read_template(asked["template"])
     return ReportStyle(
-        language=asked["language"], detail=asked["detail"], template=content
+        language=asked["language"],
+        detail=asked["detail"],
+        template=content,
+        places=_read_places(asked["rows_map"]),
     )
+
+
+def _read_places(path: Path | None) -> RowsMap | None:
+    if path is None:
+        return None
+    from netdesign.files.rows_map import read_rows_map
+
+    return read_rows_map(path)
 
 
 @click.command()
@@ -109,6 +121,7 @@ def report(
     netdesign report netdesign-out/study.json --out again
     netdesign report netdesign-out/study.json --language fr --out rapport
     netdesign report netdesign-out/study.json --detail summary --no-excel --force
+    netdesign report netdesign-out/study.json --rows-map rows.geojson --out mapped
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import name_files, render_files
@@ -121,6 +134,10 @@ def report(
     )
     names = name_files(out, [study.profile.id], wanted)
     style = choose_style(options)
+    if style.places is not None:
+        from netdesign.files.rows_map import require_named
+
+        require_named(style.places, [row.id for row in study.rows])
     require_free(names[0], overwrite=force)
     require_sound(study, study_file, site_file, standard, language)
     files = render_files([study], names, style)

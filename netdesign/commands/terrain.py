@@ -29,12 +29,12 @@ if TYPE_CHECKING:
     from netdesign.terrain.geojson import Feature
     from netdesign.terrain.measure import MeasuredRow
     from netdesign.terrain.plan import Plan
+    from netdesign.terrain.site_lines import Lines
     from netdesign.terrain.surface import Surface
 
 _SITE = "site.xlsx"
 _GUIDELINE = "swiss-guideline-2007"
 _ROWS = "rows.geojson"
-_TYPES = "types.xlsx"
 
 
 @click.command()
@@ -50,7 +50,7 @@ _TYPES = "types.xlsx"
     "--types",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="SITE",
-    help="Workbook whose other sheets are taken over: types, ranges, project.",
+    help="Workbook whose other sheets are taken over: types, row ends, ranges.",
 )
 @click.option(
     "--verdicts",
@@ -172,24 +172,21 @@ def _place(asked: Mapping[str, Any]) -> tuple[Path | None, str]:
 def _write_example(folder: Path, *, overwrite: bool) -> tuple[Path, Path, Path]:
     """Grid, rows and types of the made-up starting zone, written to a folder."""
     from netdesign.edge.output import write_files
-    from netdesign.site.template.workbook import write_site_workbook
     from netdesign.terrain.example import (
         GRID_FILE,
         ROWS_FILE,
+        TYPES_FILE,
         build_example,
         write_grid,
         write_rows,
+        write_types,
     )
 
     ground = build_example()
-    places = {
-        folder / GRID_FILE: write_grid(ground),
-        folder / ROWS_FILE: write_rows(ground),
-    }
+    grid, rows, types = (folder / one for one in (GRID_FILE, ROWS_FILE, TYPES_FILE))
+    places = {grid: write_grid(ground), rows: write_rows(ground), types: write_types()}
     write_files(places, overwrite=overwrite)
-    types = folder / _TYPES
-    write_site_workbook(types, example=True, overwrite=overwrite)
-    return folder / GRID_FILE, folder / ROWS_FILE, types
+    return grid, rows, types
 
 
 def _measure(
@@ -202,23 +199,29 @@ def _measure(
 ) -> None:
     """Measure the rows, tell what was found, and write it."""
     from netdesign.edge.output import write_files
+    from netdesign.edge.progress import show_progress
     from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
     from netdesign.terrain.crs import require_same
     from netdesign.terrain.geojson import list_row_features, write_features
     from netdesign.terrain.grid import read_grid
     from netdesign.terrain.measure import measure_plan
     from netdesign.terrain.plan import read_plan
-    from netdesign.terrain.site_lines import read_other_sheets, write_workbook
+    from netdesign.terrain.site_lines import write_workbook
 
     ground, plan = read_grid(grid), read_plan(rows)
     require_same(ground.crs, plan.crs)
     for note in (*ground.notes, *plan.notes):
         tell(note, language, err=True)
-    others = read_other_sheets(asked["types"]) if asked["types"] else None
-    surface, measured = measure_plan(ground, plan, most=asked["most"])
+    others = _read_types(asked["types"], plan, language)
+    with show_progress(
+        len(plan.lines), "rows", quiet=asked["quiet"], language=language
+    ) as on_row:
+        surface, measured = measure_plan(
+            ground, plan, most=asked["most"], on_row=on_row
+        )
     coverage = _cover(surface, plan, measured, asked["standard"])
     sha256 = hashlib.sha256(grid.read_bytes()).hexdigest()
-    features = list_row_features(measured, grid.name, sha256)
+    features = list_row_features(measured, plan.zones, grid.name, sha256)
     if asked["as_json"]:
         print_document(_describe(features, coverage, surface.noise))
     else:
@@ -237,6 +240,19 @@ def _measure(
     if not asked["quiet"]:
         for path in places:
             tell(say("cli.wrote", path=str(path)), language, err=True)
+
+
+def _read_types(path: Path | None, plan: Plan, language: Language) -> Lines | None:
+    """Lines of the other sheets; what names rows that the plan lacks is told."""
+    from netdesign.terrain.site_lines import read_other_sheets
+
+    if path is None:
+        return None
+    lines, left_out = read_other_sheets(path, [one.id for one in plan.lines])
+    if left_out:
+        told = say("terrain.ends_left", file=path.name, rows=left_out)
+        tell(say("cli.note", text=told), language, err=True)
+    return lines
 
 
 def _cover(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
+    from netdesign.files.rows_map import RowsMap
     from netdesign.report.sections.whole import Detail
     from netdesign.study.records import Study
 
@@ -22,6 +23,7 @@ class ReportStyle:
     language: Language = "en"
     detail: Detail = "full"
     template: bytes | None = None  # docx that report.docx is written into
+    places: RowsMap | None = None  # of the map of the rows
 
 
 def list_reports(
@@ -102,7 +104,7 @@ def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, byt
 def _render_page(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.page.html import render_html
 
-    return render_html(study, style.language, style.detail).encode()
+    return render_html(study, style.language, style.detail, style.places).encode()
 
 
 def _render_pdf(study: Study, style: ReportStyle) -> bytes:
@@ -118,7 +120,9 @@ def _print_page(page: bytes) -> bytes:
 def _render_docx(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.document.word import render_document
 
-    return render_document(study, style.language, style.detail, style.template)
+    return render_document(
+        study, style.language, style.detail, style.template, style.places
+    )
 
 
 def _render_xlsx(study: Study, style: ReportStyle) -> bytes:

@@ -3,25 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from netdesign.outcome import SiteDataError, TerrainError
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import ENDS, NETS
+from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.reader import read_cells
 from netdesign.site.tables import find_table, read_rows
 from netdesign.terrain.layout import Construction, ProposedRow
+from netdesign.terrain.measure import MeasuredRow
 from netdesign.terrain.plan import NetLine
+from netdesign.terrain.site_lines import Lines, read_other_sheets
 from netdesign.words.message import say
 
-Cells = Mapping[str, object]
+Cells = Mapping[str, float | str]
+Types = Mapping[str, Mapping[str, str]]
 _NEEDED = ("id", "net_height", "post_spacing")
 # What a place decides, not what is built there.
-_OF_PLACE = frozenset(
-    ("id", "slope_angle", "snow_thickness", "snow_height", "upslope_length")
-    + ("snow_layers", "gap", "altitude", "neighbour", "row_above", "edge_distance")
-    + ("row_length", "post_count", "post_spacing")
+_OF_PLACE = (
+    *("id", "slope_angle", "snow_thickness", "snow_height", "upslope_length"),
+    *("snow_layers", "gap", "altitude", "neighbour", "row_above", "edge_distance"),
+    *("row_length", "post_count", "post_spacing"),
 )
 
 
@@ -78,7 +81,7 @@ def read_catalogue(path: Path) -> Catalogue:
     findings: list[Finding] = []
     nets, ends = (
         [
-            {key: one.value for key, one in row.items() if one.state == "given"}
+            {key: _take(one.value) for key, one in row.items() if one.state == "given"}
             for row in read_rows(find_table(workbook, plan, findings), findings)
         ]
         for plan in (NETS, ENDS)
@@ -108,3 +111,49 @@ def read_catalogue(path: Path) -> Catalogue:
             for one in found
         },
     )
+
+
+def list_types(path: Path) -> tuple[str, ...]:
+    """Names of all types of a workbook's sheets."""
+    lines, _ = read_other_sheets(path, ())
+    names = (
+        str(line["id"])
+        for plan in (ANCHORS, ROPES, POSTS)
+        for line in lines.get(plan.name, ())
+        if "id" in line
+    )
+    return tuple(dict.fromkeys(names))
+
+
+def put_types(
+    rows: Sequence[MeasuredRow], lines: Lines, of_nets: Types, of_ends: Types
+) -> tuple[list[MeasuredRow], Lines]:
+    """Rows, and lines of the other sheets, with other types in some cells.
+
+    Parameters
+    ----------
+    rows : sequence of MeasuredRow
+        Of the plan.
+    lines : mapping
+        Lines of the other sheets.
+    of_nets, of_ends : mapping of str to mapping of str to str
+        Types by column, by row, on sheet Nets and on sheet Ends.
+    """
+    drawn = [
+        replace(
+            row,
+            line=replace(
+                row.line, cells={**row.line.cells, **of_nets.get(row.line.id, {})}
+            ),
+        )
+        for row in rows
+    ]
+    ends = [
+        {**line, **of_ends.get(str(line["row"]), {})}
+        for line in lines.get(ENDS.name, ())
+    ]
+    return drawn, {**lines, ENDS.name: ends}
+
+
+def _take(value: object) -> float | str:
+    return float(value) if isinstance(value, int | float) else str(value)

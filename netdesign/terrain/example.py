@@ -9,23 +9,61 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.site.columns.all_tables import NETS
-from netdesign.site.template.workbook import load_example
+from netdesign.site.template.workbook import load_example, render_workbook
 from netdesign.terrain.contour import follow_contour
 from netdesign.terrain.grid import Grid
 from netdesign.terrain.surface import Surface
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
+TYPES_FILE = "types.xlsx"
 _EAST, _NORTH, _CELL, _SIZE = 2_700_000.0, 1_180_000.0, 1.0, 200  # nobody's place
 _SEED, _NOISE = 20_261_126, 0.05  # of the heights [m]
 _EDGE = 150.0  # north of it the ground is flatter [m]
-_ZONE = ((18.0, 45.0), (178.0, 45.0), (178.0, 158.0), (18.0, 158.0))
-# Start of each row, west of the gully and east of it; length along the contour [m].
-_ROWS = tuple(
-    (f"{letter}{side}", (east, 52.0 + 19.0 * step), 39.0)
-    for step, letter in enumerate("ABCDE")
-    for side, east in ((1, 24.0), (2, 112.0))
+_ZONE = (
+    *((42.0, 94.0), (80.0, 94.0), (100.0, 89.0), (124.0, 88.0)),
+    *((139.0, 91.0), (139.0, 153.0), (29.0, 153.0)),
 )
-_MODEL = 1  # line of the example site whose columns the rows have
+# Name, western end, length along the contour [m]: across the gully, over the rib.
+_ROWS = (
+    *(("A1", (43.0, 95.0), 36.0), ("A2", (79.6, 95.8), 60.0)),
+    *(("B1", (37.8, 109.5), 42.0), ("B2", (81.4, 110.3), 60.0)),
+    *(("C1", (33.6, 124.0), 54.0), ("C2", (87.8, 123.6), 54.0)),
+    *(("D1", (31.4, 138.5), 57.0), ("D2", (89.2, 138.8), 54.0)),
+)
+_MODEL = "R3"  # row of the example site whose columns the rows have
+_OWN = {
+    "glide_factor": 1.3,
+    "snow_thickness": 2.5,
+    "mesh_strength": 400,
+    "post_spacing": 3.5,
+    "foot_anchor": "A40-tested",
+    "uphill_anchor": "A32-tested",
+    "downhill_anchor": "A28-tested",
+    "uphill_guy": "G24",
+    "downhill_guy": "G22",
+    "post": "HEB160",
+    "ridge_rope": "B40",
+    "lower_rope": "B44",
+}
+_ENDS = {
+    "row": "all",
+    "support_types": "as inside",
+    "lateral_anchor": "A57-tested",
+    "end_guy": "E40",
+    "end_guy_anchor": "A57-tested",
+    "end_guy_angle": 30,
+    "lateral_distance": 1.6,
+    "lateral_axis": 50,
+}
+_PROJECT = {
+    "name": "Starting zone (example)",
+    "number": "EX-002",
+    "author": "A. Example",
+    "checker": "",
+    "revision": "0",
+    "standard": "nf-p-95-304-style",
+}
+_TYPES = ("Ranges", "Anchors", "Ropes", "Links", "Posts")
 _DERIVED = ("id", "slope_angle", "upslope_length", "altitude", "gap", "neighbour")
 
 
@@ -34,8 +72,8 @@ def build_example() -> Grid:
     x, y = np.meshgrid(*(_CELL * (np.arange(_SIZE) + 0.5),) * 2)
     steep = np.minimum(y, _EDGE) * math.tan(math.radians(39.0))
     flat = np.maximum(y - _EDGE, 0.0) * math.tan(math.radians(18.0))
-    gully = -7.0 * np.exp(-(((x - 88.0) / 18.0) ** 2))
-    rib = 4.0 * np.exp(-(((x - 150.0) / 22.0) ** 2))
+    gully = -4.0 * np.exp(-(((x - 64.0) / 24.0) ** 2))
+    rib = 4.0 * np.exp(-(((x - 116.0) / 24.0) ** 2))
     noise = np.random.default_rng(_SEED).normal(0.0, _NOISE, x.shape)
     heights = np.round(1850.0 + steep + flat + gully + rib + noise, 2)
     west, south = _EAST + 0.5 * _CELL, _NORTH + 0.5 * _CELL
@@ -85,10 +123,19 @@ def write_rows(grid: Grid) -> bytes:
 
 def _list_properties() -> dict[str, object]:
     """Columns of a row of the example site, but those of its ground and its ends."""
-    model = load_example()["Nets"][_MODEL]
+    model = next(one for one in load_example()["Nets"] if one["id"] == _MODEL)
+    model = {**model, **_OWN}
     headings = {field.key: field.heading_for("en") for field in NETS.fields}
     kept = {key: value for key, value in model.items() if key not in _DERIVED}
     return {headings[key]: value for key, value in kept.items()}
+
+
+def write_types() -> bytes:
+    """Workbook of the zone's types, and of what stands at the ends of its rows."""
+    given = load_example()
+    lines = {name: given[name] for name in _TYPES}
+    lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
+    return render_workbook({**lines, "Ends": [_ENDS]})
 
 
 def _list_points(points: Floats) -> list[list[float]]:

@@ -8,8 +8,11 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from netdesign.numerics.arrays import Floats
+from netdesign.site.columns.all_tables import NETS
 from netdesign.terrain.crs import write_member
 from netdesign.terrain.measure import MeasuredRow
+from netdesign.terrain.plan import ZONE, Plan
+from netdesign.words.catalogue import Language
 
 Feature = dict[str, Any]
 
@@ -33,14 +36,16 @@ def write_features(features: Iterable[Feature], crs: str = "") -> bytes:
 
 
 def list_row_features(
-    rows: Sequence[MeasuredRow], grid: str, sha256: str
+    rows: Sequence[MeasuredRow], zones: Sequence[Floats], grid: str, sha256: str
 ) -> list[Feature]:
-    """Rows with what was measured, and their posts with number and height.
+    """Rows with what was measured, their posts with number and height, and the zones.
 
     Parameters
     ----------
     rows : sequence of MeasuredRow
         On the terrain.
+    zones : sequence of ndarray, shape (n, 2)
+        Outlines of the starting zones [m].
     grid, sha256 : str
         Name and digest of the grid's file.
     """
@@ -73,7 +78,17 @@ def list_row_features(
         for number, post in enumerate(row.posts, 1):
             told = {"kind": "post", "row": row.line.id, "post": number}
             found.append(_point(post, told))
-    return found
+    return [*found, *map(_outline, zones)]
+
+
+def list_drawn_features(plan: Plan, language: Language) -> list[Feature]:
+    """Rows as somebody draws them, with columns of sheet Nets; and the zones."""
+    headings = {field.key: field.heading_for(language) for field in NETS.fields}
+    rows = [
+        _line(one.points, {headings[key]: value for key, value in one.cells.items()})
+        for one in plan.lines
+    ]
+    return [*rows, *map(_outline, plan.zones)]
 
 
 def find_exposure(aspect: float) -> str:
@@ -98,6 +113,12 @@ def _line(points: Floats, properties: dict[str, Any]) -> Feature:
     coordinates = [[round(float(one), 3) for one in point] for point in points]
     geometry = {"type": "LineString", "coordinates": coordinates}
     return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def _outline(zone: Floats) -> Feature:
+    ring = [[round(float(one), 3) for one in point] for point in (*zone, zone[0])]
+    geometry = {"type": "Polygon", "coordinates": [ring]}
+    return {"type": "Feature", "properties": {"kind": ZONE}, "geometry": geometry}
 
 
 def _point(point: Floats, properties: dict[str, Any]) -> Feature:

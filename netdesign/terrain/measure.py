@@ -6,7 +6,7 @@ Theory: terrain/THEORY.md, (T4) to (T8).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -370,7 +370,11 @@ def describe_kinks(row: MeasuredRow) -> Message | None:
 
 
 def measure_plan(
-    grid: Grid, plan: Plan, *, most: float
+    grid: Grid,
+    plan: Plan,
+    *,
+    most: float,
+    on_row: Callable[[object], None] | None = None,
 ) -> tuple[Surface, list[MeasuredRow]]:
     """Measure all rows of a plan on a grid; and the surface that served.
 
@@ -382,6 +386,8 @@ def measure_plan(
         Rows and zones.
     most : float
         Cap on the upslope length [m].
+    on_row : callable, optional
+        Called after each row.
 
     Raises
     ------
@@ -396,6 +402,8 @@ def measure_plan(
             rows.append(measure_row(surface, plan, line, most=most))
         except TerrainError as error:
             faults.append(error.message)
+        if on_row is not None:
+            on_row(line)
     if faults:
         raise TerrainError(say("text.lines", lines=tuple(faults)))
     return surface, rows

@@ -12,6 +12,7 @@ from netdesign.outcome import SiteDataError
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import (
     ANCHORS,
+    ENDS,
     LINKS,
     NETS,
     POSTS,
@@ -21,7 +22,9 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     TESTS,
 )
+from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
+from netdesign.site.lines import ALL_ROWS
 from netdesign.site.reader import read_cells
 from netdesign.site.tables import find_table, read_rows
 from netdesign.site.template.workbook import (
@@ -145,8 +148,22 @@ def _choose(band: Band, cared: float) -> float:
     return band.high if band.high - band.low > cared else band.value
 
 
-def read_other_sheets(path: Path) -> Lines:
-    """Lines of a workbook's project, ranges and types, as typed.
+def read_other_sheets(path: Path, rows: Sequence[str]) -> tuple[Lines, tuple[str, ...]]:
+    """Lines of a workbook's project, ranges, types and row ends, as typed.
+
+    Of sheet Ends those of the rows that the plan has, or of all rows.
+
+    Parameters
+    ----------
+    path : Path
+        Workbook.
+    rows : sequence of str
+        Names of the plan's rows.
+
+    Returns
+    -------
+    mapping, tuple of str
+        Lines by sheet; names on sheet Ends that the plan does not have.
 
     Raises
     ------
@@ -155,8 +172,8 @@ def read_other_sheets(path: Path) -> Lines:
     """
     workbook = read_cells(path)
     findings: list[Finding] = []
-    found = {}
-    for plan in _TAKEN:
+    found: dict[str, list[Mapping[str, object]]] = {}
+    for plan in (*_TAKEN, ENDS):
         table = find_table(workbook, plan, findings)
         if table is None:
             continue
@@ -170,7 +187,15 @@ def read_other_sheets(path: Path) -> Lines:
     errors = [one for one in findings if one.severity == "error"]
     if errors:
         raise SiteDataError(errors)
-    return found
+    ends = found.get(ENDS.name, [])
+    found[ENDS.name] = [one for one in ends if _is_of_plan(one, rows)]
+    others = (str(one.get("row")) for one in ends if not _is_of_plan(one, rows))
+    return found, tuple(dict.fromkeys(others))
+
+
+def _is_of_plan(line: Mapping[str, object], rows: Sequence[str]) -> bool:
+    name = str(line.get("row", ""))
+    return name in rows or normalise(name) in ALL_ROWS
 
 
 def _list_as_typed(table: Table) -> Iterator[Mapping[str, object]]:

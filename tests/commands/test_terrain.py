@@ -10,7 +10,10 @@ from netdesign.site.template.workbook import write_site_workbook
 from netdesign.terrain.grid import read_grid
 from tests.terrain.map_files import write_rows as write_layer
 from tests.terrain.map_files import write_tif
+from tests.report.accessible import list_violations
+from tests.report.printing import PHONE_PX
 
+LEFT_OUT = "not among the drawn rows, left out"
 EAST, NORTH = 2_700_300.0, 1_180_200.0
 ROWS = (("A", 40, 40, 79), ("B", 62, 40, 79), ("C", 62, 80.5, 115))
 
@@ -212,7 +215,7 @@ def test_what_cannot_be_done_is_refused(slope, call, options, said):
     assert said in ended.err
 
 
-def test_the_example_is_measured_and_lacks_nothing_but_its_ends(tmp_path, call):
+def test_the_example_is_measured_and_lacks_nothing(tmp_path, call):
     out = tmp_path / "site.xlsx"
     assert call("terrain", "--example", "--out", out).code == 0
     names = {one.name for one in tmp_path.iterdir()}
@@ -222,7 +225,8 @@ def test_the_example_is_measured_and_lacks_nothing_but_its_ends(tmp_path, call):
     }
     ended = call("check", out, "--dry-run")
     assert ended.code == 0
-    assert "types at the row's end (sheet Ends)" in ended.out
+    assert "8 net rows" in ended.out
+    assert "(sheet Ends)" not in ended.out
     again = call("terrain", "--example", "--out", out)
     assert again.code == 2
 
@@ -243,3 +247,56 @@ def test_a_row_on_flat_ground_gets_no_length(slope, tmp_path, call):
     nets = openpyxl.load_workbook(out)["Nets"]
     cells = {one.value: one.column for one in nets[1]}
     assert nets.cell(2, cells["upslope length [m]"]).value is None
+
+
+def test_ends_of_the_rows_come_with_the_types(slope, tmp_path, call):
+    types = openpyxl.load_workbook(slope / "types.xlsx")
+    ends = types["Ends"]
+    ends["A2"], ends["A3"] = "B", "all"
+    types.save(tmp_path / "types.xlsx")
+    out = tmp_path / "site.xlsx"
+    options = ("--types", tmp_path / "types.xlsx", "--out", out)
+    ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
+    assert ended.code == 0, ended.err
+    written = openpyxl.load_workbook(out)["Ends"]
+    found = {written.cell(line, 1).value for line in range(2, 10)} - {None}
+    assert found == {"B", "all"}
+    told = [one for one in ended.err.splitlines() if "sheet Ends" in one]
+    assert told == ["note: types.xlsx, sheet Ends: R3, R4, R5, R7 " + LEFT_OUT]
+
+
+@pytest.mark.parametrize(
+    ("language", "width"), [("en", 1100), ("fr", PHONE_PX), ("de", 1100)]
+)
+def test_axe_finds_no_violation(slope, tmp_path, call, language, width):
+    out = tmp_path / "site.xlsx"
+    places = (slope / "slope.asc", slope / "rows.json", "--out", out)
+    assert call("terrain", *places, "--language", language).code == 0
+    page = (tmp_path / "terrain.html").read_text(encoding="utf-8")
+    assert list_violations(page, tmp_path, width) == []
+
+
+def test_progress_is_told_unless_quiet(slope, tmp_path, call):
+    places = (slope / "slope.asc", slope / "rows.json", "--out", tmp_path / "a.xlsx")
+    assert "3 of 3 net rows" in call("terrain", *places).err
+    again = call("terrain", *places, "--quiet", "--force")
+    assert again.err == ""
+
+
+def test_a_map_without_a_row_of_the_site_is_refused_before_anything_is_solved(
+    slope, tmp_path, call
+):
+    out = tmp_path / "site.xlsx"
+    call(
+        *("terrain", slope / "slope.asc", slope / "rows.json", "--out", out),
+        *("--types", slope / "types.xlsx"),
+    )
+    rows = json.loads((tmp_path / "rows.geojson").read_text())
+    rows["features"] = [
+        one for one in rows["features"] if one["properties"].get("id") != "B"
+    ]
+    (tmp_path / "rows.geojson").write_text(json.dumps(rows))
+    ended = call("check", out, "--rows-map", tmp_path / "rows.geojson")
+    assert ended.code == 3
+    assert "lacks net rows of the site: B" in ended.err
+    assert not (tmp_path / "netdesign-out").exists()

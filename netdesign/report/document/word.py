@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from netdesign.report.document import styles
 from netdesign.report.document.markup import POINT, list_runs, parse, write_runs
@@ -14,12 +14,16 @@ from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
+if TYPE_CHECKING:
+    from netdesign.files.rows_map import RowsMap
+
 
 def render_document(
     study: Study,
     language: Language = "en",
     detail: Detail = "full",
     template: bytes | None = None,
+    places: RowsMap | None = None,
 ) -> bytes:
     """Document of a study; the same study and template give the same bytes.
 
@@ -33,6 +37,8 @@ def render_document(
         ``summary`` leaves out the pages of net rows and the annexes.
     template : bytes, optional
         Docx whose styles, page, header and footer are kept.
+    places : RowsMap, optional
+        Net rows in plan, for a map of them.
 
     Raises
     ------
@@ -45,7 +51,7 @@ def render_document(
     styles.set_language(document, language)
     to = Writer(document=document, words=words)
     _write_footer(to, running)
-    to.write(build_report(study, words, detail))
+    to.write(build_report(study, words, detail, places))
     set_properties(
         document,
         title=words("heading.anchor_check"),

@@ -50,6 +50,7 @@ class Label:
     lines: tuple[tuple[str, str], ...]
     at: Point
     toward: Point  # direction in which it would stand best
+    link: str = ""  # part of the page that it leads to
 
     @property
     def size(self) -> tuple[float, float]:
@@ -88,7 +89,7 @@ class LabelBoard:
         anchor, x = ("end", box.right) if is_right else ("start", box.left)
         for place, (text, colour) in enumerate(label.lines):
             base = box.top + (place + 1) * LINE_PT - _DESCENT * TEXT_PT
-            sketch.text(x, base, text, anchor=anchor, fill=colour)
+            sketch.text(x, base, text, anchor=anchor, fill=colour, link=label.link)
 
     def _find(self, label: Label) -> tuple[Box, Point, float]:
         """Box of the label, the point of it that is nearest to its own, the reach."""

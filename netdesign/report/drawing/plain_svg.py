@@ -65,6 +65,7 @@ class Chart:
     shapes: list[str] = field(default_factory=list)
     labels: dict[str, list[str]] = field(default_factory=dict)  # by their attributes
     language: Language = "en"  # of its numbers
+    role: str = "img"  # a picture; with links in it a group of these
 
     def rectangle(
         self, left: float, top: float, width: float, height: float, fill: str
@@ -139,15 +140,17 @@ class Chart:
         fill: str = INK,
         size: float = TEXT_PT,
         bold: bool = False,
+        link: str = "",
     ) -> None:
-        """One line of text; y is its base line [pt]."""
+        """One line of text; y is its base line [pt]; ``link`` a part of the page."""
         look = f'text-anchor="{anchor}"'
         look += "" if fill == INK else f' fill="{fill}"'
         look += "" if size == TEXT_PT else f' font-size="{size:.2f}"'
         look += ' font-weight="bold"' if bold else ""
-        self.labels.setdefault(look, []).append(
-            f'<text x="{show_place(x)}" y="{show_place(y)}">{escape(words)}</text>'
-        )
+        text = f'<text x="{show_place(x)}" y="{show_place(y)}">{escape(words)}</text>'
+        if link:
+            text, self.role = f'<a href="#{link}">{text}</a>', "group"
+        self.labels.setdefault(look, []).append(text)
 
     def dot(
         self, at: Point, radius: float, *, fill: str = INK, stroke: str = INK
@@ -240,7 +243,7 @@ class Chart:
             f"<g {look}>{''.join(texts)}</g>" for look, texts in self.labels.items()
         )
         return (
-            f'<svg xmlns="http://www.w3.org/2000/svg" role="img" '
+            f'<svg xmlns="http://www.w3.org/2000/svg" role="{self.role}" '
             f'aria-label="{escape(title)}" width="{width:.0f}pt" '
             f'height="{height:.0f}pt" '
             f'viewBox="0 0 {width:.0f} {height:.0f}" font-size="{TEXT_PT}" '

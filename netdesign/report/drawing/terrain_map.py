@@ -10,6 +10,7 @@ from itertools import groupby
 import numpy as np
 
 from netdesign.numerics.arrays import Floats
+from netdesign.report.drawing.label_board import LabelBoard, write_label
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, show_place
 from netdesign.report.drawing.style import GREY, INK, TEXT_PT
 from netdesign.report.words import Words
@@ -271,10 +272,15 @@ def list_contour(
 
 
 def _draw_rows(chart: Chart, frame: Frame, rows: Sequence[MeasuredRow]) -> None:
-    for row in rows:
-        path = _place(frame, row.posts)
+    """Rows, each with its name above its middle where that is free."""
+    board = LabelBoard(width=WIDTH, height=frame.top + frame.height)
+    paths = [_place(frame, row.posts) for row in rows]
+    for path in paths:
         chart.line(path, width=2.4)
-        chart.text(path[-1][0] + 4.0, path[-1][1] + TEXT_PT / 3, row.line.id, bold=True)
+        board.avoid(path)
+    for row, path in zip(rows, paths, strict=True):
+        up = (-math.sin(row.aspect), math.cos(row.aspect))
+        board.draw(chart, write_label(row.line.id, path[len(path) // 2], up))
 
 
 def _draw_scale(chart: Chart, frame: Frame) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from netdesign.report.blocks.text import link
 from netdesign.report.gate import require_sections
 from netdesign.report.page.render import render_page
@@ -16,9 +18,22 @@ from netdesign.report.words import Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
+if TYPE_CHECKING:
+    from netdesign.files.rows_map import RowsMap
+
+# Its names are read on paper and on a telephone, and seen to be links.
+_OF_MAP = """
+#map a text { text-decoration: underline; }
+@media screen and (max-width: 620px) { #map figure svg { width: 640px; } }
+@media print { #map figure svg { width: 100%; } }
+"""
+
 
 def render_html(
-    study: Study, language: Language = "en", detail: Detail = "full"
+    study: Study,
+    language: Language = "en",
+    detail: Detail = "full",
+    places: RowsMap | None = None,
 ) -> str:
     """Page of a study: complete, or an error.
 
@@ -30,6 +45,8 @@ def render_html(
         ``en``, ``fr`` or ``de``.
     detail : str
         ``summary`` leaves out the pages of net rows and the annexes.
+    places : RowsMap, optional
+        Net rows in plan, for a map of them.
 
     Raises
     ------
@@ -39,14 +56,15 @@ def render_html(
     words = Words(language)
     running = title_pages(study, words)
     title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
-    blocks = build_report(study, words, detail)
-    require_sections(blocks, list_sections(study, detail))
+    blocks = build_report(study, words, detail, places)
+    require_sections(blocks, list_sections(study, detail, has_map=places is not None))
     return render_page(
         blocks,
         " - ".join(title),
         language,
         skip=link("todo", words("heading.skip_to_todo")),
-        style=f"@page {{ @bottom-left {{ content: {_quote_css(running)}; }} }}",
+        style=f"@page {{ @bottom-left {{ content: {_quote_css(running)}; }} }}"
+        + (_OF_MAP if places else ""),
         is_report=True,
     )
 

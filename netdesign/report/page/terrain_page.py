@@ -35,7 +35,13 @@ _COLUMNS = (
     *("upslope", "upslope_end", "below", "kinks"),
 )
 
-_TEXTS = ("row", "band", "upslope_end", "below", "kinks")
+_TEXTS = ("row", "upslope_end", "below", "kinks")
+# Names on the maps are read on paper and on a telephone.
+_STYLE = """
+p { overflow-wrap: anywhere; }
+@media screen and (max-width: 620px) { .plate svg { width: 640px; } }
+@media print { .plate svg { width: 100%; } }
+"""
 
 
 def render_terrain(
@@ -96,7 +102,8 @@ def render_terrain(
             ),
         ),
     )
-    return render_page(blocks, words("terrain_page.title"), language).encode()
+    title = words("terrain_page.title")
+    return render_page(blocks, title, language, style=_STYLE).encode()
 
 
 def _describe_grid(

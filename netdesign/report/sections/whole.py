@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from netdesign.report.blocks.block import Block, Contents, section
 from netdesign.report.blocks.text import Content, Piece, link
@@ -25,6 +25,9 @@ from netdesign.report.what_if import mark_title
 from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 
+if TYPE_CHECKING:  # it brings numpy, which a report without a map does without
+    from netdesign.files.rows_map import RowsMap
+
 Detail = Literal["summary", "full"]  # two pages for the client, and everything
 _ROW = ("drawing", "checks", "worked", "envelope", "changes")
 _PARTS = ("basis", "schedule")
@@ -34,7 +37,9 @@ _ANNEXES = (
 )
 
 
-def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...]:
+def build_report(
+    study: Study, words: Words, detail: Detail, places: RowsMap | None = None
+) -> tuple[Block, ...]:
     """Blocks of a report, from its title to its annexes.
 
     Parameters
@@ -45,6 +50,8 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
         Of the language.
     detail : str
         ``summary`` has two pages for the client: decision, quantities, scope.
+    places : RowsMap, optional
+        Net rows in plan, for a map of them.
 
     Raises
     ------
@@ -57,15 +64,23 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
         decision.show_decision(study, words, has_rows=detail == "full"),
     )
     answered = filter(None, [guideline.show_difference(study, words)])
+    mapped = _map_rows(study, words, detail, places)
     if detail == "summary":
         listed = basis.list_scope(study, words)
         scope = section("scope", words("heading.scope"), *listed)
-        return *begun, *answered, quantities.show_quantities(study, words), scope
+        return (
+            *begun,
+            *answered,
+            *mapped,
+            quantities.show_quantities(study, words),
+            scope,
+        )
     return (
         *begun,
-        _list_contents(study, words),
+        _list_contents(study, words, has_map=places is not None),
         *answered,
         basis.show_basis(study, words),
+        *mapped,
         quantities.show_schedule(study, words),
         *_list_rows(study, words),
         inputs.show_inputs(study, words),
@@ -87,9 +102,20 @@ def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
     yield verify.show_verification(study, words)
 
 
-def _list_contents(study: Study, words: Words) -> Contents:
+def _map_rows(
+    study: Study, words: Words, detail: Detail, places: RowsMap | None
+) -> Iterator[Block]:
+    """Map of the rows, where there is one."""
+    if places is not None:
+        from netdesign.report.sections.rows_map import show_rows_map
+
+        yield show_rows_map(study, places, words, has_rows=detail == "full")
+
+
+def _list_contents(study: Study, words: Words, *, has_map: bool) -> Contents:
     """Links to all parts, and to the rows."""
-    named = {name: words(f"heading.{name}") for name in _PARTS}
+    parts = ("basis", "map", "schedule") if has_map else _PARTS
+    named = {name: words(f"heading.{name}") for name in parts}
     named["inputs"] = words("heading.inputs_of_rows")
     named |= {name: words(f"heading.{name.replace('-', '_')}") for name in _ANNEXES}
     lines = [_list_links(named)]
@@ -108,17 +134,18 @@ def _list_links(links: dict[str, str]) -> Content:
     )
 
 
-def list_sections(study: Study, detail: Detail) -> list[str]:
+def list_sections(study: Study, detail: Detail, *, has_map: bool = False) -> list[str]:
     """Ids of all sections that a report must have."""
     of_rows = [
         f"row-{number}-{name}"
         for number in range(1, len(study.rows) + 1)
         for name in _ROW
     ]
+    mapped = ["map"] if has_map else []
     if detail == "summary":
-        return ["decision", "todo", "quantities", "scope"]
+        return ["decision", "todo", *mapped, "quantities", "scope"]
     of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs"]
-    return [*of_page, *of_rows, *_ANNEXES]
+    return [*of_page, *mapped, *of_rows, *_ANNEXES]
 
 
 def title_pages(study: Study, words: Words) -> str:

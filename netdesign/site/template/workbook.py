@@ -105,14 +105,18 @@ def write_site_workbook(
     path = Path(path)
     require_free([path], overwrite=overwrite)
     lines = load_example() if example else list_starting_lines()
+    write_files({path: render_workbook(lines, language)}, overwrite=overwrite)
+
+
+def render_workbook(lines: Mapping[str, _Lines], language: Language = "en") -> bytes:
+    """Input workbook with some lines by sheet; a sheet without any is empty."""
     content = BytesIO()
     book = start_book(content, language)
-    workbook = book.workbook
-    write_notes(workbook, language)
+    write_notes(book.workbook, language)
     for plan in SHEETS:
         write_sheet(book, plan, lines.get(plan.name, ()))
-    workbook.close()
-    write_files({path: content.getvalue()}, overwrite=overwrite)
+    book.workbook.close()
+    return content.getvalue()
 
 
 def start_book(content: BytesIO, language: Language) -> Book:

@@ -1,0 +1,108 @@
+"""Net rows in plan as the report's map shows them, from ``rows.geojson``."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from netdesign.files.verdict_map import MeasuredPlace, read_places
+from netdesign.outcome import StudyError, TerrainError
+from netdesign.site.model import Site
+from netdesign.terrain.plan import ZONE, read_text
+from netdesign.words.message import say
+
+_FAR = 1e8  # beyond it nothing lies on a map in metres [m]
+Ring = Sequence[tuple[float, float]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowsMap:
+    """Rows and zones that a map is drawn from; nothing of them enters a check.
+
+    Attributes
+    ----------
+    file : str
+        Name of the GeoJSON.
+    grid, sha256 : str
+        File that the rows were measured on, and its digest.
+    rows : mapping of str to MeasuredPlace
+        By their names.
+    zones : tuple of sequence of tuple of float
+        Outlines of the starting zones, east and north [m].
+    """
+
+    file: str
+    grid: str
+    sha256: str
+    rows: Mapping[str, MeasuredPlace]
+    zones: tuple[Ring, ...] = ()
+
+
+def read_rows_map(path: Path) -> RowsMap:
+    """Read ``rows.geojson``.
+
+    Raises
+    ------
+    TerrainError
+        If ``netdesign terrain`` did not write it, or its rows come from two grids.
+    """
+    text = read_text(path)
+    rows, _ = read_places(text, path.name)
+    own = [one.feature["properties"] for one in rows.values()]
+    grids = {(str(one.get("grid")), str(one.get("grid_sha256"))) for one in own}
+    if len(grids) > 1:
+        raise TerrainError(say("terrain.two_grids", file=path.name))
+    ((grid, sha256),) = grids
+    zones = _read_zones(text, path.name)
+    points = [point for place in rows.values() for point in place.posts]
+    corners = [point for zone in zones for point in zone]
+    if not all(abs(part) < _FAR for point in (*points, *corners) for part in point):
+        raise TerrainError(say("terrain.no_places", file=path.name))
+    return RowsMap(file=path.name, grid=grid, sha256=sha256, rows=rows, zones=zones)
+
+
+def _read_zones(text: str, file: str) -> tuple[Ring, ...]:
+    """Outlines of the starting zones; none in a file that has none."""
+    try:
+        features = json.loads(text)["features"]
+        rings = [
+            one["geometry"]["coordinates"][0]
+            for one in features
+            if one["properties"]["kind"] == ZONE
+        ]
+        return tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings)
+    except (ValueError, KeyError, TypeError, IndexError):
+        raise TerrainError(say("terrain.no_places", file=file)) from None
+
+
+def require_rows(places: RowsMap, site: Site) -> None:
+    """Refuse a map that lacks rows of a site, or shows them with other posts.
+
+    Raises
+    ------
+    StudyError
+        That names the rows.
+    """
+    require_named(places, [row.id for row in site.rows])
+    others = tuple(
+        row.id
+        for row in site.rows
+        if row.post_count not in (None, len(places.rows[row.id].posts))
+    )
+    if others:
+        raise StudyError(say("terrain.other_posts", file=places.file, rows=others))
+
+
+def require_named(places: RowsMap, rows: Sequence[str]) -> None:
+    """Refuse a map that lacks some rows.
+
+    Raises
+    ------
+    StudyError
+        That names them.
+    """
+    missing = tuple(one for one in rows if one not in places.rows)
+    if missing:
+        raise StudyError(say("terrain.not_drawn", file=places.file, rows=missing))
