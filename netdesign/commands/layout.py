@@ -6,6 +6,7 @@ import hashlib
 import json
 import math
 import os
+import shlex
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -28,7 +29,6 @@ from netdesign.commands.running import (
     find_exit_code,
     format_time,
     open_run,
-    own_command,
     print_document,
     print_faults,
     report_places,
@@ -282,7 +282,7 @@ def _check(
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
         jobs=asked["jobs"] or os.cpu_count() or 1,
-        command=own_command(),
+        command=_name_check(asked),
         started=format_time(),
     )
     workbook = write_workbook(proposed.rows, name, lines, language)
@@ -297,6 +297,12 @@ def _check(
         again = solve_rows(_read_site(workbook, {}), run, runner, watch, solved)
         (study,) = judge_solved(again, [given.standard], run, runner, watch)
     return workbook, study, print_faults(runner.faults, language)
+
+
+def _name_check(asked: Mapping[str, Any]) -> str:
+    """Command that makes the plan's study again, from its workbook."""
+    words = ["netdesign", "check", _SITE, "--standard", asked["standard"]]
+    return shlex.join([*words, "--accuracy", f"{asked['accuracy']:g}"])
 
 
 def _sort_types(

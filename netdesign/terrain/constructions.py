@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from netdesign.outcome import SiteDataError, TerrainError
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
+from netdesign.site.headings import Table
 from netdesign.site.reader import read_cells
-from netdesign.site.tables import find_table, read_rows
+from netdesign.site.tables import find_table, read_field
 from netdesign.terrain.layout import Construction, ProposedRow
 from netdesign.terrain.measure import MeasuredRow
 from netdesign.terrain.plan import NetLine
@@ -23,7 +24,7 @@ _NEEDED = ("id", "net_height", "post_spacing")
 # What a place decides, not what is built there.
 _OF_PLACE = (
     *("id", "slope_angle", "snow_thickness", "snow_height", "upslope_length"),
-    *("snow_layers", "gap", "altitude", "neighbour", "row_above", "edge_distance"),
+    *("gap", "altitude", "neighbour", "row_above"),
     *("row_length", "post_count", "post_spacing"),
 )
 
@@ -80,10 +81,7 @@ def read_catalogue(path: Path) -> Catalogue:
     workbook = read_cells(path)
     findings: list[Finding] = []
     nets, ends = (
-        [
-            {key: _take(one.value) for key, one in row.items() if one.state == "given"}
-            for row in read_rows(find_table(workbook, plan, findings), findings)
-        ]
+        list(_read_lines(find_table(workbook, plan, findings), findings))
         for plan in (NETS, ENDS)
     )
     errors = [one for one in findings if one.severity == "error"]
@@ -153,6 +151,22 @@ def put_types(
         for line in lines.get(ENDS.name, ())
     ]
     return drawn, {**lines, ENDS.name: ends}
+
+
+def _read_lines(table: Table | None, findings: list[Finding]) -> Iterator[Cells]:
+    """Given cells of a sheet's lines, but those that a place decides."""
+    if table is None:
+        return
+    keys = [
+        field.key
+        for field in table.plan.fields
+        if field.key in _NEEDED or field.key not in _OF_PLACE
+    ]
+    for row in table.rows:
+        found = {key: read_field(table, key, row, findings) for key in keys}
+        yield {
+            key: _take(one.value) for key, one in found.items() if one.state == "given"
+        }
 
 
 def _take(value: object) -> float | str:

@@ -63,6 +63,11 @@ _PROJECT = {
     "revision": "0",
     "standard": "nf-p-95-304-style",
 }
+# Nets of two heights, of which ``netdesign layout`` takes the lowest that is enough.
+_NETS = (
+    {"id": "DK-3.0", "net_height": 3.0},
+    {"id": "DK-3.5", "net_height": 3.5},
+)
 _TYPES = ("Ranges", "Anchors", "Ropes", "Links", "Posts")
 _DERIVED = ("id", "slope_angle", "upslope_length", "altitude", "gap", "neighbour")
 
@@ -123,19 +128,23 @@ def write_rows(grid: Grid) -> bytes:
 
 def _list_properties() -> dict[str, object]:
     """Columns of a row of the example site, but those of its ground and its ends."""
-    model = next(one for one in load_example()["Nets"] if one["id"] == _MODEL)
-    model = {**model, **_OWN}
     headings = {field.key: field.heading_for("en") for field in NETS.fields}
-    kept = {key: value for key, value in model.items() if key not in _DERIVED}
-    return {headings[key]: value for key, value in kept.items()}
+    return {headings[key]: value for key, value in _list_cells().items()}
+
+
+def _list_cells() -> dict[str, object]:
+    model = next(one for one in load_example()["Nets"] if one["id"] == _MODEL)
+    own = {**model, **_OWN}
+    return {key: value for key, value in own.items() if key not in _DERIVED}
 
 
 def write_types() -> bytes:
-    """Workbook of the zone's types, and of what stands at the ends of its rows."""
+    """Workbook of the zone's types, of the ends of its rows, of nets to be built."""
     given = load_example()
     lines = {name: given[name] for name in _TYPES}
     lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
-    return render_workbook({**lines, "Ends": [_ENDS]})
+    nets = [{**_list_cells(), **one} for one in _NETS]
+    return render_workbook({**lines, "Ends": [_ENDS], "Nets": nets})
 
 
 def _list_points(points: Floats) -> list[list[float]]:

@@ -232,7 +232,8 @@ def _list_contours(task: Task, ground: _Ground, top: Floats) -> Iterator[_Contou
 def _find_foot(task: Task, ground: _Ground, top: Floats) -> Floats | None:
     """Place of a row on the line of fall below a place, where it holds that place.
 
-    Where the open ground below needs n rows, they share its length.
+    Where the open ground below needs n rows, they share its length; what is left at its
+    lower end is shorter than the least snow of a row.
     """
     below = follow_fall(task.surface, top[None], most=2.0 * task.farthest, is_up=False)
     points, lengths = below.points[:, 0], below.lengths[:, 0]
@@ -246,8 +247,9 @@ def _find_foot(task: Task, ground: _Ground, top: Floats) -> Floats | None:
     if most == 0 or lengths[count - 1] < _LEAST_SNOW:
         return None
     whole = float(lengths[count - 1])
-    number = math.ceil(whole / float(lengths[most]) - 1e-9)
-    at = whole / number
+    longest = float(lengths[most])
+    number = max(1, math.ceil((whole - _LEAST_SNOW) / longest - 1e-9))
+    at = min(longest, whole / number)
     return np.array([np.interp(at, lengths[:count], x[:count]) for x in points.T])
 
 
