@@ -21,9 +21,10 @@ from netdesign.study.bores import place_anchors, place_end_anchors
 from netdesign.study.pulls import build_pull_again
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.sideways import place_row
-from netdesign.terrain.crs import read_member, require_extra
+from netdesign.terrain.crs import read_member
 from netdesign.terrain.geojson import Feature, write_features
 from netdesign.terrain.layers import write_geopackage
+from netdesign.terrain.libraries import require_extra
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 from netdesign.words.names import name_check, name_member

@@ -4,40 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from netdesign.edge.given_files import make_printable
-from netdesign.outcome import NetDesignError, TerrainError
+from netdesign.outcome import TerrainError
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from rasterio.crs import CRS
 
-_LIBRARIES = ("rasterio", "pyogrio", "ezdxf")
 _CODE = re.compile(r"[A-Z]{2,10}:\w{1,20}")  # never a file or an address
 _MEMBER = re.compile(r"(?:urn:ogc:def:crs:)?(EPSG|OGC):(?:[\d.]*:)?(\w{1,20})")
 _MERCATOR = re.compile(r'PROJECTION\["(Popular_Visualisation_Pseudo_)?Mercator')
 _LONGEST_NAME = 60
-
-
-def require_extra(file: str, refusal: type[NetDesignError] = TerrainError) -> None:
-    """Refuse a file that needs the extra ``terrain`` where it is not installed.
-
-    Parameters
-    ----------
-    file : str
-        Its name.
-    refusal : type
-        Of an input or of an output.
-
-    Raises
-    ------
-    NetDesignError
-        Of that type.
-    """
-    if any(find_spec(one) is None for one in _LIBRARIES):
-        raise refusal(say("terrain.no_extra", file=file))
 
 
 def read_member(document: object) -> str:

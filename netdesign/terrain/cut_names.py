@@ -17,7 +17,7 @@ _DOUBLE = re.compile(r"(.{1,8})_\d{1,2}")  # a second column whose cut name is a
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CutNames:
-    """What cut names stand for.
+    """Columns that cut names stand for.
 
     Attributes
     ----------

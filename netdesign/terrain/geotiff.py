@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +17,7 @@ from netdesign.terrain.grid import (
     require_metres,
     require_size,
 )
+from netdesign.terrain.libraries import DAMAGE, keep_quiet
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -29,11 +29,6 @@ _ALIKE = 1e-6  # of the sides of a cell
 _METRES = ("", "m", "metre", "meter", "metres", "meters", "unknown")
 # Nothing beside the file is looked for or written.
 _SETTINGS = {"GDAL_PAM_ENABLED": "NO", "GDAL_DISABLE_READDIR_ON_OPEN": "EMPTY_DIR"}
-# What a damaged file makes GDAL and rasterio raise.
-_DAMAGE = (
-    *(ArithmeticError, AttributeError, LookupError, OSError, RuntimeError),
-    *(MemoryError, TypeError, ValueError),
-)
 
 
 def parse_geotiff(content: bytes) -> Grid:
@@ -50,13 +45,13 @@ def parse_geotiff(content: bytes) -> Grid:
 
     try:
         with (
-            warnings.catch_warnings(action="ignore"),
+            keep_quiet(),
             rasterio.Env(**_SETTINGS),
             rasterio.MemoryFile(content) as file,
             file.open(driver="GTiff") as dataset,
         ):
             return _read_dataset(dataset)
-    except (*_DAMAGE, RasterioError, CPLE_BaseError):
+    except (*DAMAGE, RasterioError, CPLE_BaseError):
         raise TerrainError(say("terrain.no_geotiff")) from None
 
 

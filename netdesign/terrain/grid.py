@@ -13,7 +13,7 @@ from netdesign.edge.causes import explain
 from netdesign.edge.given_files import read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crs import require_extra
+from netdesign.terrain.libraries import require_extra
 from netdesign.words.message import Message, say
 
 GEOTIFF = (".tif", ".tiff")

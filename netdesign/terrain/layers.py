@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 import tempfile
-import warnings
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,8 +16,9 @@ import numpy as np
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import make_printable, read_bounded
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crs import require_extra, require_plane, require_same
+from netdesign.terrain.crs import require_plane, require_same
 from netdesign.terrain.cut_names import CutNames, read_cut_names
+from netdesign.terrain.libraries import DAMAGE, keep_quiet, require_extra
 from netdesign.terrain.wkb import decode_wkb, encode_wkb
 from netdesign.words.message import Message, say
 
@@ -32,11 +32,6 @@ _SHAPES = b"\x00\x00\x27\x0a"  # what a shapefile begins with
 _SQLITE, _NAMES = b"SQLite format 3\x00", (b"GPKG", b"GP10", b"GP11")
 # The same bytes each time.
 _TIME, _NO_TIME = "OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z"
-# What pyogrio raises on a file that is damaged.
-_DAMAGE = (
-    *(ArithmeticError, AttributeError, LookupError, OSError, RuntimeError),
-    *(MemoryError, NameError, TypeError, ValueError),
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +76,7 @@ def read_layers(path: Path) -> Layers:
         return _list_layers(content, is_shapefile=is_shapefile)
     except TerrainError as error:
         told = error.message
-    except _DAMAGE:
+    except DAMAGE:
         told = say("terrain.no_layers")
     raise TerrainError(say("text.at_place", place=path.name, text=told))
 
@@ -129,7 +124,7 @@ def _list_layers(content: bytes, *, is_shapefile: bool) -> Layers:
 
     features: list[Feature] = []
     crs, cut = "", CutNames()
-    with warnings.catch_warnings(action="ignore"):
+    with keep_quiet():
         layers = [str(name) for name, kind in list_layers(content) if kind is not None]
         for layer in layers:
             meta, geometries, columns = _read_layer(content, layer, is_shapefile)
@@ -242,7 +237,7 @@ def _append_layer(
 
     shapes = _stack([encode_wkb(one["geometry"]) for one in features])
     names, columns, masks = _list_columns(features)
-    with warnings.catch_warnings(action="ignore"):  # of a system that nobody knows
+    with keep_quiet():  # a system may be unknown
         raw.write(
             *(path, shapes, columns, names, masks),
             layer=name,

@@ -322,7 +322,7 @@ def _integrate(lengths: Floats, angles: Floats, most: float) -> tuple[float, flo
     inside = lengths < end
     places = np.append(lengths[inside], end)
     values = np.append(angles[inside], np.interp(end, lengths, angles))
-    return end, float(np.trapezoid(values, places))
+    return end, float(0.5 * ((values[1:] + values[:-1]) * np.diff(places)).sum())
 
 
 def _band_slope(

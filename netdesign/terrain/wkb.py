@@ -37,9 +37,9 @@ def encode_wkb(geometry: Mapping[str, Any]) -> bytes:
     """Bytes of a point or a line with heights [m]."""
     points = geometry["coordinates"]
     if geometry["type"] == "Point":
-        return struct.pack("<BI3d", 1, 1001, *points)
+        return struct.pack("<BI3d", 1, _WITH_Z | 1, *points)
     flat = [one for point in points for one in point]
-    return struct.pack(f"<BII{len(flat)}d", 1, 1002, len(points), *flat)
+    return struct.pack(f"<BII{len(flat)}d", 1, _WITH_Z | 2, len(points), *flat)
 
 
 def _read(wkb: bytes, at: int, allowed: set[int]) -> tuple[dict[str, Any], int]:

@@ -155,12 +155,12 @@ def test_geojson_names_its_system_where_it_is_known():
 
 
 def test_a_format_is_refused_before_any_work(monkeypatch):
-    from netdesign.terrain import crs
+    from netdesign.terrain import libraries
 
     with pytest.raises(OutputError, match=r"ends in \.geojson, \.gpkg, \.dxf"):
         require_format("m.dwg")
     require_format("M.DXF")
-    monkeypatch.setattr(crs, "find_spec", lambda _: None)
+    monkeypatch.setattr(libraries, "find_spec", lambda _: None)
     require_format("m.geojson")
     for name in ("m.dxf", "m.gpkg"):
         with pytest.raises(OutputError, match="pip install"):

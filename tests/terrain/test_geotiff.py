@@ -14,6 +14,7 @@ from rasterio.transform import Affine
 from netdesign.outcome import TerrainError
 from netdesign.terrain.geotiff import parse_geotiff
 from netdesign.terrain.grid import Grid, parse_grid, read_grid
+from netdesign.terrain.libraries import keep_quiet
 from netdesign.terrain.measure import measure_plan
 from tests.terrain.map_files import write_asc, write_tif
 from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
@@ -289,9 +290,20 @@ def test_nothing_is_written_beside_and_nothing_beside_is_read(tmp_path):
 
 
 def test_without_the_extra_it_is_said_what_to_install(tmp_path, monkeypatch):
-    from netdesign.terrain import crs
+    from netdesign.terrain import libraries
 
     (tmp_path / "g.tif").write_bytes(write_tif(GRID))
-    monkeypatch.setattr(crs, "find_spec", lambda _: None)
+    monkeypatch.setattr(libraries, "find_spec", lambda _: None)
     with pytest.raises(TerrainError, match=r'pip install "netdesign\[terrain\]"'):
         read_grid(tmp_path / "g.tif")
+
+
+def test_what_libraries_print_of_a_damaged_file_is_not_shown(capfd):
+    """A message that is no text makes Cython print a fault that nobody can catch."""
+    before = sys.excepthook, sys.unraisablehook
+    with contextlib.suppress(ValueError), keep_quiet():
+        sys.unraisablehook(None)
+        sys.excepthook(ValueError, ValueError(), None)
+        raise ValueError
+    assert (sys.excepthook, sys.unraisablehook) == before
+    assert capfd.readouterr() == ("", "")
