@@ -1,5 +1,6 @@
 """The blocks of the pages for users are run, and what they print is compared."""
 
+import json
 import os
 import re
 import subprocess
@@ -45,7 +46,7 @@ def blocks(language: str, text: str = README) -> list[str]:
 
 (TABLE,) = blocks("text")
 (PULLS,) = blocks("text", USAGE)
-CHANGES, SIZES = blocks("text", TUTORIAL)
+CHANGES, SIZES, MEASURED = blocks("text", TUTORIAL)
 
 
 def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -120,7 +121,7 @@ def test_two_commands_run_as_printed(tmp_path):
 @pytest.mark.long
 def test_first_site_step_by_step(tmp_path):
     """Every command of the tutorial: what it prints and writes."""
-    begin, look, again, hand_on = blocks("sh", TUTORIAL)
+    begin, look, again, hand_on, _ = blocks("sh", TUTORIAL)
     (write,), (check,) = begin.splitlines(), look.splitlines()
     assert run(write, tmp_path).returncode == 0
     first = run(f"{check} --quiet", tmp_path)
@@ -157,6 +158,43 @@ def test_first_site_step_by_step(tmp_path):
     assert handed.returncode == 6, handed.stderr
     page = (tmp_path / "bericht" / "report.html").read_text(encoding="utf-8")
     assert '<html lang="de">' in page
+    assert verify.split()[:3] == ["netdesign", "verify", "--study"]  # run elsewhere
+    assert (tmp_path / verify.split()[3]).is_file()
+
+
+MOST_COMMANDS = 8  # from a grid to a report that can be signed
+
+
+@pytest.mark.long
+def test_a_grid_becomes_a_report_that_can_be_signed(tmp_path):
+    """Every command of the chapter; coordinates stay in the files they belong to."""
+    lines = blocks("sh", TUTORIAL)[-1].splitlines()
+    assert len(lines) <= MOST_COMMANDS
+    measure, check, place, verify = lines
+    first = run(measure, tmp_path)
+    assert first.returncode == 0, first.stderr
+    assert set(MEASURED.splitlines()) <= set(first.stdout.splitlines())
+    checked = run(f"{check} --quiet", tmp_path)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert checked.stdout.count(" PASS ") >= 8
+    report = tmp_path / "zone" / "report"
+    page = (report / "report.html").read_text(encoding="utf-8")
+    study = (report / "study.json").read_text(encoding="utf-8")
+    todo = page.split('id="todo"')[1].split("</section>")[0]
+    assert todo.count("<li>") == 1  # values of the profile that only a reader confirms
+    assert '<section id="map"' in page
+    rows = json.loads((tmp_path / "zone" / "rows.geojson").read_text())["features"]
+    posts = [one for one in rows if one["properties"]["kind"] == "post"]
+    assert len(posts) > 100
+    for post in posts:
+        east, north, _ = post["geometry"]["coordinates"]
+        for number in (east, north):
+            assert f"{number:.1f}"[:-1] not in page
+            assert f"{number:.1f}"[:-1] not in study
+    placed = run(place, tmp_path)
+    assert placed.returncode == 0, placed.stderr
+    table = (tmp_path / "zone" / "checked-setting-out.csv").read_text().splitlines()
+    assert len(table) > len(posts)
     assert verify.split()[:3] == ["netdesign", "verify", "--study"]  # run elsewhere
     assert (tmp_path / verify.split()[3]).is_file()
 

@@ -18,6 +18,7 @@ import click
 from netdesign.commands.options import (
     DEFAULT_STANDARD,
     accuracy_option,
+    example_option,
     force_option,
     json_option,
     language_option,
@@ -59,17 +60,19 @@ DEFAULT_FOLDER = "netdesign-layout"
 _GUIDELINE = "swiss-guideline-2007"
 _SITE, _ROWS, _DRAWN, _PLAN = "site.xlsx", "rows.geojson", "plan.geojson", "plan.json"
 _ENDS = "Ends"  # sheet of the lines on the ends of rows
+_EXAMPLE_SNOW = 3.2  # vertical [m]
+_LOOKED_FOR = 50.0  # of snow above a row, as `terrain` does [m]
 _FILE = click.Path(path_type=Path, dir_okay=False)
 
 
 @click.command()
-@click.argument("grid", type=_FILE)
-@click.argument("zone", type=_FILE)
+@click.argument("grid", required=False, type=_FILE)
+@click.argument("zone", required=False, type=_FILE)
+@example_option("Made-up starting zone; its grid, types and prices stand beside.")
 @click.option(
     "--types",
     type=_FILE,
     metavar="SITE",
-    required=True,
     help="Workbook: the nets that may be built on sheet Nets, all types, ranges.",
 )
 @click.option("--snow", type=click.FloatRange(0.1, 20.0), help="Vertical height [m].")
@@ -98,10 +101,11 @@ _FILE = click.Path(path_type=Path, dir_okay=False)
 @json_option("plan")
 @force_option
 @quiet_option
-def layout(grid: Path, zone: Path, **asked: Any) -> None:
+def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     """Propose net rows for a starting zone, and check each of them.
 
     \b
+    netdesign layout --example
     netdesign layout grid.asc zone.geojson --types types.xlsx --snow 3.8
     netdesign layout grid.asc zone.geojson --types types.xlsx --snow 3.2 \\
         --snow-altitude 1850 --snow-gradient 0.15 --prices prices.csv
@@ -112,6 +116,13 @@ def layout(grid: Path, zone: Path, **asked: Any) -> None:
     """
     folder: Path = asked["out"] or Path(DEFAULT_FOLDER)
     _require_free(folder, asked)
+    if asked["example"]:
+        if grid is not None or asked["types"] or asked["prices"]:
+            raise UsageRefusal(say("layout.example_alone"))
+        asked |= _write_example(folder, overwrite=asked["force"])
+        grid, zone = asked["grid"], asked["zone"]
+    if grid is None or zone is None or asked["types"] is None:
+        raise UsageRefusal(say("layout.no_input"))
     task = _read(grid, zone, asked)
     proposed = _propose(task, asked)
     workbook, study, failed = _check(task, proposed, asked)
@@ -157,6 +168,36 @@ def _require_free(folder: Path, asked: Mapping[str, Any]) -> None:
 
     names = (_SITE, _ROWS, _DRAWN, _PLAN, STUDY_FILE, PAGE_FILE)
     require_free([folder / one for one in names], overwrite=asked["force"])
+
+
+def _write_example(folder: Path, *, overwrite: bool) -> dict[str, Any]:
+    """Files of the made-up starting zone, and options that read them."""
+    from netdesign.edge.output import write_files
+    from netdesign.terrain.example import (
+        GRID_FILE,
+        PRICES_FILE,
+        ROWS_FILE,
+        TYPES_FILE,
+        build_example,
+        write_grid,
+        write_prices,
+        write_rows,
+        write_types,
+    )
+
+    ground = build_example()
+    grid, zone, types, prices = (
+        folder / one for one in (GRID_FILE, ROWS_FILE, TYPES_FILE, PRICES_FILE)
+    )
+    contents = {
+        grid: write_grid(ground),
+        zone: write_rows(ground),
+        types: write_types(),
+        prices: write_prices(),
+    }
+    write_files(contents, overwrite=overwrite)
+    files = {"grid": grid, "zone": zone, "types": types, "prices": prices}
+    return {**files, "snow": _EXAMPLE_SNOW}
 
 
 def _read(grid: Path, zone: Path, asked: Mapping[str, Any]) -> _Given:
@@ -250,7 +291,7 @@ def _propose(given: _Given, asked: Mapping[str, Any]) -> _Proposed:
     shown = {"quiet": asked["quiet"], "language": asked["language"]}
     with show_progress(len(lines), "rows", **shown) as on_row:
         surface, measured = measure_plan(
-            given.grid, plan, most=task.farthest, on_row=on_row
+            given.grid, plan, most=max(_LOOKED_FOR, task.farthest), on_row=on_row
         )
     reach = {
         row.line.id: find_reach(row.slope.high, row.line.net_height) for row in measured

@@ -15,7 +15,7 @@ from netdesign.terrain.grid import Grid
 from netdesign.terrain.surface import Surface
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
-TYPES_FILE = "types.xlsx"
+TYPES_FILE, PRICES_FILE = "types.xlsx", "prices.csv"
 _EAST, _NORTH, _CELL, _SIZE = 2_700_000.0, 1_180_000.0, 1.0, 200  # nobody's place
 _SEED, _NOISE = 20_261_126, 0.05  # of the heights [m]
 _EDGE = 150.0  # north of it the ground is flatter [m]
@@ -149,3 +149,24 @@ def write_types() -> bytes:
 
 def _list_points(points: Floats) -> list[list[float]]:
     return [[round(float(one), 2) for one in point] for point in points]
+
+
+def write_prices() -> bytes:
+    """Prices of the zone's types, invented: a piece, and an anchor's drilled metres."""
+    given = load_example()
+    anchors = {str(one["id"]) for one in given["Anchors"]}
+    lines = ["type;price;per", "net;90;m2"]
+    for sheet, factor in (("Anchors", 4.0), ("Ropes", 3.0), ("Posts", 4.5)):
+        for name in dict.fromkeys(str(one["id"]) for one in given[sheet]):
+            size = int("".join(filter(str.isdigit, name)) or 1)
+            lines.append(f"{name};{factor * size:g};piece")
+            lines += [f"{name};95;m"] if name in anchors and _is_drilled(name) else []
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _is_drilled(name: str) -> bool:
+    """An anchor type with a drilled length."""
+    return any(
+        one["id"] == name and one.get("drilled_length")
+        for one in load_example()["Anchors"]
+    )

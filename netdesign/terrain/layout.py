@@ -26,6 +26,7 @@ _LEAST_SNOW = 10.0  # above a row, along the ground: anchors of nearer rows meet
 _STEP = 1.0  # along a contour, between two lines of fall [m]
 _WIDE = 300.0  # along a contour, to each side [m]
 _SPARE = 0.98  # of the largest distance, for what lies between two lines of fall [-]
+_FOOT = 0.92  # of it below the highest place: beside it the lines may be longer [-]
 _BENT = 0.9  # of the bend that breaks a row: posts do not stand at its points [-]
 _ELSEWHERE, _OPEN, _HELD = 0, 1, 2  # states of the ground
 
@@ -247,7 +248,7 @@ def _find_foot(task: Task, ground: _Ground, top: Floats) -> Floats | None:
     if most == 0 or lengths[count - 1] < _LEAST_SNOW:
         return None
     whole = float(lengths[count - 1])
-    longest = float(lengths[most])
+    longest = _FOOT * float(lengths[most])
     number = max(1, math.ceil((whole - _LEAST_SNOW) / longest - 1e-9))
     at = min(longest, whole / number)
     return np.array([np.interp(at, lengths[:count], x[:count]) for x in points.T])

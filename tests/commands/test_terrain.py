@@ -8,10 +8,10 @@ import pytest
 
 from netdesign.site.template.workbook import write_site_workbook
 from netdesign.terrain.grid import read_grid
-from tests.terrain.map_files import write_rows as write_layer
-from tests.terrain.map_files import write_tif
 from tests.report.accessible import list_violations
 from tests.report.printing import PHONE_PX
+from tests.terrain.map_files import write_rows as write_layer
+from tests.terrain.map_files import write_tif
 
 LEFT_OUT = "not among the drawn rows, left out"
 EAST, NORTH = 2_700_300.0, 1_180_200.0
