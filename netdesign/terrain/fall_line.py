@@ -69,7 +69,8 @@ def follow_fall(
         there = here + step * sign * _direct(half.gradient)
         ground = surface.at(there)
         rise = ground.height - heights[-1]
-        length = lengths[-1] + np.hypot(step, rise)
+        goes_on = sign * rise > 0.0  # not beyond a top, nor a bottom
+        length = np.where(goes_on, lengths[-1] + np.hypot(step, rise), math.nan)
         points.append(np.where(np.isfinite(length)[:, None], there, math.nan))
         heights.append(ground.height)
         angles.append(ground.steepness)

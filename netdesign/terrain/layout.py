@@ -273,7 +273,7 @@ def _follow(surface: Surface, ground: _Ground, foot: Floats) -> tuple[Floats, in
         states = ground.find_states(there)
         for k, side in enumerate(sides):
             outside[k] += _STEP if states[k] == _ELSEWHERE else 0.0
-            is_round = _is_near(there[k], [*sides[0][3:], *sides[1][3:]])
+            is_round = _is_near(there[k], [*side[:-4], *sides[1 - k][4:]])
             if states[k] == _HELD or is_round or not np.isfinite(there[k]).all():
                 outside[k] = math.inf
             if outside[k] < most:
@@ -283,9 +283,8 @@ def _follow(surface: Surface, ground: _Ground, foot: Floats) -> tuple[Floats, in
 
 
 def _is_near(place: Floats, others: Sequence[Floats]) -> bool:
-    """A contour that has come round: its newest points apart, it is there already."""
-    away = [math.dist(place, one) for one in others[:-1]]
-    return any(one < 0.8 * _STEP for one in away)
+    """A contour that has come round to places where it was before."""
+    return any(math.dist(place, one) < GAP for one in others)
 
 
 def _look_up(task: Task, ground: _Ground, points: Floats) -> _Contour:

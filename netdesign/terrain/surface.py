@@ -115,7 +115,7 @@ def fit(grid: Grid, points: Floats, window: int) -> Ground:
     steps = np.arange(-half, half + 1)
     rows = middle[:, 1, None, None] + steps[None, :, None]
     cells = middle[:, 0, None, None] + steps[None, None, :]
-    around = grid.heights[rows, cells].reshape(len(points), -1)
+    around = grid.heights[rows, cells].reshape(len(points), window**2)
     centre = grid.heights[middle[:, 1], middle[:, 0]]
     relative = around - centre[:, None]
     terms, solve = _prepare(window)
