@@ -90,9 +90,11 @@ class BodyArgument(ctypes.Structure):
     """``Body`` of history.c: snow of a step where equilibrium is taken."""
 
     _fields_ = [
-        *(("place", PlacementArgument), ("mesh", MeshArgument), ("law", LawArgument)),
+        *(("place", PlacementArgument), ("mesh", MeshArgument)),
+        *((name, LawArgument) for name in ("law", "first")),
         *((name, _POINTER) for name in ("plan", "is_free")),
         *((name, _POINTER) for name in ("edge_rule", "edge_weights")),
+        ("drags", _INT),
     ]
 
 

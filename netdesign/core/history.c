@@ -10,14 +10,15 @@
 typedef struct {
     Placement place;
     Mesh mesh;
-    Law law;
+    Law law, first;           /* first: of an iterate without stresses */
     const int32_t *plan;
     const uint8_t *is_free;   /* (2 n_nodes,); the net's do not count */
     const double *edge_rule;  /* (4,): weights of the quadrature on an edge */
     double *edge_weights;     /* (n_edges, 4) */
+    int32_t drags;            /* the ground has a shear */
 } Body;
 
-/* Iterate of the snow, which a step of the iteration takes on. */
+/* Iterate of the snow; the first has neither stress nor shear. */
 typedef struct {
     double *unknowns;         /* (2 n_nodes,) */
     double *stress, *shear;   /* (n_triangles, 3, 3); (n_edges, 4), or NULL */
@@ -61,8 +62,13 @@ EXPORT int32_t nd_condense(const Body *body, const Iterate *from, int64_t size,
     lay_room(mesh, body->plan, memory, &room);
     memcpy(room.is_free, body->is_free, 2 * (size_t)mesh->n_nodes);
     memset(room.bears, 1, (size_t)mesh->n_edges);
-    Step step = {.stress = from->stress, .shear = from->shear, .moving = from->unknowns};
-    set_up(mesh, &body->law, &step, &room);
+    const double *zeros = room.blocks; /* of stress and shear, until there are blocks */
+    if (!from->stress || !from->shear)
+        memset(room.blocks, 0, UNKNOWNS * UNKNOWNS * (size_t)mesh->n_triangles
+                                   * sizeof *room.blocks);
+    Step step = {.stress = from->stress ? from->stress : zeros, .moving = from->unknowns,
+                 .shear = !body->drags ? NULL : from->shear ? from->shear : zeros};
+    set_up(mesh, from->stress ? &body->law : &body->first, &step, &room);
     Factor to = {.plan = body->plan, .is_free = room.is_free, .factor = room.factor,
                  .load = room.load, .root = root};
     int fault = factor_fronts(&to, room.blocks, room.stack, room.work);
@@ -71,26 +77,23 @@ EXPORT int32_t nd_condense(const Body *body, const Iterate *from, int64_t size,
     return fault;
 }
 
-/* Takes an iterate on by what its condensed snow answers to changes (2 n_net,) of the
- * velocities of the net's nodes. */
-EXPORT int32_t nd_answer(const Body *body, Iterate *to, int64_t size, double *memory,
-                         const double *moved) {
+/* The iterate that follows from changes (2 n_net,) of the velocities of the net's nodes. */
+EXPORT int32_t nd_answer(const Body *body, const Iterate *from, Iterate *to, int64_t size,
+                         double *memory, const double *moved) {
     const Mesh *mesh = &body->mesh;
     Room room;
     if (lay_room(mesh, body->plan, NULL, &room) != (size_t)size) return BAD_INPUT;
     lay_room(mesh, body->plan, memory, &room);
-    Factor of = {.plan = body->plan, .is_free = room.is_free, .factor = room.factor,
-                 .load = room.load};
+    Factor of = {.plan = body->plan, .factor = room.factor, .load = room.load};
     for (int32_t i = 0; i < 2 * mesh->n_net; i++)
         room.load[2 * mesh->net[i / 2] + i % 2] = moved[i];
     solve_fronts(&of, room.work);
-    Step step = {.unknowns = room.load, .stress = to->stress, .shear = to->shear,
-                 .new_stress = room.blocks, .new_shear = to->shear};
+    for (int32_t i = 0; i < 2 * mesh->n_nodes; i++)
+        to->unknowns[i] = from->unknowns[i] + room.load[i];
+    Step step = {.unknowns = room.load, .stress = from->stress, .shear = to->shear,
+                 .new_stress = to->stress, .new_shear = to->shear};
     advance(mesh, &room.tangents, &step);
-    to->change = compare_stress(mesh, &body->law, &step);
-    memcpy(to->stress, step.new_stress,
-           (size_t)(PLANE * POINTS * mesh->n_triangles) * sizeof *to->stress);
-    for (int32_t i = 0; i < 2 * mesh->n_nodes; i++) to->unknowns[i] += room.load[i];
+    to->change = from->stress ? compare_stress(mesh, &body->law, &step) : 1.0;
     find_residual(mesh, to->stress, to->shear, to->imbalance);
     return FINE;
 }

@@ -14,8 +14,9 @@ from netdesign.core.arguments import (
     IterateArgument,
     LawArgument,
     MeshArgument,
-    locate,
+    locate_all,
     point_to,
+    to_floats,
 )
 from netdesign.core.library import SINGULAR, find_core, require_sound
 from netdesign.coupling.history.snow import (
@@ -43,26 +44,20 @@ class CompiledSnow:
     ----------
     library : PyDLL
         The core.
-    argument : BodyArgument
-        Mesh, law and load as the core takes them.
-    first : LawArgument
-        Law of the first iterate.
+    body : BodyArgument
+        Mesh, laws and load as the core takes them.
     weights : ndarray, shape (n_triangles, 3)
         Of the quadrature [thickness^2].
     is_valid : bool
         No triangle is turned over.
-    drags : bool
-        The ground has a shear.
     kept : tuple of ndarray, each of any shape
-        Arrays whose addresses the argument has.
+        Arrays whose addresses the body has.
     """
 
     library: ctypes.PyDLL
-    argument: BodyArgument
-    first: LawArgument
+    body: BodyArgument
     weights: Floats
     is_valid: bool
-    drags: bool
     kept: tuple[np.ndarray[Any, Any], ...]
 
     def condense(self, iterate: SnowIterate) -> Condensed:
@@ -78,59 +73,41 @@ class CompiledSnow:
         SingularError
             If nothing holds the snow.
         """
-        following, count = self._copy(iterate), 2 * self.argument.mesh.n_net
-        body, to = self._choose_law(is_first=iterate.stress is None), _point(following)
+        body, count = ctypes.byref(self.body), 2 * self.body.mesh.n_net
         memory = np.empty(require_sound(self.library.nd_room(body)))
-        room = ctypes.c_int64(memory.size), ctypes.c_void_p(locate(memory))
         root, missing = np.empty((count, count)), np.empty(count)
-        places = (ctypes.c_void_p(locate(one)) for one in (root, missing))
-        code = self.library.nd_condense(body, ctypes.byref(to), *room, *places)
+        code = self.library.nd_condense(
+            *(body, ctypes.byref(_point(iterate))), *_pass(memory, root, missing)
+        )
         if code == SINGULAR:
             raise SingularError("singular")
         require_sound(code)
-        return Condensed(
-            root, missing, partial(self._answer, iterate, following, memory)
-        )
+        return Condensed(root, missing, partial(self._answer, iterate, memory))
 
-    def _answer(
-        self, iterate: SnowIterate, following: SnowIterate, memory: Floats, net: Floats
-    ) -> SnowIterate:
-        is_first, to = iterate.stress is None, _point(following)
-        room = ctypes.c_int64(memory.size), ctypes.c_void_p(locate(memory))
-        moved = np.ascontiguousarray(net)
-        body, place = (
-            self._choose_law(is_first=is_first),
-            ctypes.c_void_p(locate(moved)),
-        )
-        code = self.library.nd_answer(body, ctypes.byref(to), *room, place)
-        require_sound(code)
-        return following._replace(change=1.0 if is_first else to.change)
-
-    def _choose_law(self, *, is_first: bool) -> object:
-        body = BodyArgument.from_buffer_copy(self.argument)
-        if is_first:
-            body.law = self.first
-        return ctypes.byref(body)
-
-    def _copy(self, iterate: SnowIterate) -> SnowIterate:
-        """Arrays of the next iterate, which begin as those of the last."""
-        stress, shear = iterate.stress, iterate.base_shear
-        mesh = self.argument.mesh
-        if stress is None:
-            stress = np.zeros((*self.weights.shape, 3))
-        if self.drags and shear is None:
-            shear = np.zeros((mesh.n_edges, EDGE_WEIGHTS.size))
-        return SnowIterate(
-            unknowns=iterate.unknowns.copy(),
-            stress=stress.copy(),
-            base_shear=shear.copy() if self.drags and shear is not None else None,
+    def _answer(self, iterate: SnowIterate, memory: Floats, net: Floats) -> SnowIterate:
+        mesh = self.body.mesh
+        following = SnowIterate(
+            unknowns=np.empty(2 * mesh.n_nodes),
+            stress=np.empty((mesh.n_triangles, 3, 3)),
+            base_shear=np.empty((mesh.n_edges, 4)) if self.body.drags else None,
             imbalance=np.empty(2 * mesh.n_nodes),
         )
+        moved, to = to_floats(net, (2 * mesh.n_net,)), _point(following)
+        iterates = (ctypes.byref(one) for one in (_point(iterate), to))
+        body = ctypes.byref(self.body)
+        require_sound(self.library.nd_answer(body, *iterates, *_pass(memory, moved)))
+        return following._replace(change=to.change)
 
 
 def _point(iterate: SnowIterate) -> IterateArgument:
     arrays = (iterate.unknowns, iterate.stress, iterate.base_shear, iterate.imbalance)
-    return IterateArgument(*map(locate, arrays))
+    return IterateArgument(*locate_all(*arrays))
+
+
+def _pass(memory: Floats, *arrays: Floats) -> list[object]:
+    """Size and place of the memory, and places of arrays."""
+    places = [ctypes.c_void_p(one) for one in locate_all(memory, *arrays)]
+    return [ctypes.c_int64(memory.size), *places]
 
 
 def prepare_snow(
@@ -147,55 +124,48 @@ def prepare_snow(
     nodes : ndarray, shape (2, n_nodes)
         Where equilibrium is taken [thickness].
     """
-    library, problem = find_core(), load.problem
-    if library is None or problem.snow.element != "velocity":
+    library = find_core()
+    if library is None or load.problem.snow.element != "velocity":
         return None
     described = describe_template(template, library)
     if described is None:
         return None
-    n_triangles, n_net = template.triangles.shape[1], template.net.size
-    n_edges = template.ground.size // 2
-    slip = problem.snow.slip_ratio * np.ascontiguousarray(load.bottom)
-    snow = problem.snow
-    if snow.ground != "sliding" and problem.base_drag > 0.0:
-        snow = replace(snow, slip_exponent=1.0)
-        slip = np.array([1.0 / problem.base_drag])
-    laws = [
-        describe_law(one, load.material, (n_triangles, 3), slip)
-        for one in (snow, take_linear(snow))
-    ]
-    places = {
-        "nodes": np.ascontiguousarray(nodes),
-        "gradients": np.empty((2, n_triangles, 3, 6)),
-        "weights": np.empty((n_triangles, 3)),
-        "load": np.empty(nodes.shape[1]),
-        "axes": np.empty_like(nodes),
-        "normal": np.empty((2, n_net)),
-    }
-    placement = describe_placement(described, template.orientation)
-    point_to(placement, **places)
+    shape = (template.triangles.shape[1], 3)
+    laws, kept = _describe_laws(load, shape)
     mesh = MeshArgument(*described.counts, *described.numbers)
-    edge_weights = np.empty((n_edges, EDGE_WEIGHTS.size))
-    point_to(
-        mesh,
-        **{name: places[name] for name in ("gradients", "weights", "axes")},
-        edge_weights=edge_weights,
-        edge_shape=EDGE_SHAPE,
-        load=load.weight,
-    )
-    argument = BodyArgument(
-        place=placement, mesh=mesh, law=laws[0][0], plan=described.plan
-    )
-    point_to(
-        argument, is_free=load.inner, edge_rule=EDGE_WEIGHTS, edge_weights=edge_weights
-    )
-    kept = (*described.kept, *places.values(), edge_weights, load.weight, load.inner)
+    placement = describe_placement(described, template.orientation)
+    placed = {
+        "gradients": np.empty((2, *shape, 6)),
+        "weights": np.empty(shape),
+        "axes": np.empty_like(nodes),
+    }
+    edge_weights = np.empty((mesh.n_edges, EDGE_WEIGHTS.size))
+    beside = np.empty(nodes.shape[1]), np.empty((2, mesh.n_net))
+    point_to(placement, **placed, nodes=nodes, load=beside[0], normal=beside[1])
+    point_to(mesh, **placed, edge_weights=edge_weights, edge_shape=EDGE_SHAPE)
+    point_to(mesh, load=load.weight)
+    body = BodyArgument(placement, mesh, *laws, described.plan)
+    point_to(body, is_free=load.inner, edge_rule=EDGE_WEIGHTS)
+    point_to(body, edge_weights=edge_weights)
+    body.drags = load.drags
+    arrays = (*described.kept, *kept, *placed.values(), *beside, edge_weights)
     return CompiledSnow(
         library=library,
-        argument=argument,
-        first=laws[1][0],
-        weights=places["weights"],
-        is_valid=bool(library.nd_place(ctypes.byref(argument))),
-        drags=load.drags,
-        kept=(*kept, template.orientation, *laws[0][1], *laws[1][1]),
+        body=body,
+        weights=placed["weights"],
+        is_valid=bool(library.nd_place(ctypes.byref(body))),
+        kept=(*arrays, nodes, load.weight, load.inner, template.orientation),
     )
+
+
+def _describe_laws(
+    load: BodyLoad, shape: tuple[int, ...]
+) -> tuple[tuple[LawArgument, LawArgument], tuple[Floats, ...]]:
+    """Law of the snow and that of the first iterate, and arrays to keep."""
+    snow, drag = load.problem.snow, load.problem.base_drag
+    slip = snow.slip_ratio * np.ascontiguousarray(load.bottom)
+    if snow.ground != "sliding" and drag > 0.0:  # shear that goes with the velocity
+        snow, slip = replace(snow, slip_exponent=1.0), np.array([1.0 / drag])
+    law, kept = describe_law(snow, load.material, shape, slip)
+    first, more = describe_law(take_linear(snow), load.material, shape, slip)
+    return (law, first), (*kept, *more)
