@@ -94,7 +94,7 @@ class BodyArgument(ctypes.Structure):
         *((name, LawArgument) for name in ("law", "first")),
         *((name, _POINTER) for name in ("plan", "is_free")),
         *((name, _POINTER) for name in ("edge_rule", "edge_weights")),
-        ("drags", _INT),
+        ("slides", _INT),
     ]
 
 

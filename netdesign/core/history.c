@@ -15,7 +15,7 @@ typedef struct {
     const uint8_t *is_free;   /* (2 n_nodes,); the net's do not count */
     const double *edge_rule;  /* (4,): weights of the quadrature on an edge */
     double *edge_weights;     /* (n_edges, 4) */
-    int32_t drags;            /* the ground has a shear */
+    int32_t slides;           /* the ground has a shear */
 } Body;
 
 /* Iterate of the snow; the first has neither stress nor shear. */
@@ -67,7 +67,7 @@ EXPORT int32_t nd_condense(const Body *body, const Iterate *from, int64_t size,
         memset(room.blocks, 0, UNKNOWNS * UNKNOWNS * (size_t)mesh->n_triangles
                                    * sizeof *room.blocks);
     Step step = {.stress = from->stress ? from->stress : zeros, .moving = from->unknowns,
-                 .shear = !body->drags ? NULL : from->shear ? from->shear : zeros};
+                 .shear = !body->slides ? NULL : from->shear ? from->shear : zeros};
     set_up(mesh, from->stress ? &body->law : &body->first, &step, &room);
     Factor to = {.plan = body->plan, .is_free = room.is_free, .factor = room.factor,
                  .load = room.load, .root = root};

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -89,7 +89,7 @@ class CompiledSnow:
         following = SnowIterate(
             unknowns=np.empty(2 * mesh.n_nodes),
             stress=np.empty((mesh.n_triangles, 3, 3)),
-            base_shear=np.empty((mesh.n_edges, 4)) if self.body.drags else None,
+            base_shear=np.empty((mesh.n_edges, 4)) if self.body.slides else None,
             imbalance=np.empty(2 * mesh.n_nodes),
         )
         moved, to = to_floats(net, (2 * mesh.n_net,)), _point(following)
@@ -125,7 +125,7 @@ def prepare_snow(
         Where equilibrium is taken [thickness].
     """
     library = find_core()
-    if library is None or load.problem.snow.element != "velocity":
+    if library is None or load.snow.element != "velocity":
         return None
     described = describe_template(template, library)
     if described is None:
@@ -147,7 +147,7 @@ def prepare_snow(
     body = BodyArgument(placement, mesh, *laws, described.plan)
     point_to(body, is_free=load.inner, edge_rule=EDGE_WEIGHTS)
     point_to(body, edge_weights=edge_weights)
-    body.drags = load.drags
+    body.slides = load.slides
     arrays = (*described.kept, *kept, *placed.values(), *beside, edge_weights)
     return CompiledSnow(
         library=library,
@@ -162,10 +162,7 @@ def _describe_laws(
     load: BodyLoad, shape: tuple[int, ...]
 ) -> tuple[tuple[LawArgument, LawArgument], tuple[Floats, ...]]:
     """Law of the snow and that of the first iterate, and arrays to keep."""
-    snow, drag = load.problem.snow, load.problem.base_drag
-    slip = snow.slip_ratio * np.ascontiguousarray(load.bottom)
-    if snow.ground != "sliding" and drag > 0.0:  # shear that goes with the velocity
-        snow, slip = replace(snow, slip_exponent=1.0), np.array([1.0 / drag])
-    law, kept = describe_law(snow, load.material, shape, slip)
-    first, more = describe_law(take_linear(snow), load.material, shape, slip)
+    slip = load.snow.slip_ratio * np.ascontiguousarray(load.bottom)
+    law, kept = describe_law(load.snow, load.material, shape, slip)
+    first, more = describe_law(take_linear(load.snow), load.material, shape, slip)
     return (law, first), (*kept, *more)

@@ -128,7 +128,7 @@ def advance(
         slips = _slips_over(equations, iterate)
         if slips != equations.top_slips and top_changes < _TOP_CHANGES:
             top_changes += 1
-            equations = equations.with_top(slips=slips)
+            equations = replace(equations, top_slips=slips)
             velocity = equations.split(iterate.unknowns)
             iterate = iterate._replace(unknowns=equations.hold(velocity))
             continue

@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.coupling.history.state import TransientProblem
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.kernel import (
     assemble_base_force,
@@ -90,28 +89,28 @@ class BodyLoad:
 
     Attributes
     ----------
-    problem : TransientProblem
-        Creep, ground and its drag.
+    snow : FlowProblem
+        Creep and ground; one that drags slides by a linear law.
     material : Material
         Of the snow as it is now.
     bottom : ndarray, shape (n_ground_edges,)
-        Fluidity of the snow on the ground over the reference [-].
+        Fluidity of the snow on the ground over the reference, or of what drags it [-].
     weight : ndarray, shape (2 n_nodes,)
         Nodal forces [rho g d^2].
     inner : ndarray of bool, shape (2 n_nodes,)
         Unknowns that nothing holds, off the net.
     """
 
-    problem: TransientProblem
+    snow: FlowProblem
     material: Material
     bottom: Floats
     weight: Floats
     inner: Mask
 
     @property
-    def drags(self) -> bool:
+    def slides(self) -> bool:
         """The ground has a shear."""
-        return self.problem.snow.ground == "sliding" or self.problem.base_drag > 0.0
+        return self.snow.ground == "sliding"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -173,7 +172,7 @@ class PlainSnow:
     def _answer(
         self, iterate: SnowIterate, linear: _Linear, moved: Floats, net: Floats
     ) -> SnowIterate:
-        mesh, snow = self.mesh, self.load.problem.snow
+        mesh, snow = self.mesh, self.load.snow
         change = moved[:, 0] + moved[:, 1:] @ net
         base_shear = linear.base_shear
         if linear.base is not None and base_shear is not None:
@@ -197,7 +196,7 @@ class PlainSnow:
         """Relative change of the stress, by its invariant over the body."""
         if old is None:
             return 1.0
-        snow, material = self.load.problem.snow, self.load.material
+        snow, material = self.load.snow, self.load.material
         weights = self.mesh.weights
         change = (weights * squared_invariant(snow, material, new - old)).sum()
         size = (weights * squared_invariant(snow, material, new)).sum()
@@ -205,7 +204,7 @@ class PlainSnow:
 
     def _linearise(self, iterate: SnowIterate) -> _Linear:
         mesh, stress, base_shear = self.mesh, iterate.stress, iterate.base_shear
-        snow, is_first = self.load.problem.snow, stress is None
+        snow = self.load.snow
         if stress is None:
             snow = take_linear(snow)
             stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
@@ -214,21 +213,15 @@ class PlainSnow:
         matrix = assemble_stiffness(mesh, tangent.modulus)
         force = assemble_stress(mesh, hold_stress(tangent, strain))
         force[: self.load.weight.size] -= self.load.weight
-        if not self.load.drags:
+        if not self.load.slides:
             return _Linear(matrix, force, tangent, strain, None, None)
         shear = np.zeros_like(mesh.base.weights) if base_shear is None else base_shear
-        base = self._linearise_base(take_linear(snow) if is_first else snow, shear)
+        base = linearise_sliding(snow, shear, self.load.bottom[:, None])
         base_velocity = compute_base_velocity(mesh, iterate.unknowns)
         shear = base.intercept + base.modulus * base_velocity
         matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
         force += assemble_base_force(mesh, shear)
         return _Linear(matrix, force, tangent, strain, base, shear)
-
-    def _linearise_base(self, snow: FlowProblem, shear: Floats) -> Tangent:
-        if snow.ground == "sliding":
-            return linearise_sliding(snow, shear, self.load.bottom[:, None])
-        drag = np.full_like(shear, self.load.problem.base_drag)
-        return Tangent(modulus=drag, intercept=np.zeros_like(shear))
 
 
 class _Linear(NamedTuple):

@@ -116,16 +116,6 @@ class StepEquations:
         """Size of the whole weight."""
         return float(np.hypot(*self.load.weight.reshape(-1, 2).sum(axis=0)))
 
-    def with_top(self, *, slips: bool) -> StepEquations:
-        """The same equations with another upper corner.
-
-        Parameters
-        ----------
-        slips : bool
-            Whether the snow's upper corner slips; else it is held.
-        """
-        return replace(self, top_slips=slips)
-
     def place_net(self, unknowns: Floats) -> Floats:
         """Net nodes as the velocities carry them.
 
@@ -279,17 +269,7 @@ def assemble_step(
     if state.top != "on-net":
         last = problem.head - vertices[:, body.topology.net[-2]]
         top_axis = last / np.hypot(*last)
-    material = build_material(
-        problem.settling, problem.snow, replace(body, vertices=vertices)
-    )
-    fluidity = np.broadcast_to(material.fluidity_ratio, (body.mass.size, 3))
-    load = BodyLoad(
-        problem=problem,
-        material=material,
-        bottom=fluidity[body.topology.bottom, 0],
-        weight=_nodal_weight(problem, body),
-        inner=_free_inner(template, holds=problem.snow.ground == "no-slip"),
-    )
+    load = _describe_load(problem, replace(body, vertices=vertices))
     condense, weights = _place_snow(load, template, vertices)
     return StepEquations(
         problem=problem,
@@ -305,6 +285,23 @@ def assemble_step(
     )
 
 
+def _describe_load(problem: TransientProblem, body: SnowBody) -> BodyLoad:
+    snow, template = problem.snow, body.topology.template
+    material = build_material(problem.settling, snow, body)
+    fluidity = np.broadcast_to(material.fluidity_ratio, (body.mass.size, 3))
+    bottom = fluidity[body.topology.bottom, 0]
+    if snow.ground != "sliding" and problem.base_drag > 0.0:
+        bottom = np.full_like(bottom, 1.0 / problem.base_drag)
+        snow = replace(snow, ground="sliding", slip_ratio=1.0, slip_exponent=1.0)
+    return BodyLoad(
+        snow=snow,
+        material=material,
+        bottom=bottom,
+        weight=_nodal_weight(problem, body),
+        inner=_free_inner(template, holds=problem.snow.ground == "no-slip"),
+    )
+
+
 def _place_snow(
     load: BodyLoad, template: MeshTemplate, vertices: Floats
 ) -> tuple[Condense, Floats]:
@@ -313,7 +310,7 @@ def _place_snow(
     nodes = np.concatenate([vertices, middles], axis=1)
     snow: CompiledSnow | PlainSnow | None = prepare_snow(load, template, nodes)
     if snow is None:
-        mesh = build_placed_mesh(template, nodes, load.problem.snow.element)
+        mesh = build_placed_mesh(template, nodes, load.snow.element)
         axes = np.zeros_like(nodes)
         axes[0] = 1.0
         snow = PlainSnow(load=load, mesh=replace(mesh, axes=axes))

@@ -42,7 +42,7 @@ def fold(template, size):
 def solve_forms(snow, carried, forces):
     """Linear creep under forces on the net's nodes, by the forms and a dense solve."""
     mesh, load = snow.mesh, snow.load
-    template, problem = mesh.template, load.problem.snow
+    template, problem = mesh.template, load.snow
     linear = linearise_creep(
         take_linear(problem), load.material, np.zeros((*mesh.weights.shape, 3))
     )
