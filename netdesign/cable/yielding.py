@@ -10,13 +10,15 @@ Theory: cable/THEORY.md, eqs (C22) to (C26).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import ctypes
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.cable.response import (
+    LARGEST_BEND,
     NetResponse,
     average_at_segments,
     bend_segments,
@@ -24,6 +26,8 @@ from netdesign.cable.response import (
     respond,
 )
 from netdesign.cable.sliding import SlidingStep
+from netdesign.core.arguments import YieldingArgument, locate_all, to_floats
+from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats, Mask, Signs
 from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
@@ -39,6 +43,13 @@ _FREE_ROUNDS, _MOST_ROUNDS = 12, 400
 _BREACH = 1e-9  # of a tension, that counts as none
 _BACKWARD = 1e-14  # slide against its direction that is rounding
 _LEAST_WAY, _BISECTIONS = -30.0, 30  # logarithm of a share of a way
+# Ends of the compiled core, as in yielding.c: a segment would push; failures.
+_LOOSE = 1
+_FAULTS = {
+    2: (Outcome.MAX_ITERATIONS, "cable.friction"),
+    3: (Outcome.NONFINITE, "cable.friction_singular"),
+    4: (Outcome.NONFINITE, "cable.nodes_at_one_place"),
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -190,35 +201,96 @@ def settle_net(
     tests/cable/test_yielding.py
     """
     given = _Given(nodes, head, old_lengths, friction, stiffness)
-    slides, signs = guess.slides, guess.slide_signs
-    net = _place_net(given, guess.place, slides)
     if not nodes.forces.any():
-        net = _take_up(given, net, slides)
+        net = _place_net(given, guess.place, guess.slides)
+        guess = replace(guess, place=_take_up(given, net, guess.slides).place)
+    settle = _settle if find_core() is None else _settle_compiled
+    end = settle(given, guess)
+    sliding = SlidingStep(
+        outcome=Outcome.CONVERGED,
+        lengths=end.lengths,
+        tensions=end.tensions,
+        slides=end.guess.slides,
+    )
+    points = np.zeros((2, end.guess.slides.size + 2))
+    points[:, 1:-1], points[:, -1] = end.guess.place, head
+    return pull_nodes(points, sliding), end.guess
+
+
+class _Settled(NamedTuple):
+    """Net and nodes in equilibrium."""
+
+    guess: NetGuess  # to go on from
+    lengths: Floats
+    tensions: Floats
+
+
+def _settle(given: _Given, guess: NetGuess) -> _Settled:
+    net = _place_net(given, guess.place, guess.slides)
     if net.tensions.min() < 0.0:
-        loose = respond(net.points, old_lengths, friction=friction, stiffness=stiffness)
-        slides, signs = loose.sliding.slides, loose.sliding.slide_signs
-        net = _place_net(given, net.place, slides)
-    chord = float(np.hypot(*head))
+        guess = _loosen(given, guess)
+        net = _place_net(given, guess.place, guess.slides)
+    slides, signs = guess.slides, guess.slide_signs
+    chord = float(np.hypot(*given.head))
     for _ in range(_MOST_ITERATIONS):
         linear = _linearise(given, net)
         wanted, signs = _choose(net, linear, slides, signs)
         way = linear.way[:, 0] + linear.way[:, 1:] @ (wanted - slides)
         part, net = _go(given, net, way.reshape(2, -1), slides, wanted)
         moved = max(np.linalg.norm(way), np.linalg.norm(wanted - slides))
-        if part == 1.0:
-            slides = wanted
-            if moved <= _LAST_WAY * chord and net.tensions.min() >= 0.0:
-                sliding = SlidingStep(
-                    outcome=Outcome.CONVERGED,
-                    lengths=net.lengths,
-                    tensions=net.tensions,
-                    slides=slides,
-                )
-                end = NetGuess(place=net.place, slides=slides, slide_signs=signs)
-                return pull_nodes(net.points, sliding), end
-        else:
-            slides = slides + part * (wanted - slides)
+        slides = wanted if part == 1.0 else slides + part * (wanted - slides)
+        is_last = part == 1.0 and moved <= _LAST_WAY * chord
+        if is_last and net.tensions.min() >= 0.0:
+            end = NetGuess(place=net.place, slides=slides, slide_signs=signs)
+            return _Settled(end, net.lengths, net.tensions)
     raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
+
+
+def _settle_compiled(given: _Given, guess: NetGuess) -> _Settled:
+    """The same in the compiled core."""
+    code, end = _call_core(given, guess, may_push=False)
+    if code == _LOOSE:
+        code, end = _call_core(given, _loosen(given, guess), may_push=True)
+    if code in _FAULTS:
+        outcome, key = _FAULTS[code]
+        raise SolveError(outcome, say(key))
+    return end
+
+
+def _call_core(
+    given: _Given, guess: NetGuess, *, may_push: bool
+) -> tuple[int, _Settled]:
+    """How it ended, and where; ``may_push``: segments, at the start."""
+    nodes, count = given.nodes, guess.slides.size
+    shapes = ((2, count), (2, count), (2 * count, 2 * count), (count + 1,))
+    arrays = (nodes.positions, nodes.forces, nodes.compliance, given.old_lengths)
+    read = [to_floats(one, shape) for one, shape in zip(arrays, shapes, strict=True)]
+    end = NetGuess(
+        place=to_floats(guess.place.copy(), (2, count)),
+        slides=guess.slides.copy(),
+        slide_signs=guess.slide_signs.astype(np.int8),
+    )
+    lengths, tensions = np.empty((2, count + 1))
+    argument = YieldingArgument(
+        *(count, given.friction, given.stiffness, tuple(given.head)),
+        *locate_all(*read),
+        *(_LAST_WAY, _LEAST_SHARE, _SHORTEST_PART, _BREACH, _BACKWARD, LARGEST_BEND),
+        *(_MOST_ITERATIONS, _FREE_ROUNDS, _MOST_ROUNDS),
+        *locate_all(end.place, end.slides, end.slide_signs, lengths, tensions),
+    )
+    library = find_core()
+    assert library is not None
+    code = require_sound(library.nd_settle(ctypes.byref(argument), int(may_push)))
+    return code, _Settled(end, lengths, tensions)
+
+
+def _loosen(given: _Given, guess: NetGuess) -> NetGuess:
+    """The net as it slides on nodes that stay, where a segment would push."""
+    points = np.column_stack([np.zeros(2), guess.place, given.head])
+    loose = respond(
+        points, given.old_lengths, friction=given.friction, stiffness=given.stiffness
+    ).sliding
+    return replace(guess, slides=loose.slides, slide_signs=loose.slide_signs)
 
 
 def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:

@@ -30,9 +30,9 @@ class LawArgument(ctypes.Structure):
     """``Law`` of element.h: creep and sliding."""
 
     _fields_ = [
-        *((name, _REAL) for name in ("exponent", "slip_exponent", "slip", "floor")),
-        ("stride", _INT),
-        *((name, _POINTER) for name in ("bulk", "fluidity")),
+        *((name, _REAL) for name in ("exponent", "slip_exponent", "floor")),
+        *((name, _INT) for name in ("stride", "slip_stride")),
+        *((name, _POINTER) for name in ("bulk", "fluidity", "slip")),
     ]
 
 
@@ -83,6 +83,43 @@ class SceneArgument(ctypes.Structure):
         *((name, _INT) for name in ("n_elements", "n_parts")),
         *((name, _POINTER) for name in ("shares", "part", "firsts", "rises", "head")),
         *((name, _REAL) for name in ("end_load", "length", "stiffness", "tolerance")),
+    ]
+
+
+class BodyArgument(ctypes.Structure):
+    """``Body`` of history.c: snow of a step where equilibrium is taken."""
+
+    _fields_ = [
+        *(("place", PlacementArgument), ("mesh", MeshArgument)),
+        *((name, LawArgument) for name in ("law", "first")),
+        *((name, _POINTER) for name in ("plan", "is_free")),
+        *((name, _POINTER) for name in ("edge_rule", "edge_weights")),
+        ("slides", _INT),
+    ]
+
+
+class IterateArgument(ctypes.Structure):
+    """``Iterate`` of history.c: velocities and stresses."""
+
+    _fields_ = [
+        *((name, _POINTER) for name in ("unknowns", "stress", "shear", "imbalance")),
+        ("change", _REAL),
+    ]
+
+
+class YieldingArgument(ctypes.Structure):
+    """``Yielding`` of yielding.c: nodes, net, what is asked, and where it ends."""
+
+    _fields_ = [
+        ("n", _INT),
+        *(("friction", _REAL), ("stiffness", _REAL), ("head", _REAL * 2)),
+        *((name, _POINTER) for name in ("positions", "forces", "compliance")),
+        ("old_lengths", _POINTER),
+        *((name, _REAL) for name in ("last_way", "least_share", "shortest_part")),
+        *((name, _REAL) for name in ("breach", "backward", "largest_bend")),
+        *((name, _INT) for name in ("most_iterations", "free_rounds", "most_rounds")),
+        *((name, _POINTER) for name in ("place", "slides", "signs")),
+        *((name, _POINTER) for name in ("lengths", "tensions")),
     ]
 
 

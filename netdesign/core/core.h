@@ -45,5 +45,8 @@ int factor_fronts(const Factor *to, const double *blocks, double *stack, double 
 void solve_fronts(const Factor *to, double *work);
 int solve_root(const Factor *to, const int32_t *net, const double *shares,
                double *work);
+int factor_dense(int32_t n, double *matrix, int32_t *order);
+double solve_factored(int32_t n, const double *matrix, const int32_t *order,
+                      double *values);
 
 #endif

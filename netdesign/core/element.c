@@ -52,7 +52,8 @@ void linearise(const Mesh *mesh, const Law *law, const Step *step,
         double carries = bears[i / EDGE_POINTS] ? 1.0 : 0.0;
         find_scalars(law->slip_exponent, law->floor, shear * shear, &viscosity,
                      &reduction, &share);
-        to->base_moduli[i] = carries * (viscosity * share / law->slip);
+        double slip = law->slip[i / EDGE_POINTS * law->slip_stride];
+        to->base_moduli[i] = carries * (viscosity * share / slip);
         to->base_intercept[i] = carries * (shear * (1.0 - share));
     }
 }

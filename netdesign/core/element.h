@@ -21,11 +21,12 @@ typedef struct {
     const double *load;          /* (2 n_nodes,): of gravity, node axes */
 } Mesh;
 
-/* Laws of creep and of a sliding ground; ``stride`` is 0 where the snow is uniform. */
+/* Laws of creep and of a sliding ground; a stride is 0 where one number is all. */
 typedef struct {
-    double exponent, slip_exponent, slip, floor;
-    int32_t stride;
+    double exponent, slip_exponent, floor;
+    int32_t stride, slip_stride;
     const double *bulk, *fluidity; /* (n_triangles, 3), or one number */
+    const double *slip;            /* (n_edges,), or one number */
 } Law;
 
 /* How snow is held: ``friction`` may be infinite. */
@@ -48,6 +49,8 @@ typedef struct {
     Contact contact;          /* under which the step is taken */
     double *unknowns, *reaction, *new_stress, *new_shear;
     double *root;             /* (2 n_net, 2 n_net), or NULL where nobody asks */
+    double *moving;           /* (2 n_nodes,): velocities that unknowns are a change of,
+                               * or NULL */
 } Step;
 
 /* Laws linearised at the points. */
@@ -81,7 +84,10 @@ void change_some(const Mesh *mesh, const Contact *now, const Contact *wanted,
 int is_same(const Mesh *mesh, const Contact *one, const Contact *other);
 void find_residual(const Mesh *mesh, const double *stress, const double *shear,
                    double *forces);
+double compare_stress(const Mesh *mesh, const Law *law, const Step *step);
+size_t lay_room(const Mesh *mesh, const int32_t *plan, double *memory, Room *room);
 int open_room(const Mesh *mesh, const int32_t *plan, Room *room);
+void set_up(const Mesh *mesh, const Law *law, const Step *step, const Room *room);
 int take_step(const Mesh *mesh, const Law *law, const Rules *rules, const Step *step,
               const int32_t *plan, const Room *room);
 

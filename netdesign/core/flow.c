@@ -40,7 +40,7 @@ static double compare_sums(const Mesh *mesh, const double *now, const double *be
 }
 
 /* Change of the stress over the stress. */
-static double compare_stress(const Mesh *mesh, const Law *law, const Step *step) {
+double compare_stress(const Mesh *mesh, const Law *law, const Step *step) {
     double size = 0.0, moved = 0.0;
     for (int32_t i = 0; i < POINTS * mesh->n_triangles; i++) {
         const double *now = step->new_stress + PLANE * i, *last = step->stress + PLANE * i;

@@ -24,7 +24,10 @@ from netdesign.words.message import Message, say
 
 _LOG = logging.getLogger(__name__)
 
-_FUNCTIONS = (*("nd_plan", "nd_round", "nd_hang", "nd_root", "nd_panel"),)
+_FUNCTIONS = (
+    *("nd_plan", "nd_round", "nd_hang", "nd_root", "nd_panel"),
+    *("nd_place", "nd_room", "nd_condense", "nd_answer", "nd_settle"),
+)
 
 # What functions give back, as in core.h.
 _NO_MEMORY, SINGULAR, TOO_LARGE = -1, -3, -4

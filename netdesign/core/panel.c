@@ -145,47 +145,6 @@ static void derive_missing(const Panel *panel, const At *at, double *matrix) {
         matrix[(AXES * strips + rope) * (n + 1)] = at->by_log_along[rope];
 }
 
-/* Rows exchanged for the largest pivot, then triangular factors in place. */
-static int factor(int32_t n, double *matrix, int32_t *order) {
-    for (int32_t k = 0; k < n; k++) {
-        int32_t best = k;
-        for (int32_t i = k + 1; i < n; i++)
-            if (fabs(matrix[i * n + k]) > fabs(matrix[best * n + k])) best = i;
-        order[k] = best;
-        for (int32_t j = 0; best != k && j < n; j++) {
-            double held = matrix[k * n + j];
-            matrix[k * n + j] = matrix[best * n + j];
-            matrix[best * n + j] = held;
-        }
-        double pivot = matrix[k * n + k];
-        if (pivot == 0.0 || !isfinite(pivot)) return NO_EQUILIBRIUM;
-        for (int32_t i = k + 1; i < n; i++) {
-            double share = matrix[i * n + k] /= pivot;
-            for (int32_t j = k + 1; j < n; j++)
-                matrix[i * n + j] -= share * matrix[k * n + j];
-        }
-    }
-    return SOLVED;
-}
-
-/* Solution of the factored equations in place; gives its norm. */
-static double solve(int32_t n, const double *matrix, const int32_t *order, double *values) {
-    double square = 0.0;
-    for (int32_t k = 0; k < n; k++) {
-        double held = values[order[k]];
-        values[order[k]] = values[k];
-        values[k] = held;
-    }
-    for (int32_t k = 0; k < n; k++)
-        for (int32_t j = 0; j < k; j++) values[k] -= matrix[k * n + j] * values[j];
-    for (int32_t k = n - 1; k >= 0; k--) {
-        for (int32_t j = k + 1; j < n; j++) values[k] -= matrix[k * n + j] * values[j];
-        values[k] /= matrix[k * n + k];
-        square += values[k] * values[k];
-    }
-    return sqrt(square);
-}
-
 /* Share of a step that lets no rope's force grow or shrink too far. */
 static double find_share(const Panel *panel, const double *step) {
     int32_t n = unknowns_of(panel);
@@ -200,14 +159,14 @@ static int go_on(const Panel *panel, double *point, At *at, int *is_last) {
     double matrix[MOST_UNKNOWNS * MOST_UNKNOWNS], step[MOST_UNKNOWNS];
     double tried[MOST_UNKNOWNS], next[MOST_UNKNOWNS];
     derive_missing(panel, at, matrix);
-    if (factor(n, matrix, order)) return NO_EQUILIBRIUM;
+    if (factor_dense(n, matrix, order)) return NO_EQUILIBRIUM;
     for (int32_t i = 0; i < n; i++) step[i] = -at->missing[i];
-    double size = solve(n, matrix, order, step), share = find_share(panel, step);
+    double size = solve_factored(n, matrix, order, step), share = find_share(panel, step);
     for (int32_t halved = 0; halved < panel->most_halvings; halved++) {
         for (int32_t i = 0; i < n; i++) tried[i] = point[i] + share * step[i];
         read_point(panel, tried, at);
         memcpy(next, at->missing, (size_t)n * sizeof *next);
-        double left = solve(n, matrix, order, next);
+        double left = solve_factored(n, matrix, order, next);
         *is_last = left <= panel->still;
         if (*is_last || left <= (1.0 - share / 4.0) * size) {
             memcpy(point, tried, (size_t)n * sizeof *point);

@@ -19,7 +19,8 @@ LIBRARY = ROOM / "_core.so"  # the same name on every system
 CHECKOUT = ROOM.parents[1] / "pyproject.toml"  # there where nothing was installed
 SOURCES = (
     *("plan.c", "front.c", "element.c", "contact.c", "step.c", "flow.c"),
-    *("place.c", "cable.c", "round.c", "panel.c"),
+    *("place.c", "cable.c", "round.c", "history.c"),
+    *("dense.c", "yielding.c", "panel.c"),
 )
 HEADERS = ("core.h", "element.h", "round.h")
 # No fused arithmetic, no freedom with sums: results are equal between processors.

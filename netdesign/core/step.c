@@ -15,9 +15,9 @@ static int is_sound(const Mesh *mesh, const int32_t *plan) {
            && plan[N_TRIANGLES] == mesh->n_triangles && plan[N_NET] == mesh->n_net;
 }
 
-/* Memory for steps on a mesh; whoever asks frees ``room->memory``. */
-int open_room(const Mesh *mesh, const int32_t *plan, Room *room) {
-    if (!is_sound(mesh, plan)) return BAD_INPUT;
+/* Parts of the memory of a step; gives how many numbers it has, 0 for another mesh. */
+size_t lay_room(const Mesh *mesh, const int32_t *plan, double *memory, Room *room) {
+    if (!is_sound(mesh, plan)) return 0;
     size_t points = (size_t)POINTS * (size_t)mesh->n_triangles;
     size_t edges = (size_t)mesh->n_edges, edge_points = EDGE_POINTS * edges;
     size_t blocks = (size_t)UNKNOWNS * UNKNOWNS * (size_t)mesh->n_triangles;
@@ -26,9 +26,9 @@ int open_room(const Mesh *mesh, const int32_t *plan, Room *room) {
     size_t work = largest((size_t)plan[WIDEST], net * (net + 2));
     size_t all = points * (MODULI + PLANE) + 2 * edge_points + blocks + factor + stack
                  + work + 2 * load + net * net;
-    double *next = malloc(all * sizeof *next + load + edges);
-    room->memory = next;
-    if (!next) return NO_MEMORY;
+    double *next = memory;
+    all += (load + edges) / sizeof *next + 1; /* marks come last */
+    if (!memory) return all;
     room->tangents.moduli = next;
     room->tangents.intercept = next += MODULI * points;
     room->tangents.base_moduli = next += PLANE * points;
@@ -42,14 +42,30 @@ int open_room(const Mesh *mesh, const int32_t *plan, Room *room) {
     room->root = next += load;
     room->is_free = (uint8_t *)(next + net * net);
     room->bears = room->is_free + load;
+    return all;
+}
+
+/* Memory for steps on a mesh; whoever asks frees ``room->memory``. */
+int open_room(const Mesh *mesh, const int32_t *plan, Room *room) {
+    size_t count = lay_room(mesh, plan, NULL, room);
+    if (!count) return BAD_INPUT;
+    room->memory = malloc(count * sizeof(double));
+    if (!room->memory) return NO_MEMORY;
+    lay_room(mesh, plan, room->memory, room);
     return FINE;
 }
 
-/* Blocks, and the forces that are missing to balance, of the laws about a state. */
-static void set_up(const Mesh *mesh, const Law *law, const Step *step,
-                   const Room *room) {
+/* Blocks, and the forces that are missing to balance, of the laws about a state: of snow
+ * at rest, or of snow whose stresses a step begins with where its velocities lead to. */
+void set_up(const Mesh *mesh, const Law *law, const Step *step, const Room *room) {
     int slides = step->shear != NULL;
     linearise(mesh, law, step, room->bears, &room->tangents);
+    if (step->moving) {
+        Step ahead = {.unknowns = step->moving, .shear = step->shear,
+                      .new_stress = room->tangents.intercept,
+                      .new_shear = room->tangents.base_intercept};
+        advance(mesh, &room->tangents, &ahead);
+    }
     fill_blocks(mesh, &room->tangents, slides, room->blocks);
     memset(room->load, 0, 2 * (size_t)mesh->n_nodes * sizeof *room->load);
     add_forces(mesh, room->tangents.intercept,

@@ -137,8 +137,11 @@ def _reference() -> tuple[Floats, Floats, Floats]:
 
 
 def describe_law(
-    problem: FlowProblem, material: Material, shape: tuple[int, ...]
-) -> tuple[LawArgument, tuple[Floats, Floats]]:
+    problem: FlowProblem,
+    material: Material,
+    shape: tuple[int, ...],
+    slip: Floats | None = None,
+) -> tuple[LawArgument, tuple[Floats, Floats, Floats]]:
     """Laws as the core takes them, and their arrays: one number, or of the shape.
 
     Parameters
@@ -147,23 +150,24 @@ def describe_law(
         Creep and ground.
     shape : tuple of int
         Of the quadrature points.
+    slip : ndarray, shape (n_ground_edges,) or (1,), optional
+        Velocity over the shear stress that is linear [-]; default is the lowest
+        layer's.
     """
+    if slip is None:
+        slip = np.array([problem.slip_ratio * problem.layers[0].fluidity_ratio])
     bulk = np.asarray(material.bulk_ratio, dtype=np.float64)
     fluidity = np.asarray(material.fluidity_ratio, dtype=np.float64)
     if bulk.size > 1 or fluidity.size > 1:
         bulk, fluidity = np.broadcast_to(bulk, shape), np.broadcast_to(fluidity, shape)
     bulk, fluidity = np.ascontiguousarray(bulk), np.ascontiguousarray(fluidity)
-    slip = problem.slip_exponent
+    exponent, slips = problem.exponent, problem.slip_exponent
     law = LawArgument(
-        problem.exponent,
-        problem.exponent if slip is None else slip,
-        problem.slip_ratio * problem.layers[0].fluidity_ratio,
-        problem.stress_floor,
-        0 if bulk.size == 1 else 1,
-        locate(bulk),
-        locate(fluidity),
+        *(exponent, exponent if slips is None else slips, problem.stress_floor),
+        *(int(bulk.size > 1), int(slip.size > 1)),
+        *locate_all(bulk, fluidity, slip),
     )
-    return law, (bulk, fluidity)
+    return law, (bulk, fluidity, slip)
 
 
 def describe_rules(problem: FlowProblem, lifts: int) -> RulesArgument:

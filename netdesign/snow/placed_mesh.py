@@ -59,8 +59,6 @@ class PlacedMesh:
         Quadrature weights times the area element.
     gradients : ndarray, shape (2, n_triangles, n_points, 6)
         Of the shape functions, slope's axes [1 / thickness].
-    folded : ndarray, shape (n_triangles, n_points, R, C), or None
-        Operator, where some columns of it were changed.
     dofs : ndarray, shape (n_triangles, C)
         Unknowns of each triangle.
     load : ndarray, shape (n_nodes,)
@@ -76,7 +74,6 @@ class PlacedMesh:
     nodes: Floats
     weights: Floats
     gradients: Floats
-    folded: Floats | None
     dofs: Ints
     load: Floats
     net_normal: Floats
@@ -110,8 +107,6 @@ class PlacedMesh:
     @cached_property
     def operator(self) -> Floats:
         """Generalised strains per unknown, shape (n_triangles, n_points, R, C)."""
-        if self.folded is not None:
-            return self.folded
         operator = build_strain_operator(self.template, self.gradients, self.axes)
         return add_pressure_rows(operator) if self.is_mixed else operator
 
@@ -224,7 +219,6 @@ def build_placed_mesh(
         nodes=nodes,
         weights=weights,
         gradients=gradients,
-        folded=None,
         dofs=list_dofs(template, element),
         load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
         net_normal=net_normal,

@@ -61,9 +61,14 @@ def transfer_state(
 @lru_cache(maxsize=256)
 def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
     known, wanted = _list_points(source), _list_points(target)
-    starts = range(0, len(wanted), _AT_ONCE)
-    pieces = [_find_nearest(known, wanted[k : k + _AT_ONCE]) for k in starts]
-    return np.concatenate(pieces)
+    layers, own = known[:, 1] // _FAR_APART, wanted[:, 1] // _FAR_APART
+    nearest = np.empty(own.size, dtype=np.int64)
+    for layer in range(len(source.interfaces) + 1):
+        there, here = np.flatnonzero(layers == layer), np.flatnonzero(own == layer)
+        for k in range(0, here.size, _AT_ONCE):
+            piece = here[k : k + _AT_ONCE]
+            nearest[piece] = there[_find_nearest(known[there], wanted[piece])]
+    return nearest
 
 
 def _find_nearest(known: Floats, wanted: Floats) -> Ints:

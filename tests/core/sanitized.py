@@ -13,6 +13,10 @@ import numpy as np
 from netdesign.cable.net import Net
 from netdesign.core import library
 from netdesign.core.plan import build_plan
+from netdesign.coupling.history.instant import advance
+from netdesign.coupling.history.settings import TransientSettings
+from netdesign.coupling.history.state import build_problem as build_history
+from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.compiled import prepare_rounds
@@ -68,6 +72,26 @@ def try_spoilt_rounds(scene, rng):
         rounds.hang(spoil(on_net, rng), net.cable.pull, net.parts)
 
 
+def try_spoilt_history(scene, rng):
+    """First steps of a history, and steps of spoilt stresses, places and lengths."""
+    scene = replace(scene, ground_contact="two-sided", net_contact="two-sided")
+    states, start = [], str(rng.choice(["steady", "sagged", "straight"]))
+    settings = TransientSettings(start=start, max_steps=3)
+    run_history(scene, settings.levels[0], settings, 1.0, on_state=states.append)
+    problem = build_history(scene, densifies=True)
+    for name in ("stress", "velocity", "lengths", "moved"):
+        with suppress(SolveError, ModelError):
+            state = replace(states[-1], **{name: spoil(getattr(states[-1], name), rng)})
+            advance(
+                problem,
+                state,
+                1e-5,
+                tolerance=1e-4,
+                balance_tolerance=1e-9,
+                max_iterations=10,
+            )
+
+
 def try_spoilt_panel(solution, rng):
     """A panel of the net, and one of spoilt forces."""
     panel = Panel(
@@ -104,6 +128,8 @@ def main():
                 if isinstance(scene.net, Net):
                     with suppress(SolveError):
                         try_spoilt_rounds(scene, rng)
+                    with suppress(SolveError):
+                        try_spoilt_history(scene, rng)
                     if isinstance(found, Solution):
                         try_spoilt_panel(found, rng)
                 solved += 1

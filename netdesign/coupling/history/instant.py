@@ -12,6 +12,7 @@ import numpy as np
 
 from netdesign.cable.response import NetResponse, hold_net
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
+from netdesign.coupling.history.snow import SnowIterate
 from netdesign.coupling.history.state import (
     Top,
     TransientProblem,
@@ -19,18 +20,13 @@ from netdesign.coupling.history.state import (
     list_net_points,
 )
 from netdesign.coupling.history.step import (
-    SnowIterate,
     StepEquations,
-    advance_iterate,
     assemble_step,
-    compute_imbalance,
-    measure_change,
-    solve_linear,
+    condense_step,
 )
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.law import squared_invariant
-from netdesign.snow.straight_mesh import unfold_velocity
 from netdesign.words.message import say
 
 # Error that a Newton iteration leaves, over the square of its change (measured: less).
@@ -125,7 +121,6 @@ def advance(
     guess = NetGuess.at_rest(equations.place_net(iterate.unknowns), state.slide_signs)
     top_changes = 0
     for iteration in range(1, max_iterations + 1):
-        last = iterate.stress
         iterate, response, guess = _iterate(
             equations, iterate, state.lengths, forces, guess
         )
@@ -133,11 +128,11 @@ def advance(
         slips = _slips_over(equations, iterate)
         if slips != equations.top_slips and top_changes < _TOP_CHANGES:
             top_changes += 1
-            equations = equations.with_top(slips=slips)
-            iterate = iterate._replace(unknowns=equations.hold(iterate.unknowns))
+            equations = replace(equations, top_slips=slips)
+            velocity = equations.split(iterate.unknowns)
+            iterate = iterate._replace(unknowns=equations.hold(velocity))
             continue
-        change = _require_finite(measure_change(equations, last, iterate.stress))
-        if _LEFT_SHARE * change**2 < tolerance:
+        if _LEFT_SHARE * _require_finite(iterate.change) ** 2 < tolerance:
             instant = _finish(equations, state, iterate, response, iteration)
             if instant.residual < _ROUNDING_SHARE * balance_tolerance:
                 return instant
@@ -181,19 +176,16 @@ def advance_under(
     equations = assemble_step(problem, replace(state, step=0.0), step)
     iterate = _begin(equations, state)
     for iteration in range(1, max_iterations + 1):
-        last = iterate.stress
-        solution = solve_linear(equations, iterate, response.forces, per_force=False)
-        iterate = advance_iterate(equations, iterate, solution.linear, solution.change)
-        change = _require_finite(measure_change(equations, last, iterate.stress))
-        if change < tolerance:
+        solution = condense_step(equations, iterate, response.forces)
+        iterate = solution.answer(np.zeros(response.forces.size))
+        if _require_finite(iterate.change) < tolerance:
             return _finish(equations, state, iterate, response, iteration)
     raise SolveError(Outcome.MAX_ITERATIONS, say("history.step_under_forces"))
 
 
 def _begin(equations: StepEquations, state: TransientState) -> SnowIterate:
     """The snow as it moved in the last step."""
-    unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
-    return SnowIterate(unknowns, state.stress, state.base_shear)
+    return SnowIterate(equations.hold(state.velocity), state.stress, state.base_shear)
 
 
 def _iterate(
@@ -204,12 +196,13 @@ def _iterate(
     guess: NetGuess,
 ) -> tuple[SnowIterate, NetResponse, NetGuess]:
     """Newton iteration of the snow; the net is solved exactly on its linear answer."""
-    solution = solve_linear(equations, iterate, forces, per_force=True)
-    dofs, rate = equations.net_dofs, equations.motion.rate
+    solution, count = condense_step(equations, iterate, forces), forces.size
+    rate = equations.motion.rate
+    moved = rate * solution.change[:count].reshape(2, -1)
     nodes = YieldingNodes(
-        positions=equations.place_net(iterate.unknowns + solution.change),
+        positions=equations.place_net(iterate.unknowns) + moved,
         forces=forces,
-        compliance=rate * solution.per_force[dofs],
+        compliance=rate * solution.per_force[:count],
     )
     problem = equations.problem
     response, guess = settle_net(
@@ -220,20 +213,19 @@ def _iterate(
         friction=problem.snow.friction,
         stiffness=problem.stiffness,
     )
-    more = (response.forces - forces).ravel()
-    change = solution.change + solution.per_force @ more
-    iterate = advance_iterate(equations, iterate, solution.linear, change)
-    return iterate, response, guess
+    return solution.answer((response.forces - forces).ravel()), response, guess
 
 
 def _slips_over(equations: StepEquations, iterate: SnowIterate) -> bool:
     """The snow's upper corner slips up over the head, against friction (N14)."""
-    top = equations.top
-    if equations.free[top]:
+    if equations.top_axis is None or iterate.imbalance is None:
         return False
+    along = equations.top_axis
     if equations.top_slips:
-        return bool(iterate.unknowns[top + 1] > 0.0)
-    pressure, shear = -compute_imbalance(equations, iterate)[top : top + 2]
+        velocity = equations.split(iterate.unknowns)[:, equations.template.net[-1]]
+        return bool(along @ velocity > 0.0)
+    force = -equations.pull_vertices(iterate.imbalance)[:, -1]
+    pressure, shear = along[1] * force[0] - along[0] * force[1], along @ force
     return bool(shear > equations.problem.snow.friction * max(pressure, 0.0))
 
 
@@ -251,22 +243,21 @@ def _finish(
     iterations: int,
 ) -> Instant:
     assert iterate.stress is not None
-    mesh, topology = equations.mesh, state.body.topology
-    residual = compute_imbalance(equations, iterate)
-    residual[equations.net_dofs] -= response.forces.ravel()
-    supports = -mesh.to_slope_axes(residual)
-    corner = supports[:, topology.ground[0]]
+    assert iterate.imbalance is not None
+    residual = equations.pull_vertices(iterate.imbalance)
+    corner, held = -residual[:, 0], -residual[:, -1]
+    residual = residual[:, 1 : 1 + state.carried.size] - response.forces
     head_pull, on_net, top = response.head_pull, -response.forces, state.top
     if top != "on-net":
-        held = supports[:, topology.net[-1]]
         head_pull = head_pull + held
         on_net = np.column_stack([on_net, held])
         top = "slipping" if equations.top_slips else "held"
-    velocity = unfold_velocity(mesh.template, mesh.to_slope_axes(iterate.unknowns))
+    velocity = equations.split(iterate.unknowns)
     moved = (
         equations.motion.offset
-        + equations.motion.rate * (velocity[:, : mesh.template.n_vertices])
+        + equations.motion.rate * (velocity[:, : equations.template.n_vertices])
     )
+    ground = equations.template.ground[1:]
     return Instant(
         displaced=state.body.vertices + moved,
         velocity=velocity,
@@ -280,25 +271,24 @@ def _finish(
         foot_pull=response.foot_pull + _share_corner(equations, corner, response),
         head_pull=head_pull,
         on_net=on_net,
-        ground_normal=-supports[1, mesh.template.ground[1:]],
+        ground_normal=equations.split(iterate.imbalance)[1, ground],
         creep_rate=_mean_creep_rate(equations, iterate.stress),
-        residual=_measure_residual(equations, residual),
+        residual=_measure_residual(equations, iterate.imbalance, residual),
         linear_solves=iterations,
     )
 
 
-def _measure_residual(equations: StepEquations, residual: Floats) -> float:
+def _measure_residual(
+    equations: StepEquations, imbalance: Floats, on_net: Floats
+) -> float:
     """Force out of balance at what moves freely, over the weight [-]."""
-    free = equations.free.copy()
-    free[equations.mesh.n_velocities :] = False
-    if equations.top_slips:
-        free[equations.top + 1] = False
-    return float(np.linalg.norm(residual[free])) / equations.weight_size
+    inside = np.linalg.norm(imbalance[equations.load.inner])
+    return float(np.hypot(inside, np.linalg.norm(on_net))) / equations.weight_size
 
 
 def _mean_creep_rate(equations: StepEquations, stress: Floats) -> float:
-    snow, material = equations.problem.snow, equations.material
-    weights = equations.mesh.weights
+    snow, material = equations.problem.snow, equations.load.material
+    weights = equations.weights
     rate = material.fluidity_ratio * squared_invariant(snow, material, stress) ** (
         snow.exponent / 2.0
     )

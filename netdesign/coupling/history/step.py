@@ -1,41 +1,33 @@
-"""Equations of one step of the moving snow, linearised about an iterate.
+"""Equations of one step of the moving snow: what the net's nodes feel of it.
 
-Theory: coupling/THEORY.md, section 6.
+Midpoints between the net's vertices move with their mean, so that what the snow does to
+the net acts at vertices only. Theory: coupling/THEORY.md, section 6.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from netdesign.coupling.history.compiled import CompiledSnow, prepare_snow
+from netdesign.coupling.history.snow import (
+    BodyLoad,
+    Condense,
+    Condensed,
+    PlainSnow,
+    SnowIterate,
+)
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.numerics.arrays import Floats, Ints, Mask, gather
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.body import SnowBody, build_material
 from netdesign.snow.element import reference_element
-from netdesign.snow.kernel import (
-    assemble_base_force,
-    assemble_base_stiffness,
-    assemble_stiffness,
-    assemble_stress,
-    compute_base_velocity,
-    compute_strain,
-)
-from netdesign.snow.law import (
-    Material,
-    Tangent,
-    advance_stress,
-    hold_stress,
-    linearise_creep,
-    linearise_sliding,
-    squared_invariant,
-    total_stress,
-)
-from netdesign.snow.linear import Matrix, SingularError, solve_matrix
-from netdesign.snow.placed_mesh import PlacedMesh
-from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
+from netdesign.snow.linear import SingularError
+from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.words.message import say
 
 
@@ -79,42 +71,29 @@ class Motion:
         )
 
 
-class SnowIterate(NamedTuple):
-    """Velocities, and the stresses that belong to them once converged.
-
-    Attributes
-    ----------
-    unknowns : ndarray, shape (n_dofs,)
-        Velocities, and pressures of the mixed element, in node axes.
-    stress : ndarray, shape (n_triangles, n_points, R), or None
-        None before the first iteration [rho g d].
-    base_shear : ndarray, shape (n_edges, n_points), or None
-        Of a ground with a shear [rho g d].
-    """
-
-    unknowns: Floats
-    stress: Floats | None
-    base_shear: Floats | None
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class StepEquations:
     """The step's equations, but for stress and net.
 
     Attributes
     ----------
-    problem, mesh, material
-        Scene, mesh and creep law where equilibrium is assembled.
-    bottom_fluidity_ratio : ndarray, shape (n_ground_edges, 1)
-        Of the snow on the ground, over the reference.
-    weight : ndarray, shape (n_dofs,)
-        Nodal forces.
-    free : ndarray of bool, shape (n_dofs,)
-        Unknowns that nothing holds.
-    net_dofs : ndarray of int, shape (2 n,)
-        Unknowns of the net's nodes, X of all, then Y of all.
+    problem : TransientProblem
+        What stays the same.
+    condense : callable
+        Snow where equilibrium is assembled, condensed to the net's nodes.
+    weights : ndarray, shape (n_triangles, n_points)
+        Of the quadrature there [thickness^2].
+    load : BodyLoad
+        Laws and weight there.
+    template : MeshTemplate
+        Reference mesh.
+    carried : ndarray of int, shape (n,)
+        Vertices that are nodes of the net.
+    top_axis : ndarray, shape (2,), or None
+        Way of an upper corner that slips over the net's head [-]; None where it is a
+        node of the net.
     top_slips : bool
-        The snow's upper corner slips over the net's head.
+        It slips.
     motion : Motion
         From velocities to displacements.
     nodes : ndarray, shape (2, n)
@@ -122,37 +101,20 @@ class StepEquations:
     """
 
     problem: TransientProblem
-    mesh: PlacedMesh
-    material: Material
-    bottom_fluidity_ratio: Floats
-    weight: Floats
-    free: Mask
-    net_dofs: Ints
+    condense: Condense
+    weights: Floats
+    load: BodyLoad
+    template: MeshTemplate
+    carried: Ints
+    top_axis: Floats | None
     top_slips: bool
     motion: Motion
     nodes: Floats
 
     @property
-    def top(self) -> int:
-        """First unknown of the snow's upper corner."""
-        return 2 * int(self.mesh.template.net[-1])
-
-    @property
     def weight_size(self) -> float:
         """Size of the whole weight."""
-        return float(np.hypot(*self.mesh.to_slope_axes(self.weight).sum(axis=1)))
-
-    def with_top(self, *, slips: bool) -> StepEquations:
-        """The same equations with another upper corner.
-
-        Parameters
-        ----------
-        slips : bool
-            Whether the snow's upper corner slips; else it is held.
-        """
-        free = self.free.copy()
-        free[self.top + 1] = slips
-        return replace(self, free=free, top_slips=slips)
+        return float(np.hypot(*self.load.weight.reshape(-1, 2).sum(axis=0)))
 
     def place_net(self, unknowns: Floats) -> Floats:
         """Net nodes as the velocities carry them.
@@ -167,50 +129,118 @@ class StepEquations:
         ndarray, shape (2, n)
             [thickness].
         """
-        moved = self.motion.rate * unknowns[self.net_dofs].reshape(2, -1)
-        return np.asarray(self.nodes + moved)
+        velocities = self.split(unknowns)[:, self.carried]
+        return np.asarray(self.nodes + self.motion.rate * velocities)
 
-    def hold(self, unknowns: Floats) -> Floats:
-        """The unknowns, 0 where held.
+    def split(self, unknowns: Floats) -> Floats:
+        """Velocities or forces of all nodes, shape (2, n_nodes)."""
+        return unknowns[: self.load.weight.size].reshape(-1, 2).T
+
+    def hold(self, velocity: Floats) -> Floats:
+        """Velocities as unknowns, 0 where held.
 
         Parameters
         ----------
-        unknowns : ndarray, shape (n_dofs,)
+        velocity : ndarray, shape (2, n_nodes)
             Any unit.
 
         Returns
         -------
         ndarray, shape (n_dofs,)
-            In that unit.
+            In that unit; pressures are 0.
         """
-        return np.where(self.free, unknowns, 0.0)
+        template, top = self.template, self.template.net[-1]
+        vertices = np.zeros((2, template.net.size // 2 + 1))
+        vertices[:, 1 : 1 + self.carried.size] = velocity[:, self.carried]
+        if self.top_slips and self.top_axis is not None:
+            vertices[:, -1] = self.top_axis * (self.top_axis @ velocity[:, top])
+        held = velocity.copy()
+        held[:, template.net] = vertices @ _spread(template.net.size).T
+        unknowns = np.zeros(self._count_unknowns())
+        unknowns[: held.size] = held.T.ravel()
+        return unknowns
+
+    def _count_unknowns(self) -> int:
+        is_mixed = self.problem.snow.element == "mixed"
+        return self.load.weight.size + is_mixed * self.template.n_vertices
+
+    def pull_vertices(self, forces: Floats) -> Floats:
+        """Forces at the net's vertices, with those of the midpoints between them.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (2 n_nodes,)
+            On all nodes, any unit.
+
+        Returns
+        -------
+        ndarray, shape (2, n_net_vertices)
+            In that unit, foot to head.
+        """
+        net = self.template.net
+        return np.asarray(self.split(forces)[:, net] @ _spread(net.size))
+
+    def span(self) -> tuple[Floats, Floats]:
+        """Velocities of the net's nodes by its unknowns, and sums of forces that count.
+
+        Returns
+        -------
+        ndarray, ndarray, shape (2 n_net, 2 n or 2 n + 1)
+            Unknowns are X, then Y of the nodes, then the way of a corner that slips;
+            over the head it slips against friction (N14).
+        """
+        spread, count = _spread(self.template.net.size), self.carried.size
+        slips = self.top_slips and self.top_axis is not None
+        moves = np.zeros((2, spread.shape[0], 2 * count + slips))
+        moves[0, :, :count] = moves[1, :, count : 2 * count] = spread[:, 1 : 1 + count]
+        forces = moves.copy()
+        if slips and self.top_axis is not None:
+            x, y = self.top_axis
+            moves[:, :, -1] = np.outer((x, y), spread[:, -1])
+            against = self.problem.snow.friction * np.array([y, -x])
+            forces[:, :, -1] = np.outer(self.top_axis - against, spread[:, -1])
+        flat = (-1, moves.shape[2])
+        return (
+            moves.transpose(1, 0, 2).reshape(flat),
+            forces.transpose(1, 0, 2).reshape(flat),
+        )
 
 
-class _Linear(NamedTuple):
-    """Linearised equations about an iterate."""
+@lru_cache(maxsize=32)
+def _spread(count: int) -> Floats:
+    """Shares of the net's vertices in the ways of all its nodes, (count, n)."""
+    spread = np.zeros((count, count // 2 + 1))
+    vertices = np.arange(count // 2 + 1)
+    spread[2 * vertices, vertices] = 1.0
+    spread[2 * vertices[1:] - 1, vertices[1:]] = 0.5
+    spread[2 * vertices[1:] - 1, vertices[:-1]] = 0.5
+    spread.setflags(write=False)
+    return spread
 
-    tangent: Tangent
-    strain: Floats
-    base: Tangent | None
-    base_shear: Floats | None
 
-
-class LinearSolution(NamedTuple):
-    """Change of the unknowns, and its derivative by the forces on the net.
+class NetAnswer(NamedTuple):
+    """Change of the net's unknowns, and its derivative by the forces on its nodes.
 
     Attributes
     ----------
-    linear : _Linear
-        The equations.
-    change : ndarray, shape (n_dofs,)
-        Under the forces of the last iteration.
-    per_force : ndarray, shape (n_dofs, 2 n) or (n_dofs, 0)
-        Per unit force on each net unknown.
+    condensed : Condensed
+        The snow.
+    moves : ndarray, shape (2 n_net, m)
+        From the unknowns to velocities of the net's nodes.
+    change : ndarray, shape (m,)
+        Under the forces of the last iteration [velocity scale].
+    per_force : ndarray, shape (m, 2 n)
+        Per unit force on each node, X of all, then Y of all.
     """
 
-    linear: _Linear
+    condensed: Condensed
+    moves: Floats
     change: Floats
     per_force: Floats
+
+    def answer(self, more: Floats) -> SnowIterate:
+        """The next iterate, under more forces (2 n,) than those of the last one."""
+        return self.condensed.answer(self.moves @ (self.change + self.per_force @ more))
 
 
 def assemble_step(
@@ -232,44 +262,67 @@ def assemble_step(
     SolveError
         If the mesh folds over where equilibrium is to be assembled.
     """
-    body, snow = state.body, problem.snow
+    body, template = state.body, state.body.topology.template
     motion = Motion.of_step(state, step)
     vertices = body.vertices + motion.guess
-    template = body.topology.template
     top_axis = None
     if state.top != "on-net":
         last = problem.head - vertices[:, body.topology.net[-2]]
-        top_axis = np.array([last[1], -last[0]]) / np.hypot(*last)
-    mesh = build_straight_mesh(template, vertices, snow.element, top_axis)
-    if not mesh.is_valid:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            say("history.mesh_folds_in_step"),
-        )
-    moved = replace(body, vertices=vertices)
-    material = build_material(problem.settling, snow, moved)
-    fluidity = np.broadcast_to(material.fluidity_ratio, mesh.weights.shape)
+        top_axis = last / np.hypot(*last)
+    load = _describe_load(problem, replace(body, vertices=vertices))
+    condense, weights = _place_snow(load, template, vertices)
     return StepEquations(
         problem=problem,
-        mesh=mesh,
-        material=material,
-        bottom_fluidity_ratio=fluidity[body.topology.bottom, :1],
-        weight=_nodal_weight(problem, mesh, body),
-        free=_free_places(problem, mesh, state),
-        net_dofs=np.concatenate([2 * state.carried, 2 * state.carried + 1]),
+        condense=condense,
+        weights=weights,
+        load=load,
+        template=template,
+        carried=state.carried,
+        top_axis=top_axis,
         top_slips=state.top == "slipping",
         motion=motion,
         nodes=(body.vertices + motion.offset)[:, state.carried],
     )
 
 
-def solve_linear(
-    equations: StepEquations, iterate: SnowIterate, forces: Floats, *, per_force: bool
-) -> LinearSolution:
-    """Newton step of the snow under net forces, and its change per force.
+def _describe_load(problem: TransientProblem, body: SnowBody) -> BodyLoad:
+    snow, template = problem.snow, body.topology.template
+    material = build_material(problem.settling, snow, body)
+    fluidity = np.broadcast_to(material.fluidity_ratio, (body.mass.size, 3))
+    bottom = fluidity[body.topology.bottom, 0]
+    if snow.ground != "sliding" and problem.base_drag > 0.0:
+        bottom = np.full_like(bottom, 1.0 / problem.base_drag)
+        snow = replace(snow, ground="sliding", slip_ratio=1.0, slip_exponent=1.0)
+    return BodyLoad(
+        snow=snow,
+        material=material,
+        bottom=bottom,
+        weight=_nodal_weight(problem, body),
+        inner=_free_inner(template, holds=problem.snow.ground == "no-slip"),
+    )
 
-    Written for changes of the velocities: what rounding leaves of equilibrium in one
-    iteration is mended in the next.
+
+def _place_snow(
+    load: BodyLoad, template: MeshTemplate, vertices: Floats
+) -> tuple[Condense, Floats]:
+    """The snow on placed vertices, by the core if it can, and quadrature weights."""
+    middles = vertices[:, template.edges].mean(axis=1)
+    nodes = np.concatenate([vertices, middles], axis=1)
+    snow: CompiledSnow | PlainSnow | None = prepare_snow(load, template, nodes)
+    if snow is None:
+        mesh = build_placed_mesh(template, nodes, load.snow.element)
+        axes = np.zeros_like(nodes)
+        axes[0] = 1.0
+        snow = PlainSnow(load=load, mesh=replace(mesh, axes=axes))
+    if not snow.is_valid:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("history.mesh_folds_in_step"))
+    return snow.condense, snow.weights
+
+
+def condense_step(
+    equations: StepEquations, iterate: SnowIterate, forces: Floats
+) -> NetAnswer:
+    """Newton step of the snow under net forces, and its change per force.
 
     Parameters
     ----------
@@ -279,180 +332,39 @@ def solve_linear(
         The last one.
     forces : ndarray, shape (2, n)
         Of the net on its nodes [rho g d^2].
-    per_force : bool
-        The change per force is wanted, too.
 
     Raises
     ------
     SolveError
         If nothing holds the snow.
     """
-    linear, matrix, force = _linearise(equations, iterate)
-    dofs = equations.net_dofs
-    rhs = np.zeros((force.size, 1 + (dofs.size if per_force else 0)))
-    rhs[:, 0] = force
-    rhs[dofs, 0] -= forces.ravel()
-    if per_force:
-        rhs[dofs, 1 + np.arange(dofs.size)] = -1.0
-    solutions = _solve(equations, matrix, rhs)
-    return LinearSolution(linear, solutions[:, 0], solutions[:, 1:])
-
-
-def advance_iterate(
-    equations: StepEquations, iterate: SnowIterate, linear: _Linear, change: Floats
-) -> SnowIterate:
-    """The iterate after a change of its unknowns.
-
-    Parameters
-    ----------
-    equations : StepEquations
-        Of the step.
-    iterate : SnowIterate
-        The last one.
-    linear : _Linear
-        The equations linearised about it.
-    change : ndarray, shape (n_dofs,)
-        Of its unknowns [velocity scale].
-    """
-    mesh, snow = equations.mesh, equations.problem.snow
-    base_shear = linear.base_shear
-    if linear.base is not None and base_shear is not None:
-        base_velocity = compute_base_velocity(mesh, change)
-        base_shear = base_shear + linear.base.modulus * base_velocity
-    return SnowIterate(
-        unknowns=iterate.unknowns + change,
-        stress=advance_stress(
-            snow, linear.tangent, linear.strain, compute_strain(mesh, change)
-        ),
-        base_shear=base_shear,
-    )
-
-
-def compute_imbalance(equations: StepEquations, iterate: SnowIterate) -> Floats:
-    """Internal forces less the weight.
-
-    Parameters
-    ----------
-    equations : StepEquations
-        Of the step.
-    iterate : SnowIterate
-        With its stresses.
-
-    Returns
-    -------
-    ndarray, shape (n_dofs,)
-        Forces that supports and net have to give [rho g d^2]; (K7).
-    """
-    mesh, snow = equations.mesh, equations.problem.snow
-    assert iterate.stress is not None
-    residual = assemble_stress(mesh, total_stress(snow, iterate.stress))
-    residual -= equations.weight
-    if iterate.base_shear is not None:
-        residual += assemble_base_force(mesh, iterate.base_shear)
-    return residual
-
-
-def measure_change(
-    equations: StepEquations, old: Floats | None, new: Floats | None
-) -> float:
-    """Relative change of the stress, by its invariant over the body.
-
-    Parameters
-    ----------
-    equations : StepEquations
-        Of the step.
-    old, new : ndarray, shape (n_triangles, n_points, R), or None
-        Stresses [rho g d].
-
-    Returns
-    -------
-    float
-        [-]; 1 without one of them.
-    """
-    if old is None or new is None:
-        return 1.0
-    snow, material = equations.problem.snow, equations.material
-    weights = equations.mesh.weights
-    change = (weights * squared_invariant(snow, material, new - old)).sum()
-    return float(
-        np.sqrt(change / (weights * squared_invariant(snow, material, new)).sum())
-    )
-
-
-def _linearise(
-    equations: StepEquations, iterate: SnowIterate
-) -> tuple[_Linear, Matrix, Floats]:
-    mesh, snow, stress = equations.mesh, equations.problem.snow, iterate.stress
-    if stress is None:  # the first iterate is linear creep
-        snow = replace(snow, exponent=1.0)
-        stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
-    tangent = linearise_creep(snow, equations.material, stress)
-    strain = compute_strain(mesh, iterate.unknowns)
-    matrix = assemble_stiffness(mesh, tangent.modulus)
-    force = assemble_stress(mesh, hold_stress(tangent, strain)) - equations.weight
-    base, shear = _linearise_base(equations, iterate), None
-    if base is not None:
-        base_velocity = compute_base_velocity(mesh, iterate.unknowns)
-        shear = base.intercept + base.modulus * base_velocity
-        matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
-        force += assemble_base_force(mesh, shear)
-    return _Linear(tangent, strain, base, shear), matrix, force
-
-
-def _linearise_base(equations: StepEquations, iterate: SnowIterate) -> Tangent | None:
-    weights, problem = equations.mesh.base.weights, equations.problem
-    shear = iterate.base_shear
-    if problem.snow.ground == "sliding":
-        snow = problem.snow
-        if shear is None:
-            snow = replace(snow, exponent=1.0, slip_exponent=None)
-            shear = np.zeros_like(weights)
-        return linearise_sliding(snow, shear, equations.bottom_fluidity_ratio)
-    if problem.base_drag > 0.0:
-        drag = np.full_like(weights, problem.base_drag)
-        return Tangent(modulus=drag, intercept=np.zeros_like(weights))
-    return None
-
-
-def _solve(equations: StepEquations, matrix: Matrix, force: Floats) -> Floats:
-    mesh, snow = equations.mesh, equations.problem.snow
-    friction = None
-    if equations.top_slips and snow.friction > 0.0:
-        # over the head the snow slips up, with friction against it (N14)
-        friction = np.zeros(mesh.n_dofs)
-        friction[equations.top + 1] = -snow.friction
+    moves, sums = equations.span()
     try:
-        return solve_matrix(mesh.template, matrix, force, equations.free, friction)
-    except SingularError:
+        condensed = equations.condense(iterate)
+        inverse = np.linalg.inv(sums.T @ condensed.root @ moves)
+    except (SingularError, np.linalg.LinAlgError):
         raise SolveError(Outcome.NONFINITE, say("history.nothing_holds")) from None
+    push = sums.T @ condensed.missing
+    push[: forces.size] += forces.ravel()
+    per_force = np.asarray(inverse[:, : forces.size], dtype=np.float64)
+    return NetAnswer(condensed, moves, inverse @ push, per_force)
 
 
-def _nodal_weight(
-    problem: TransientProblem, mesh: PlacedMesh, body: SnowBody
-) -> Floats:
-    """Weight of the mass that each triangle has kept."""
+def _nodal_weight(problem: TransientProblem, body: SnowBody) -> Floats:
+    """Weight of the mass that each triangle has kept, shape (2 n_nodes,)."""
     shape, _, point_weights = reference_element()
-    shares = 2.0 * point_weights @ shape
-    template = mesh.template
+    shares, template = 2.0 * point_weights @ shape, body.topology.template
     nodal = gather(
-        template.triangles.T, np.outer(body.mass, shares), mesh.nodes.shape[1]
+        template.triangles.T, np.outer(body.mass, shares), template.nodes.shape[1]
     )
-    loads = np.outer(problem.snow.gravity, fold_load(template, nodal))
-    return mesh.to_node_axes(loads)
+    return np.outer(nodal, problem.snow.gravity).ravel()
 
 
-def _free_places(
-    problem: TransientProblem, mesh: PlacedMesh, state: TransientState
-) -> Mask:
-    template = mesh.template
-    free = np.ones(mesh.n_dofs, dtype=bool)
-    midpoints, ground = template.net[1::2], template.ground
-    free[2 * midpoints] = free[2 * midpoints + 1] = False
-    free[2 * ground + 1] = False
-    free[2 * ground[0]] = False
-    if problem.snow.ground == "no-slip":
-        free[2 * ground] = False
-    if state.top != "on-net":
-        free[2 * template.net[-1]] = False
-        free[2 * template.net[-1] + 1] = state.top == "slipping"
-    return free
+@lru_cache(maxsize=32)
+def _free_inner(template: MeshTemplate, *, holds: bool) -> Mask:
+    """Velocities off the net that the ground leaves free; ``holds``: without slip."""
+    free = np.ones((template.nodes.shape[1], 2), dtype=bool)
+    free[template.ground, 1] = False
+    free[template.ground, 0] = not holds
+    free[template.net] = False
+    return free.ravel()

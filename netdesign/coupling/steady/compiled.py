@@ -234,7 +234,6 @@ class CompiledRounds:
             nodes=results[places["nodes"]].reshape(2, -1),
             weights=results[places["weights"]].reshape(n_triangles, -1),
             gradients=results[places["gradients"]].reshape(2, n_triangles, -1, 6),
-            folded=None,
             dofs=list_dofs(template, "velocity"),
             load=results[places["unit_load"]],
             net_normal=results[places["normal"]].reshape(2, -1),
