@@ -173,6 +173,7 @@ WRITING = {
     ("standards", "copy"): "standards copy eurocode {}/mine",
     ("tests",): "tests {}/site.xlsx --plan --out {}/form.xlsx",
     ("terrain",): "terrain --example --out {}/ground.xlsx",
+    ("layout",): "layout --example --out {}",
 }
 
 
