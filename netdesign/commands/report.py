@@ -15,6 +15,7 @@ from netdesign.commands.options import (
     language_option,
     origin_options,
     out_option,
+    refuse_without,
     report_options,
 )
 from netdesign.commands.running import find_exit_code, print_document, report_places
@@ -76,6 +77,8 @@ def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
     """
     from netdesign.report.files import ReportStyle
 
+    if not any(asked[one] for one in ("html", "pdf", "docx", "template")):
+        refuse_without(("rows_map",), ("--html", "--pdf", "--docx"), asked["language"])
     content: bytes | None = None
     if asked["template"]:
         from netdesign.report.document.template import read_template

@@ -300,3 +300,9 @@ def test_a_map_without_a_row_of_the_site_is_refused_before_anything_is_solved(
     assert ended.code == 3
     assert "lacks net rows of the site: B" in ended.err
     assert not (tmp_path / "netdesign-out").exists()
+
+
+def test_a_map_that_no_report_shows_is_refused(slope, call):
+    ended = call("check", "--example", "--no-html", "--rows-map", slope / "rows.json")
+    assert ended.code == 2
+    assert "--rows-map" in ended.err

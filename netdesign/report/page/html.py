@@ -57,7 +57,8 @@ def render_html(
     running = title_pages(study, words)
     title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
     blocks = build_report(study, words, detail, places)
-    require_sections(blocks, list_sections(study, detail, has_map=places is not None))
+    mapped = [] if places is None else ["map"]
+    require_sections(blocks, [*list_sections(study, detail), *mapped])
     return render_page(
         blocks,
         " - ".join(title),

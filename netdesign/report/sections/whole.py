@@ -134,18 +134,17 @@ def _list_links(links: dict[str, str]) -> Content:
     )
 
 
-def list_sections(study: Study, detail: Detail, *, has_map: bool = False) -> list[str]:
+def list_sections(study: Study, detail: Detail) -> list[str]:
     """Ids of all sections that a report must have."""
     of_rows = [
         f"row-{number}-{name}"
         for number in range(1, len(study.rows) + 1)
         for name in _ROW
     ]
-    mapped = ["map"] if has_map else []
     if detail == "summary":
-        return ["decision", "todo", *mapped, "quantities", "scope"]
+        return ["decision", "todo", "quantities", "scope"]
     of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs"]
-    return [*of_page, *mapped, *of_rows, *_ANNEXES]
+    return [*of_page, *of_rows, *_ANNEXES]
 
 
 def title_pages(study: Study, words: Words) -> str:
