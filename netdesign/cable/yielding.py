@@ -260,7 +260,7 @@ def _settle_compiled(given: _Given, guess: NetGuess) -> _Settled:
 def _call_core(
     given: _Given, guess: NetGuess, *, may_push: bool
 ) -> tuple[int, _Settled]:
-    """How it ended, and where; ``may_push``: segments, at the start."""
+    """Outcome, and where it ended; ``may_push``: segments, at the start."""
     nodes, count = given.nodes, guess.slides.size
     shapes = ((2, count), (2, count), (2 * count, 2 * count), (count + 1,))
     arrays = (nodes.positions, nodes.forces, nodes.compliance, given.old_lengths)

@@ -137,7 +137,7 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Given:
-    """What is read: ground, zones, nets and types, prices, limit profiles."""
+    """Inputs of a plan: ground, zones, nets and types, prices, limit profiles."""
 
     grid: Grid
     grid_file: Path
@@ -259,14 +259,11 @@ def _choose_snow(ground: Grid, asked: Mapping[str, Any]) -> Callable[[Floats], F
 
 def _propose(given: _Given, asked: Mapping[str, Any]) -> _Proposed:
     """Rows for the zones, and the same rows as ``netdesign terrain`` measures them."""
-    import numpy as np
-
     from netdesign.checks.geometry import compute_largest_row_spacing
     from netdesign.edge.progress import show_progress
     from netdesign.terrain.coverage import find_coverage
-    from netdesign.terrain.layout import Task, propose_rows
+    from netdesign.terrain.layout import Task, choose_surface, propose_rows
     from netdesign.terrain.measure import measure_plan
-    from netdesign.terrain.surface import choose_window
 
     def find_reach(slope: float, net_height: float) -> float:
         cap = (
@@ -276,7 +273,7 @@ def _propose(given: _Given, asked: Mapping[str, Any]) -> _Proposed:
 
     zones = given.zones.zones
     task = Task(
-        surface=choose_window(given.grid, np.concatenate(zones)),
+        surface=choose_surface(given.grid, zones),
         zones=zones,
         constructions=given.catalogue.constructions,
         find_snow=given.find_snow,

@@ -85,7 +85,7 @@ class _Slot:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Rating:
-    """How good a type is that passes: by rank, the least first; its utilisation."""
+    """Rank of a type that passes, the least first, and its utilisation."""
 
     rank: float
     used: float

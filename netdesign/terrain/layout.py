@@ -17,8 +17,9 @@ from netdesign.terrain.contour import go_along
 from netdesign.terrain.coverage import list_steep_places
 from netdesign.terrain.crossings import is_inside
 from netdesign.terrain.fall_line import FallLines, follow_fall
+from netdesign.terrain.grid import Grid
 from netdesign.terrain.measure import BROKEN, LEAST_STEEP
-from netdesign.terrain.surface import Surface
+from netdesign.terrain.surface import Surface, choose_window
 
 LEAST_ROW, MOST_ROW = 12.0, 60.0  # length of a row [m]
 GAP = 2.0  # between two rows beside each other; what lies above it counts as held [m]
@@ -72,7 +73,7 @@ class ProposedRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Task:
-    """What rows are proposed for.
+    """Ground and nets that rows are proposed for.
 
     Attributes
     ----------
@@ -193,6 +194,11 @@ class _Contour:
     def room(self) -> float:
         """Length [m]."""
         return _STEP * (len(self.points) - 1)
+
+
+def choose_surface(grid: Grid, zones: Sequence[Floats]) -> Surface:
+    """Surface of a grid by the noise along the outlines of zones."""
+    return choose_window(grid, np.concatenate(zones))
 
 
 def propose_rows(task: Task) -> list[ProposedRow]:

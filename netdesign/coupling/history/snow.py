@@ -130,7 +130,7 @@ class PlainSnow:
 
     @property
     def weights(self) -> Floats:
-        """Of the quadrature, shape (n_triangles, n_points) [thickness^2]."""
+        """Weights of the quadrature, shape (n_triangles, n_points) [thickness^2]."""
         return self.mesh.weights
 
     @property

@@ -133,7 +133,13 @@ class StepEquations:
         return np.asarray(self.nodes + self.motion.rate * velocities)
 
     def split(self, unknowns: Floats) -> Floats:
-        """Velocities or forces of all nodes, shape (2, n_nodes)."""
+        """Velocities or forces of all nodes, shape (2, n_nodes).
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            X and Y of each node [velocity or force scale].
+        """
         return unknowns[: self.load.weight.size].reshape(-1, 2).T
 
     def hold(self, velocity: Floats) -> Floats:
@@ -239,7 +245,13 @@ class NetAnswer(NamedTuple):
     per_force: Floats
 
     def answer(self, more: Floats) -> SnowIterate:
-        """The next iterate, under more forces (2 n,) than those of the last one."""
+        """Next iterate, under more forces than those of the last one.
+
+        Parameters
+        ----------
+        more : ndarray, shape (2 n,)
+            On the net's nodes, X of all, then Y of all [force scale].
+        """
         return self.condensed.answer(self.moves @ (self.change + self.per_force @ more))
 
 
