@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from netdesign.calculation.steps import SAME, Step, compare_steps, is_same
 from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.outcome import ContentError, NetDesignError, Verdict, merge_verdicts
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
     Block,
     Figure,
     Heading,

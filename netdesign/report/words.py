@@ -22,10 +22,10 @@ from netdesign.words.catalogue import (
     load_tables,
     load_texts,
     render,
+    set_marks,
 )
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
-from netdesign.words.numerals import set_marks
 
 if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
     from netdesign.site.model import InputEcho

@@ -5,7 +5,7 @@ import pytest
 
 from netdesign.calculation.quantity import Kind
 from netdesign.outcome import NetDesignError, Verdict
-from netdesign.report.blocks.block import Figure, Items, Paragraph, Part, section
+from netdesign.report.blocks import Figure, Items, Paragraph, Part, section
 from netdesign.report.gate import require_consistent, require_sections
 from netdesign.study.records import IndependentRecord
 from netdesign.words.catalogue import render

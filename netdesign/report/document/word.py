@@ -6,8 +6,7 @@ from typing import Any
 
 from netdesign.report.document import styles
 from netdesign.report.document.markup import POINT, list_runs, parse, write_runs
-from netdesign.report.document.package import pack, set_properties
-from netdesign.report.document.template import open_document
+from netdesign.report.document.template import open_document, pack, set_properties
 from netdesign.report.document.writer import Writer, write_field
 from netdesign.report.sections.whole import Detail, build_report, title_pages
 from netdesign.report.words import Words, show_text

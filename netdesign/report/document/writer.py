@@ -10,8 +10,9 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.given_files import make_printable
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
     Block,
+    Cell,
     Contents,
     Figure,
     Heading,
@@ -20,9 +21,9 @@ from netdesign.report.blocks.block import (
     Pairs,
     Paragraph,
     Part,
+    Table,
+    Text,
 )
-from netdesign.report.blocks.table import Cell, Table
-from netdesign.report.blocks.text import Text
 from netdesign.report.document import styles
 from netdesign.report.document.markup import (
     Grid,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from netdesign.report.blocks.text import link
+from netdesign.report.blocks import link
 from netdesign.report.gate import require_sections
 from netdesign.report.page.render import render_page
 from netdesign.report.sections.whole import (

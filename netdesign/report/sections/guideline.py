@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from netdesign.report.blocks.block import Block, Figure, Paragraph, Part, section
-from netdesign.report.blocks.table import (
+from netdesign.report.blocks import (
+    Block,
     Cell,
+    Figure,
+    Paragraph,
+    Part,
     Table,
     fixed_cell,
     name_columns,
     number_cell,
+    section,
     text_cell,
     text_column,
 )

@@ -5,19 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
-from netdesign.report.blocks.block import Block, Contents, section
-from netdesign.report.blocks.text import Content, Piece, link
+from netdesign.report.blocks import Block, Content, Contents, Piece, link, section
 from netdesign.report.gate import require_consistent
 from netdesign.report.sections import (
+    annexes,
     basis,
     decision,
     guideline,
-    inputs,
-    model,
-    profile,
     quality,
-    quantities,
-    verify,
+    schedule,
     worked,
 )
 from netdesign.report.sections.row import RowSections
@@ -60,15 +56,15 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
     if detail == "summary":
         listed = basis.list_scope(study, words)
         scope = section("scope", words("heading.scope"), *listed)
-        return *begun, *answered, quantities.show_quantities(study, words), scope
+        return *begun, *answered, schedule.show_quantities(study, words), scope
     return (
         *begun,
         _list_contents(study, words),
         *answered,
         basis.show_basis(study, words),
-        quantities.show_schedule(study, words),
+        schedule.show_schedule(study, words),
         *_list_rows(study, words),
-        inputs.show_inputs(study, words),
+        basis.show_inputs(study, words),
         *_list_annexes(study, words),
     )
 
@@ -81,10 +77,10 @@ def _list_rows(study: Study, words: Words) -> Iterator[Block]:
 
 def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
     yield worked.show_all(study, words)
-    yield model.show_model(study, words)
-    yield profile.show_profile(study, words)
+    yield annexes.show_model(study, words)
+    yield basis.show_profile(study, words)
     yield quality.show_quality(study, words)
-    yield verify.show_verification(study, words)
+    yield annexes.show_verification(study, words)
 
 
 def _list_contents(study: Study, words: Words) -> Contents:

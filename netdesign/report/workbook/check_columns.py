@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from netdesign.quantities import QUANTITIES
-from netdesign.report.blocks.table import Column
+from netdesign.report.blocks import Column
 from netdesign.report.words import Words, add_unit, name_heading
 
 # Quantities of every case, in columns of their own.

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from netdesign.outcome import Verdict
-from netdesign.report.blocks.table import Cell
+from netdesign.report.blocks import Cell
 from netdesign.report.governing import find_case
 from netdesign.report.sections.checks import (
     describe_loads,
@@ -24,6 +24,7 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
+from netdesign.report.workbook.calculation_sheet import UNCHANGED as GIVEN_UNCHANGED
 from netdesign.report.workbook.calculation_sheet import Calculations
 from netdesign.report.workbook.check_columns import (
     AS_CALCULATED,
@@ -56,9 +57,7 @@ from netdesign.report.workbook.formulas import (
     write_unchanged,
     write_verdict,
 )
-from netdesign.report.workbook.given_cells import UNCHANGED as GIVEN_UNCHANGED
-from netdesign.report.workbook.widths import count_lines
-from netdesign.report.workbook.writer import Book
+from netdesign.report.workbook.writer import Book, count_lines
 from netdesign.study.records import CheckRecord
 from netdesign.words.message import Message
 

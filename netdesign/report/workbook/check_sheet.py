@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from netdesign.report.workbook.calculation_sheet import Calculations
+from netdesign.report.workbook.calculation_sheet import Calculations, GivenCells
 from netdesign.report.workbook.check_columns import (
     CASES,
     FIELDS,
@@ -25,9 +25,7 @@ from netdesign.report.workbook.check_columns import (
     VERDICT,
 )
 from netdesign.report.workbook.check_line import CheckLine
-from netdesign.report.workbook.given_cells import GivenCells
-from netdesign.report.workbook.widths import fit_headings
-from netdesign.report.workbook.writer import Book
+from netdesign.report.workbook.writer import Book, fit_headings
 from netdesign.study.records import Study
 
 _PAGES = 2  # of paper side by side; on one its figures were too small to be read

@@ -7,35 +7,34 @@ from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 
 from netdesign.outcome import NetDesignError
-from netdesign.report.blocks.table import Table, text_cell, text_column
+from netdesign.report.blocks import Table, text_cell, text_column
 from netdesign.report.gate import require_consistent
+from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
+    build_inputs,
+    build_profile,
     list_defaults,
     list_notes,
     list_reading,
     show_ranges,
 )
-from netdesign.report.sections.changes import list_changes
-from netdesign.report.sections.inputs import build_inputs
-from netdesign.report.sections.profile import build_profile
+from netdesign.report.sections.checks import list_changes
 from netdesign.report.sections.quality import (
     build_cases,
     build_extremes,
     stack_tables,
 )
-from netdesign.report.sections.quantities import build_quantities
-from netdesign.report.sections.schedule import build_schedule
-from netdesign.report.sections.verify import build_provenance
+from netdesign.report.sections.schedule import build_quantities, build_schedule
 from netdesign.report.sections.whole import title_pages
 from netdesign.report.what_if import build_what_if
 from netdesign.report.words import Words, show_text
 from netdesign.report.workbook.calculation_sheet import (
     Calculations,
+    GivenCells,
     add_calculation_sheet,
 )
 from netdesign.report.workbook.charts import add_case_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
-from netdesign.report.workbook.given_cells import GivenCells
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.workbook.writer import DEFAULT_FONT, Book
 from netdesign.study.records import Study

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.report.blocks.table import Cell, Column
+from netdesign.report.blocks import Cell, Column
 from netdesign.report.governing import find_case, find_governing, find_highest
 from netdesign.report.sections.decision import (
     identify,
@@ -27,8 +27,7 @@ from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_line import CHANGED, show_cached, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.formulas import write_merged
-from netdesign.report.workbook.widths import count_lines, fit_headings
-from netdesign.report.workbook.writer import Book
+from netdesign.report.workbook.writer import Book, count_lines, fit_headings
 from netdesign.study.case_records import CasePoint
 from netdesign.study.document import compute_digest
 from netdesign.study.records import RowStudy, Study
