@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from datetime import UTC, datetime
 
 from netdesign.outcome import NetDesignError
@@ -33,7 +33,6 @@ from netdesign.report.workbook.calculation_sheet import (
     GivenCells,
     add_calculation_sheet,
 )
-from netdesign.report.workbook.charts import add_case_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.workbook.writer import DEFAULT_FONT, Book
@@ -164,20 +163,7 @@ def _add_cases(book: Book, study: Study) -> None:
         stack_tables(words("caption.cases"), cases, words),
         stack_tables(words("caption.extremes"), extremes, words),
     ]
-    sheet = book.add_table_sheet("cases", words("heading.all_cases"), shown)
-    if shown[0].rows:
-        bottom = _FIRST_LINE + sum(_BETWEEN + len(one.rows) for one in shown)
-        add_case_chart(book, sheet, _span(cases, _FIRST_LINE), bottom)
-
-
-def _span(parts: Sequence[tuple[str, Table]], first: int) -> list[tuple[int, int]]:
-    """First and last line of each net row in a stacked table."""
-    spans = []
-    for _, table in parts:
-        if table.rows:
-            spans.append((first, first + len(table.rows) - 1))
-        first += len(table.rows)
-    return spans
+    book.add_table_sheet("cases", words("heading.all_cases"), shown)
 
 
 def _list_notes(book: Book, study: Study) -> Iterator[Table]:
