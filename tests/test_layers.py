@@ -114,17 +114,17 @@ THIRD_PARTY = {
         *("checks.schema", "files.scene", "files.support_tables", "study.document"),
         "edge.json_text",
     ),
-    "pydantic_core": ("checks.schema", "edge.json_text", "words.text_field"),
+    "pydantic_core": ("checks.schema", "edge.json_text", "words.message"),
     "jinja2": ("report.page.render",),
     "markupsafe": ("report.page.*",),
-    "weasyprint": ("report.page.pdf",),
+    "weasyprint": ("report.files",),
     "docx": ("report.document.*",),
     "PIL": ("report.drawing.raster",),  # matplotlib writes PNG by it
     "matplotlib": (
         *("report.drawing.*", "evidence.*", "examples.*"),
         "coupling.solution",  # plots itself
     ),
-    "pandas": ("report.case_table", "study.records"),
+    "pandas": ("study.records",),
     "click": ("cli", "commands.*"),
     "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),
 }

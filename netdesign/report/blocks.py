@@ -6,7 +6,9 @@ names what a style sheet may set apart, ``on`` where the block is shown.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import csv
+import io
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -286,3 +288,18 @@ def masthead(kind: str, title: str, *more: Block) -> Part:
 def notes(*sentences: Text, look: str = "notes") -> Part:
     """Sentences in a frame; ``notes open`` where they are a warning."""
     return Part(kind="div", look=look, blocks=(Items(items=sentences),))
+
+
+def write_csv(
+    headings: Sequence[str], rows: Iterable[Sequence[float | str | None]]
+) -> bytes:
+    """CSV of rows under headings; a missing number is an empty cell.
+
+    >>> write_csv(["a_m", "b"], [[0.5, None], [1.0, "x"]])
+    b'a_m,b\\n0.5,\\n1.0,x\\n'
+    """
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(headings)
+    writer.writerows(rows)
+    return buffer.getvalue().encode()

@@ -30,8 +30,8 @@ from netdesign.report.blocks import (
     masthead,
     section,
     strong,
+    write_csv,
 )
-from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import render_page
 from netdesign.report.page.solution_page import describe_criterion
 from netdesign.report.words import ENGLISH, Words

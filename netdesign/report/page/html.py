@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from netdesign.report.blocks import link
-from netdesign.report.gate import require_sections
 from netdesign.report.page.render import render_page
 from netdesign.report.sections.whole import (
     Detail,
     build_report,
-    list_sections,
     title_pages,
 )
 from netdesign.report.what_if import mark_verdict
@@ -20,7 +18,7 @@ from netdesign.words.catalogue import Language
 def render_html(
     study: Study, language: Language = "en", detail: Detail = "full"
 ) -> str:
-    """Page of a study: complete, or an error.
+    """Page of a study.
 
     Parameters
     ----------
@@ -34,13 +32,12 @@ def render_html(
     Raises
     ------
     NetDesignError
-        If the study contradicts its own numbers or a section would be missing.
+        If the study contradicts its own numbers.
     """
     words = Words(language)
     running = title_pages(study, words)
     title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
     blocks = build_report(study, words, detail)
-    require_sections(blocks, list_sections(study, detail))
     return render_page(
         blocks,
         " - ".join(title),

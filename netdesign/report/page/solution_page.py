@@ -38,6 +38,7 @@ from netdesign.report.blocks import (
     section,
     strong,
     text_cell,
+    write_csv,
 )
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import (
@@ -47,7 +48,6 @@ from netdesign.report.drawing.net_figures import (
     picture_mesh,
 )
 from netdesign.report.drawing.panel_figure import draw_panel
-from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import render_page
 from netdesign.report.page.solved_support import show_support
 from netdesign.report.words import (

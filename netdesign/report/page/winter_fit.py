@@ -17,7 +17,7 @@ from netdesign.report.blocks import (
     notes,
     text_cell,
 )
-from netdesign.report.drawing.residual_figure import draw_residuals
+from netdesign.report.drawing.measured_figure import draw_residuals
 from netdesign.report.words import MISSING, Words, show_member, show_text, show_unit
 
 _DECIMALS = {"slip_length": 1, "friction_angle": 1, "slack": 4}  # else 3

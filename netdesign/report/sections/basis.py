@@ -223,6 +223,7 @@ _READING = (
 )
 # Left empty, its factor is taken by the guideline's load.
 _ALTITUDE = say("column.Nets.altitude")
+_NAME = say("column.Nets.id")
 # Net rows of which each is named; of more, those that are left out may be fewer.
 _FEW_ROWS = 8
 
@@ -416,6 +417,24 @@ def list_defaults(study: Study, words: Words) -> list[str]:
         )
         for (what, value), who in found.items()
     ]
+
+
+def anchor_rows(study: Study) -> dict[str, str]:
+    """Place of each net row in the page; rows alike but for their names share one."""
+    anchors: dict[str, str] = {}
+    known: list[tuple[RowStudy, str]] = []
+    for number, row in enumerate(study.rows, 1):
+        plain = _leave_out_name(row)
+        found = (anchor for other, anchor in known if other == plain)
+        anchors[row.id] = next(found, f"row-{number}")
+        known.append((plain, anchors[row.id]))
+    return anchors
+
+
+def _leave_out_name(row: RowStudy) -> RowStudy:
+    """The row as if it stood in no line of a workbook."""
+    inputs = [replace(one, cell="") for one in row.inputs if one.label != _NAME]
+    return replace(row, id="", inputs=inputs)
 
 
 def name_rows(names: Sequence[str], study: Study, words: Words) -> str:

@@ -30,6 +30,7 @@ from netdesign.report.blocks import (
 from netdesign.report.governing import SEVERITY, find_governing
 from netdesign.report.sections.basis import (
     DEFAULT,
+    anchor_rows,
     count_assumed,
     count_defaults,
     describe_floor,
@@ -130,12 +131,13 @@ def _tabulate_rows(study: Study, words: Words, *, has_rows: bool) -> Block:
     if not study.rows:
         return Paragraph(text=t("heading.no_rows"), look="none")
     keys = ("net_row", "verdict", "governing_check", "utilisation", "reason")
+    anchors = anchor_rows(study)
     return Table(
         caption=t("caption.decision"),
         columns=name_columns([t(f"heading.{key}") for key in keys], numbers=()),
         rows=tuple(
-            _list_row(row, f"row-{number}" if has_rows else "", words)
-            for number, row in enumerate(study.rows, 1)
+            _list_row(row, anchors[row.id] if has_rows else "", words)
+            for row in study.rows
         ),
         look="summary",
     )

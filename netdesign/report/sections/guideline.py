@@ -16,7 +16,7 @@ from netdesign.report.blocks import (
     text_cell,
     text_column,
 )
-from netdesign.report.drawing.load_figure import draw_loads
+from netdesign.report.drawing.chain_figure import draw_loads
 from netdesign.report.words import Words
 from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.find_input import find_input

@@ -186,14 +186,18 @@ _SHOWN = (
 )
 
 
+_BESIDE = 240  # signs that find room beside a drawing
+
+
 @dataclass(frozen=True, slots=True)
 class RowSections:
     """Builds the sections of one row, the notes that are ``told`` elsewhere left out.
 
-    ``anchor`` is its place in the page.
+    ``anchor`` is its place in the page, ``ids`` are the names of all rows like it.
     """
 
     row: RowStudy
+    ids: Sequence[str]
     anchor: str
     words: Words
     told: frozenset[str]
@@ -201,7 +205,8 @@ class RowSections:
     def build(self) -> Part:
         """All sections of the row."""
         row, t = self.row, self.words
-        name = f"{t('heading.net_row')} {show_text(row.id)}"
+        key = "net_row" if len(self.ids) == 1 else "net_rows"
+        name = f"{t(f'heading.{key}')} {', '.join(map(show_text, self.ids))}"
         title = (
             Piece(name, "name"),
             Piece(" "),
@@ -223,14 +228,14 @@ class RowSections:
                     "worked", t("heading.worked_check"), *self._show_worked()
                 ),
                 self._section("envelope", t("heading.envelope"), self._show_envelope()),
-                self._section("changes", heading, *changes),
+                self._section("changes", heading, *changes, look=_find_room(changes)),
                 *self._show_further(),
                 Paragraph(text=name, look="running", on="page"),
             ),
         )
 
-    def _section(self, name: str, heading: str, *blocks: Block) -> Part:
-        return section(f"{self.anchor}-{name}", heading, *blocks, level=3)
+    def _section(self, name: str, heading: str, *blocks: Block, look: str = "") -> Part:
+        return section(f"{self.anchor}-{name}", heading, *blocks, level=3, look=look)
 
     def _none(self, key: str) -> Paragraph:
         return Paragraph(text=self.words(key), look="none")
@@ -394,3 +399,9 @@ class RowSections:
         if row.panel and row.panel.assumed:
             names = tuple(map(t.show, row.panel.assumed))
             yield t("panel.assumed", names=names)
+
+
+def _find_room(blocks: Sequence[Block]) -> str:
+    """Look of what makes a row pass: short, it stands beside the envelope on paper."""
+    texts = [str(x) for one in blocks if isinstance(one, Items) for x in one.items]
+    return "beside" if sum(map(len, texts)) <= _BESIDE else ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Literal
 
 from netdesign.report.blocks import Block, Content, Contents, Piece, link, section
@@ -22,7 +22,6 @@ from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 
 Detail = Literal["summary", "full"]  # two pages for the client, and everything
-_ROW = ("drawing", "checks", "worked", "envelope", "changes")
 _PARTS = ("basis", "schedule")
 _ANNEXES = (
     *("annex-checks", "annex-model", "annex-profile", "annex-quality"),
@@ -71,8 +70,11 @@ def build_report(study: Study, words: Words, detail: Detail) -> tuple[Block, ...
 
 def _list_rows(study: Study, words: Words) -> Iterator[Block]:
     told = frozenset(basis.share_notes(study, words))
-    for number, row in enumerate(study.rows, 1):
-        yield RowSections(row, f"row-{number}", words, told).build()
+    anchors = basis.anchor_rows(study)
+    rows = {anchors[row.id]: row for row in reversed(study.rows)}
+    for anchor in dict.fromkeys(anchors.values()):
+        ids = [name for name, one in anchors.items() if one == anchor]
+        yield RowSections(rows[anchor], ids, anchor, words, told).build()
 
 
 def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
@@ -88,33 +90,21 @@ def _list_contents(study: Study, words: Words) -> Contents:
     named = {name: words(f"heading.{name}") for name in _PARTS}
     named["inputs"] = words("heading.inputs_of_rows")
     named |= {name: words(f"heading.{name.replace('-', '_')}") for name in _ANNEXES}
-    lines = [_list_links(named)]
+    lines = [_list_links(named.items())]
     if study.rows:
         label = words("show.label", label=words("heading.net_rows"), text="")
-        rows = {f"row-{k}": show_text(row.id) for k, row in enumerate(study.rows, 1)}
+        rows = [
+            (anchor, show_text(name))
+            for name, anchor in basis.anchor_rows(study).items()
+        ]
         lines.append((Piece(label), *_list_links(rows)))
     return Contents(heading=words("heading.contents"), lines=tuple(lines))
 
 
-def _list_links(links: dict[str, str]) -> Content:
+def _list_links(links: Iterable[tuple[str, str]]) -> Content:
     return tuple(
-        piece
-        for anchor, text in links.items()
-        for piece in (*link(anchor, text), Piece(" "))
+        piece for anchor, text in links for piece in (*link(anchor, text), Piece(" "))
     )
-
-
-def list_sections(study: Study, detail: Detail) -> list[str]:
-    """Ids of all sections that a report must have."""
-    of_rows = [
-        f"row-{number}-{name}"
-        for number in range(1, len(study.rows) + 1)
-        for name in _ROW
-    ]
-    if detail == "summary":
-        return ["decision", "todo", "quantities", "scope"]
-    of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs"]
-    return [*of_page, *of_rows, *_ANNEXES]
 
 
 def title_pages(study: Study, words: Words) -> str:
