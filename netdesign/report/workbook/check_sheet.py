@@ -55,7 +55,8 @@ _ENDS = {-1: "heading.low", 1: "heading.high"}
 class Field:
     """Column: key of its heading, width; of a number its quantity, step and end.
 
-    Without a heading it stands under the symbol of its quantity.
+    Without a heading it stands under the symbol of its quantity. One ``of_study`` is
+    hidden: no text of a site stands in a formula.
     """
 
     heading: str
@@ -63,11 +64,15 @@ class Field:
     quantity: str = ""
     step: str = ""
     end: int = 0
+    of_study: bool = False
 
     def name(self, words: Words) -> Column:
         """The column under its heading."""
         is_number = bool(self.quantity) or self.heading == "heading.no"
         heading = words(self.heading) if self.heading else self._name(words)
+        if self.of_study:
+            study = words("heading.study")
+            heading = words("show.label", label=study, text=heading)
         return Column(heading=heading, quantity=self.quantity, is_number=is_number)
 
     def _name(self, words: Words) -> str:
@@ -102,12 +107,18 @@ FIELDS = {
     "reason": Field("heading.reason", 50),
     "holds": Field("heading.as_calculated", 8),  # hidden: nothing stands in the way
     "unchanged": Field("heading.as_in_study", 8),  # hidden: it is as in the study
+    "stored source": Field("heading.resistance_from", 8, of_study=True),
+    "stored reason": Field("heading.reason", 8, of_study=True),
 }
-_LETTERS = {name: chr(ord("A") + place) for place, name in enumerate(FIELDS)}
+_ALPHABET = 26
+_LETTERS = {
+    name: "A" * (place // _ALPHABET) + chr(ord("A") + place % _ALPHABET)
+    for place, name in enumerate(FIELDS)
+}
 _PLACES = {name: place for place, name in enumerate(FIELDS)}
 _STEPS = tuple(name for name, field in FIELDS.items() if field.step)
 _RATIOS = ("μ low", "μ", "μ high")
-_HIDDEN = ("holds", "unchanged")
+_HIDDEN = ("holds", "unchanged", "stored source", "stored reason")
 _FOLDED = ("E_k low", "E_k high")  # E_d has the same ends; a click unfolds them
 # Columns that the first sheet counts by, under the names that it knows them by.
 _NAMED = {
@@ -222,7 +233,9 @@ class _LineWriter:
             if name not in ("source", "reason"):
                 self._put(name, Cell(text=text))
                 continue
-            formula = f"IF({self._at('unchanged')}=1,{quote(text)},{again})"
+            self._put(f"stored {name}", Cell(text=text))
+            stored = self._at(f"stored {name}")
+            formula = f"IF({self._at('unchanged')}=1,{stored},{again})"
             form = self.book.text(text_wrap=True)
             self.sheet.write_formula(*self._place(name), f"={formula}", form, text)
         widths = [FIELDS[name].width for name in texts]

@@ -16,8 +16,6 @@ _ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
 _SAME = 1e-9  # relative
 _SHORT = 20  # signs of a formula; those of ours have more
 _COMPARED = 200  # letters of a text that are compared
-_LONGEST = 250  # letters of one text in a formula
-_MOST = 6000  # of all of them
 _ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
 
 
@@ -103,10 +101,8 @@ def write_same(cell: str, value: float | str) -> str:
 
 
 def quote(text: str) -> str:
-    """Text in a formula; a long one in pieces."""
-    starts = range(0, max(1, min(len(text), _MOST)), _LONGEST)
-    pieces = (text[start : start + _LONGEST].replace('"', '""') for start in starts)
-    return "&".join(f'"{piece}"' for piece in pieces)
+    """Text of ours in a formula; a formula holds 255 letters of one."""
+    return '"' + text.replace('"', '""') + '"'
 
 
 def is_given(cell: str, *bounds: str) -> str:

@@ -38,6 +38,7 @@ _LABELLED = 3  # columns of a label below the rows
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 _COUNTS = range(3, 7)
 _RATIO, _GOVERNING, _CASE, _HELD, _REASONS = 7, 9, 10, 11, 12
+_STORED = 5  # columns from a live sentence to the study's, which is hidden
 _BELOW = 9  # columns of what stands below the rows
 # Line, first and last column of each link to a sheet, as wide as its name is long.
 _LINKS = tuple(
@@ -60,6 +61,8 @@ def add_summary_sheet(book: Book, study: Study) -> None:
     book.write_head(sheet, _HEAD_ROW, _list_columns(book), widths, _COUNTS)
     for index, width in enumerate(widths):
         sheet.set_column(index, index, width)
+    hidden = [column + _STORED for column in (_GOVERNING, _CASE, _REASONS)]
+    sheet.set_column(min(hidden), max(hidden), None, None, {"hidden": True})
     if not study.rows:
         text = book.words("heading.no_rows")
         sheet.write_string(last, 1, text, book.text())
@@ -190,8 +193,11 @@ def _write_words(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     unchanged = f"COUNTIFS({mine},check_unchanged,1)=COUNTIFS({mine})"
     form = book.text(text_wrap=True)
     for column, text in texts.items():
+        stored = (index, column + _STORED)
+        book.write_cell(sheet, stored, Column(heading=""), Cell(text=text))
+        then = f"{chr(ord('A') + stored[1])}{line}"
         now = quote(words(CHANGED) if column == _REASONS else MISSING)
-        formula = f"=IF(AND(C{line}={quote(verdict)},{unchanged}),{quote(text)},{now})"
+        formula = f"=IF(AND(C{line}={quote(verdict)},{unchanged}),{then},{now})"
         sheet.write_formula(index, column, formula, form, text)
     fields = {1: show_text(row.id), 2: verdict, **texts}
     widths = _find_widths(book)
