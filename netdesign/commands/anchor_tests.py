@@ -201,7 +201,7 @@ def _evaluate(rows: Sequence[Row], profile: Standard) -> Iterator[Message]:
 def _list_lines(rows: Sequence[Row], language: Language) -> Iterator[str]:
     """Lines of sheet Tests, with tabs between the cells."""
     from netdesign.site.columns.all_tables import TESTS
-    from netdesign.words.numerals import set_marks
+    from netdesign.words.catalogue import set_marks
 
     yield "\t".join(field.heading_for(language) for field in TESTS.fields)
     for row in rows:

@@ -13,8 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
-from netdesign.words.catalogue import keep_together
-from netdesign.words.numerals import Language
+from netdesign.words.catalogue import Language, keep_together
 
 _EXTRAS = re.compile(r"(.*?)  \[([^\]]*)\]", re.DOTALL)  # click: "text  [default: 1]"
 _COLUMNS = re.compile(r"(\s{2,})")

@@ -57,7 +57,7 @@ def list_wanted(asked: Mapping[str, Any]) -> list[str]:
     wanted = {one: asked[one] for one in ("html", "excel", "csv", "pdf", "docx")}
     wanted["docx"] = wanted["docx"] or asked["template"] is not None
     if wanted["pdf"]:
-        from netdesign.report.page.pdf import require_pdf
+        from netdesign.report.files import require_pdf
 
         require_pdf()
     if wanted["docx"]:

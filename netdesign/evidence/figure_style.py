@@ -13,7 +13,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from netdesign.report.drawing.style import GREY, INK, TEXT_PT
-from netdesign.words.numerals import Language, set_marks
+from netdesign.words.catalogue import Language, set_marks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

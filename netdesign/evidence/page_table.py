@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from netdesign.report.blocks.table import (
+from netdesign.report.blocks import (
     Cell,
     Column,
     Table,

@@ -4,16 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from netdesign.words.catalogue import Language
+from netdesign.edge.json_text import list_fields
+from netdesign.outcome import OutputError
+from netdesign.report.blocks import write_csv
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.files.rows_map import RowsMap
     from netdesign.report.sections.whole import Detail
     from netdesign.study.records import Study
+
+
+# Signs that make a spreadsheet program read a text as a formula.
+_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,14 +116,29 @@ def _render_page(study: Study, style: ReportStyle) -> bytes:
     return render_html(study, style.language, style.detail, style.places).encode()
 
 
+def require_pdf() -> None:
+    """Refuse a wish for a PDF before anything is solved.
+
+    Raises
+    ------
+    OutputError
+        If the library is not installed: it is an extra, ``netdesign[pdf]``.
+    """
+    if find_spec("weasyprint") is None:
+        raise OutputError(say("program.no_weasyprint"))
+
+
 def _render_pdf(study: Study, style: ReportStyle) -> bytes:
     return _print_page(_render_page(study, style))
 
 
 def _print_page(page: bytes) -> bytes:
-    from netdesign.report.page.pdf import render_pdf
+    """A4 document of a page of ours."""
+    require_pdf()
+    import weasyprint
 
-    return render_pdf(page.decode())
+    document: bytes = weasyprint.HTML(string=page.decode()).write_pdf()
+    return document
 
 
 def _render_docx(study: Study, style: ReportStyle) -> bytes:
@@ -132,9 +156,26 @@ def _render_xlsx(study: Study, style: ReportStyle) -> bytes:
 
 
 def _render_csv(study: Study, style: ReportStyle) -> bytes:
-    from netdesign.report.case_table import render_cases
+    """All cases of all net rows, one a line; units are part of the headings.
 
-    return render_cases(study, style.language)
+    Missing forces of failed cases stay missing; outcome and reason say why.
+    """
+    lines: list[dict[str, Any]] = []
+    for row in study.rows:
+        for record in row.cases:
+            fields = list_fields(record)
+            point = list_fields(fields.pop("case"))
+            told = render(record.reason, style.language) if record.reason else ""
+            texts = {"outcome": fields["outcome"], "reason": told}
+            fields |= {key: _disarm(text) for key, text in texts.items()}
+            lines.append({"net_row": _disarm(row.id), **point, **fields})
+    headings = list(dict.fromkeys(key for line in lines for key in line))
+    return write_csv(headings, [[line.get(key) for key in headings] for line in lines])
+
+
+def _disarm(text: str) -> str:
+    """Text that no spreadsheet program reads as a formula."""
+    return f"'{text}" if text.startswith(_FORMULA_STARTS) else str(text)
 
 
 def _render_json(study: Study, _: ReportStyle) -> bytes:

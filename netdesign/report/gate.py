@@ -1,20 +1,12 @@
-"""Refuses a report that contradicts its own numbers or lacks a section."""
+"""Refuses a report of a study that contradicts its own numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from netdesign.calculation.steps import SAME, Step, compare_steps, is_same
 from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.outcome import ContentError, NetDesignError, Verdict, merge_verdicts
-from netdesign.report.blocks.block import (
-    Block,
-    Figure,
-    Heading,
-    Items,
-    Paragraph,
-    Part,
-)
 from netdesign.structure.members import ROPE_OF
 from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
@@ -133,42 +125,3 @@ def _find_governing(check: CheckRecord, least: float) -> str:
 def _is_without_force(check: CheckRecord) -> bool:
     is_geometry = check.id.startswith("geometry.")
     return not check.is_of_force and (is_geometry or check.mode in MODES_WITHOUT_FORCE)
-
-
-def require_sections(blocks: Iterable[Block], expected: Iterable[str]) -> None:
-    """Refuse blocks in which an expected section is missing or only a heading.
-
-    Raises
-    ------
-    NetDesignError
-        Naming every such section.
-    """
-    filled = set(_list_filled(blocks))
-    missing = tuple(name for name in expected if name not in filled)
-    if missing:
-        raise NetDesignError(say("audit.empty_sections", sections=missing))
-
-
-def _list_filled(blocks: Iterable[Block]) -> Iterator[str]:
-    """Ids of the parts with more than headings."""
-    for block in blocks:
-        if isinstance(block, Part):
-            yield from _list_filled(block.blocks)
-            if block.id and any(map(_says, block.blocks)):
-                yield block.id
-
-
-def _says(block: Block) -> bool:
-    """True of a block that shows something; a table without rows says why."""
-    match block:
-        case Heading():
-            return False
-        case Part():
-            return any(map(_says, block.blocks))
-        case Items():
-            return bool(block.items)
-        case Paragraph():
-            return bool(block.text)
-        case Figure():
-            return bool(block.svg)
-    return True

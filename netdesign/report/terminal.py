@@ -11,16 +11,20 @@ from typing import TYPE_CHECKING
 from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent
 from netdesign.report.governing import SEVERITY, find_governing, rank_check
+from netdesign.report.sections.annexes import describe_cases
 from netdesign.report.sections.basis import (
     describe_floor,
     has_other_floor,
     list_notes,
     name_cases,
 )
-from netdesign.report.sections.changes import list_changes
-from netdesign.report.sections.checks import describe_briefly, describe_loads, name_case
+from netdesign.report.sections.checks import (
+    describe_briefly,
+    describe_loads,
+    list_changes,
+    name_case,
+)
 from netdesign.report.sections.decision import list_open_points
-from netdesign.report.sections.verify import describe_cases
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from netdesign.edge.output import PART_MARK, STUDY_FILE, WHAT_IF_MARK
-from netdesign.report.blocks.table import Table, name_columns, text_cell
+from netdesign.report.blocks import Table, name_columns, text_cell
 from netdesign.report.words import (
     MISSING,
     VerdictWords,

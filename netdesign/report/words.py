@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -22,10 +22,10 @@ from netdesign.words.catalogue import (
     load_tables,
     load_texts,
     render,
+    set_marks,
 )
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
-from netdesign.words.numerals import set_marks
 
 if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
     from netdesign.site.model import InputEcho
@@ -188,41 +188,28 @@ ENGLISH = Words()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class VerdictSigns:
-    """Signs of a verdict in every language; the symbol survives a photocopy."""
+class VerdictWords:
+    """One verdict: its symbol, which survives a photocopy, word, and what it means."""
 
     symbol: str
     style: str  # class of the style sheet
     exit_code: int
+    word: str = ""
+    meaning: str = ""
 
 
 VERDICTS = {
-    Verdict.PASS: VerdictSigns(symbol="✓", style="pass", exit_code=0),
-    Verdict.FAIL: VerdictSigns(symbol="✗", style="fail", exit_code=1),
-    Verdict.NOT_PROVEN: VerdictSigns(symbol="?", style="not-proven", exit_code=4),
-    Verdict.DECLARED: VerdictSigns(symbol="†", style="declared", exit_code=6),
+    Verdict.PASS: VerdictWords(symbol="✓", style="pass", exit_code=0),
+    Verdict.FAIL: VerdictWords(symbol="✗", style="fail", exit_code=1),
+    Verdict.NOT_PROVEN: VerdictWords(symbol="?", style="not-proven", exit_code=4),
+    Verdict.DECLARED: VerdictWords(symbol="†", style="declared", exit_code=6),
 }
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class VerdictWords:
-    """One verdict in words: word, symbol, style, what it means."""
-
-    word: str
-    symbol: str
-    style: str
-    meaning: str
 
 
 def show_verdict(verdict: Verdict, words: Words) -> VerdictWords:
     """Verdict in a language."""
-    signs = VERDICTS[verdict]
-    return VerdictWords(
-        word=words(f"verdict.{verdict}"),
-        symbol=signs.symbol,
-        style=signs.style,
-        meaning=words(f"meaning.{verdict}"),
-    )
+    word, meaning = (words(f"{kind}.{verdict}") for kind in ("verdict", "meaning"))
+    return replace(VERDICTS[verdict], word=word, meaning=meaning)
 
 
 _UNITS = {"deg": "°", "kg/m3": "kg/m³", "m2": "m²", "mm2": "mm²", "N/mm2": "N/mm²"}

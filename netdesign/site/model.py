@@ -31,8 +31,7 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
-from netdesign.words.message import Message, say
-from netdesign.words.text_field import Text
+from netdesign.words.message import Message, Text, say
 
 # What a member can fail by; the keys under which resistances are given.
 MEMBER_MODES: tuple[tuple[Member, str], ...] = (

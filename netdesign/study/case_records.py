@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome
-from netdesign.words.text_field import Text
+from netdesign.words.message import Text
 
 
 @dataclass(frozen=True, kw_only=True)

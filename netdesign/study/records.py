@@ -45,8 +45,7 @@ from netdesign.study.support_records import (
     PullRecord,
     StaticsRecord,
 )
-from netdesign.words.message import Message
-from netdesign.words.text_field import Text
+from netdesign.words.message import Message, Text
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
+
 
 Argument: TypeAlias = "str | int | float | Message | tuple[str | Message, ...]"
 
@@ -86,3 +90,27 @@ def _read(value: Any) -> Argument:
 
 def _restore(key: str, arguments: dict[str, Argument]) -> Message:
     return say(key, **arguments)
+
+
+class _HasText:
+    """A message with a text of this key whose gaps its arguments fill."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        """Schema that pydantic asks for: read a message as usual, then render it."""
+        from pydantic_core.core_schema import no_info_after_validator_function
+
+        return no_info_after_validator_function(_require_text, handler(source))
+
+
+def _require_text(message: Message) -> Message:
+    from netdesign.words.catalogue import render
+
+    try:
+        render(message, "en")
+    except (LookupError, ValueError, RecursionError) as error:
+        key = f"{message.key!r:.60}"
+        raise ValueError(f"{key} is no text with these arguments: {error}") from None
+    return message
+
+
+Text = Annotated[Message, _HasText()]  # in no language yet; never one without a text

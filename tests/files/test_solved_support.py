@@ -13,8 +13,7 @@ from netdesign.files.support_tables import GivenSupport
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.row_forces import compute_end_forces
 from netdesign.panel.solve import solve_panel
-from netdesign.report.blocks.block import Part
-from netdesign.report.blocks.table import Table
+from netdesign.report.blocks import Part, Table
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.page.solved_support import show_support
 from netdesign.report.words import Words

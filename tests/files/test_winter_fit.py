@@ -9,8 +9,7 @@ import pytest
 
 from netdesign.checks.result import Band
 from netdesign.files.winter_fit import write_fit
-from netdesign.report.blocks.block import Figure, Heading, Part
-from netdesign.report.blocks.table import Table
+from netdesign.report.blocks import Figure, Heading, Part, Table
 from netdesign.report.page.winter_fit import show_fit
 from netdesign.report.words import Words
 from netdesign.snowpack.series import HeightSeries

@@ -16,8 +16,8 @@ import openpyxl
 import pytest
 from rich.console import Console
 
-from netdesign.report.case_table import render_cases
 from netdesign.report.difference import compare_studies
+from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_summary
 from netdesign.report.workbook.excel import render_workbook
@@ -159,7 +159,9 @@ def test_json_keeps_every_text_and_shows_no_control_sign(text):
 
 
 def test_lines_of_cases_begin_with_no_formula(text):
-    for line in render_cases(spoilt_study(text)).decode().splitlines()[1:]:
+    for line in (
+        render_kind(".csv", spoilt_study(text), ReportStyle()).decode().splitlines()[1:]
+    ):
         assert not line.lstrip('"').startswith(("=", "+", "-", "@", "\t"))
 
 

@@ -6,9 +6,9 @@ import subprocess
 import pytest
 
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.whole import list_sections
 from tests.programs import require_program
 from tests.report.build_study import build_study
+from tests.report.filled import list_sections
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 MINIMUM_PT = 595.0, 842.0  # A4

@@ -5,8 +5,7 @@ import pytest
 
 from netdesign.calculation.quantity import Kind
 from netdesign.outcome import NetDesignError, Verdict
-from netdesign.report.blocks.block import Figure, Items, Paragraph, Part, section
-from netdesign.report.gate import require_consistent, require_sections
+from netdesign.report.gate import require_consistent
 from netdesign.study.records import IndependentRecord
 from netdesign.words.catalogue import render
 from tests.report.build_study import build_study
@@ -89,15 +88,6 @@ def test_a_pass_may_be_held_back():
     row = replace(study.rows[0], verdict=Verdict.NOT_PROVEN, reasons=["A reason."])
     held_back = replace(study, rows=[row], verdict=Verdict.NOT_PROVEN)
     assert require_consistent(held_back) is None
-
-
-@pytest.mark.parametrize("empty", [Items(items=()), Paragraph(text=""), Figure(svg="")])
-def test_a_section_needs_more_than_its_heading(empty):
-    full = section("a", "Head", Paragraph(text="none"))
-    blocks = [Part(id="all", blocks=(full, section("b", "Head", empty)))]
-    require_sections(blocks, ["a", "all"])
-    with pytest.raises(NetDesignError, match="nothing in section b, c"):
-        require_sections(blocks, ["a", "b", "c"])
 
 
 def with_floor_at(share):

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.checks import load_standard
-from netdesign.report.case_table import render_cases
+from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.quality import build_cases, build_extremes
 from netdesign.report.sections.schedule import build_schedule
@@ -82,7 +82,7 @@ def test_any_study_that_can_be_read_renders_in_every_language(language, seed):
     study = spoil(build_study(), random.Random(seed))
     assert f'lang="{language}"' in render_html(study, language)
     assert render_workbook(study, language).startswith(b"PK")
-    assert render_cases(study, language)
+    assert render_kind(".csv", study, ReportStyle(language=language))
 
 
 @pytest.mark.parametrize("language", OTHERS)

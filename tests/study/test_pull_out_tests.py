@@ -9,7 +9,7 @@ from netdesign.checks import load_standard
 from netdesign.checks.routes import find_proof_factor
 from netdesign.edge.given_files import find_resource
 from netdesign.outcome import Verdict
-from netdesign.report.sections.anchor_tests import show_tests
+from netdesign.report.sections.row import show_tests
 from netdesign.report.words import Words
 from netdesign.study.rejudge import rejudge
 from tests.checks.given_pulls import study_row

@@ -155,8 +155,8 @@ def move_down(inputs):
 @pytest.mark.parametrize(
     ("detail", "language", "most"),
     [
-        ("full", "en", 29),
-        pytest.param("full", "fr", 32, marks=pytest.mark.long),
+        ("full", "en", 23),
+        pytest.param("full", "fr", 25, marks=pytest.mark.long),
         ("summary", "en", 3),
         pytest.param("summary", "de", 3, marks=pytest.mark.long),
     ],

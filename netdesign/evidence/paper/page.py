@@ -17,7 +17,8 @@ from netdesign.evidence.paper.figures import Plate, draw_plates
 from netdesign.evidence.paper.findings import Claim, list_findings, word_finding
 from netdesign.evidence.paper.runs import PaperRun, PaperStudy
 from netdesign.evidence.paper.tables import list_tables
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
+    SMALL,
     Block,
     Figure,
     Heading,
@@ -25,11 +26,12 @@ from netdesign.report.blocks.block import (
     Pairs,
     Paragraph,
     Part,
+    Piece,
     masthead,
     section,
+    strong,
+    write_csv,
 )
-from netdesign.report.blocks.text import SMALL, Piece, strong
-from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import render_page
 from netdesign.report.page.solution_page import describe_criterion
 from netdesign.report.words import ENGLISH, Words

@@ -35,8 +35,7 @@ from netdesign.evidence.paper.cases import (
 )
 from netdesign.evidence.paper.findings import judge_growth, last_swing
 from netdesign.evidence.paper.runs import PaperRun, PaperStudy
-from netdesign.report.blocks.table import Table, text_cell
-from netdesign.report.page.csv_text import write_csv
+from netdesign.report.blocks import Table, text_cell, write_csv
 from netdesign.report.words import MISSING, Words
 from netdesign.units import day_from_second
 

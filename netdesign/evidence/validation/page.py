@@ -36,18 +36,19 @@ from netdesign.evidence.verification.compaction import (
 )
 from netdesign.evidence.verification.exported import load_results
 from netdesign.evidence.verification.pack import name_kind, write_pack
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
+    CODE,
     Block,
     Figure,
     Heading,
     Items,
     Paragraph,
     Part,
+    Piece,
+    Table,
     masthead,
     section,
 )
-from netdesign.report.blocks.table import Table
-from netdesign.report.blocks.text import CODE, Piece
 from netdesign.report.page.render import render_page
 from netdesign.report.words import Words, show_own
 from netdesign.snow.creep_law import BOUTILLIER_2004, ZWINGER_2007

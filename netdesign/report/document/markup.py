@@ -9,7 +9,7 @@ from html import escape
 from typing import Any
 
 from netdesign.edge.given_files import make_printable
-from netdesign.report.blocks.text import (
+from netdesign.report.blocks import (
     SMALL,
     Badge,
     Piece,

@@ -1,10 +1,11 @@
-"""Document to write into: a company's template without its text, or an empty one."""
+"""Document to write into, a company's template or an empty one; its bytes."""
 
 from __future__ import annotations
 
 import io
 import zipfile
 import zlib
+from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from docx.document import Document
+
 
 _MOST_BYTES = 20 * 2**20
 # What zipfile, the XML parser and python-docx raise on a file that is no document.
@@ -123,3 +125,43 @@ def _drop_text(document: Document) -> None:
     for name, relation in list(document.part.rels.items()):
         if relation.reltype.rpartition("/")[2] not in _KEPT:
             del document.part.rels[name]
+
+
+_NO_TIME = datetime(1980, 1, 1)
+_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+_MOST_SIGNS = 255  # of a property of a document
+
+
+def set_properties(
+    document: Document, *, title: str, subject: str, author: str, started: str
+) -> None:
+    """Properties of a document; those of its template are replaced."""
+    known = document.core_properties
+    known.title, known.subject = title[:_MOST_SIGNS], subject[:_MOST_SIGNS]
+    known.author = known.last_modified_by = author[:_MOST_SIGNS]
+    known.comments = known.keywords = known.category = ""
+    known.created = known.modified = _read_time(started)
+    known.revision = 1
+
+
+def pack(document: Document) -> bytes:
+    """Bytes of a document, its parts without the time of writing."""
+    written, buffer = io.BytesIO(), io.BytesIO()
+    document.save(written)
+    with (
+        zipfile.ZipFile(written) as source,
+        zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as target,
+    ):
+        for name in source.namelist():
+            part = zipfile.ZipInfo(name, _ZIP_TIME)
+            part.compress_type = zipfile.ZIP_DEFLATED
+            target.writestr(part, source.read(name))
+    return buffer.getvalue()
+
+
+def _read_time(started: str) -> datetime:
+    """Start of the study in UTC without a zone, as documents store it."""
+    if not started:
+        return _NO_TIME
+    time = datetime.fromisoformat(started)
+    return time.astimezone(UTC).replace(tzinfo=None) if time.tzinfo else time

@@ -1,12 +1,13 @@
-"""Drawings of a searched envelope: maps by inclination, lines with bound, drivers."""
+"""Drawings of an envelope: maps by inclination, lines with bound, drivers."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from netdesign.outcome import Outcome
 from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.letters import measure_words, wrap_words
@@ -21,6 +22,7 @@ from netdesign.report.drawing.plain_svg import (
     shade,
 )
 from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.governing import find_shown_member
 from netdesign.report.words import (
     ENGLISH,
     Words,
@@ -28,12 +30,85 @@ from netdesign.report.words import (
 )
 from netdesign.study.case_records import (
     BoundRecord,
+    CasePoint,
     DriverRecord,
     EnvelopeRecord,
+    ExtremeRecord,
     LineRecord,
     MapRecord,
 )
+from netdesign.study.records import RowStudy
 from netdesign.words.names import name
+
+_MOST_MAPS = 3  # side by side
+_MAPPED = 3  # first quantities of a case: density, friction, inclination
+
+
+def record_grid(row: RowStudy) -> EnvelopeRecord:
+    """Maps of every member over the cases of a row; nothing bounds the force between.
+
+    The force of a case without a result is NaN.
+    """
+    return EnvelopeRecord(
+        axes=[],
+        is_per_metre=False,
+        is_closed=False,
+        gap_asked_percent=0.0,
+        certainty=0.0,
+        resolved_share=0.0,
+        cases=len(row.cases),
+        skipped=0,
+        skips_tested=0,
+        failed=sum(one.outcome is not Outcome.CONVERGED for one in row.cases),
+        bounds=[_record_member(row, one) for one in row.extremes],
+        log=[],
+    )
+
+
+def _record_member(row: RowStudy, extreme: ExtremeRecord) -> BoundRecord:
+    return BoundRecord(
+        quantity=extreme.quantity,
+        max_kN=extreme.max_kN,
+        upper_bound_kN=extreme.max_kN,
+        case=extreme.case.values,
+        coincident_kN=extreme.coincident_kN,
+        unexplained=None,
+        drivers=[],
+        flips=[],
+        lines=[],
+        maps=list(_list_maps(row, extreme)),
+        confirmation=None,
+    )
+
+
+def _list_maps(row: RowStudy, extreme: ExtremeRecord) -> Iterator[MapRecord]:
+    """Maps of some inclinations, with the governing one; others as in that case."""
+    forces = {
+        (one.case.inclination_deg, one.case.friction_deg, one.case.density_kg_m3): (
+            getattr(one, f"{extreme.quantity}_kN")
+        )
+        for one in row.cases
+        if _list_further(one.case) == _list_further(extreme.case)
+    }
+    if not forces:
+        return
+    axes = zip(*forces, strict=True)
+    angles, frictions, densities = (sorted(set(axis)) for axis in axes)
+    if len(angles) > _MOST_MAPS:
+        angles = sorted({angles[0], extreme.case.inclination_deg, angles[-1]})
+    for angle in angles:
+        table = [[forces.get((angle, f, d)) for d in densities] for f in frictions]
+        yield MapRecord(
+            inclination_deg=angle,
+            density_kg_m3=densities,
+            friction_deg=frictions,
+            force_kN=[[math.nan if x is None else x for x in line] for line in table],
+        )
+
+
+def _list_further(case: CasePoint) -> list[tuple[str, float]]:
+    return [*case.values.items()][_MAPPED:]
+
 
 _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
 _HEAD, _PANEL, _FOOT = 25.0, 60.0, 19.0  # heights of a row of panels [pt]
@@ -362,3 +437,13 @@ def _show_forces(
 def _show_driver(one: DriverRecord, words: Words) -> str:
     forces = words.show_band("max_kN", one.least_kN, one.most_kN)
     return words("show.label", label=name_heading(words, one.key), text=forces)
+
+
+def draw_envelope(row: RowStudy, words: Words) -> str:
+    """Envelope of the member that governs; of another where that has no force."""
+    members = split_members(row.envelope or record_grid(row))
+    if not members:
+        return ""
+    first = find_shown_member(row)
+    shown = min(members, key=lambda one: one.bounds[0].quantity != first)
+    return draw_maps(shown, words) or draw_lines(shown, words)

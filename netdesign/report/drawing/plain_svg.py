@@ -13,7 +13,7 @@ from itertools import pairwise
 
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT, WIDTH_IN
-from netdesign.words.numerals import Language, set_marks
+from netdesign.words.catalogue import Language, set_marks
 
 Point = tuple[float, float]
 

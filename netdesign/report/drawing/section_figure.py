@@ -1,4 +1,4 @@
-"""Section of a net row to scale: slope, snow, net, support, forces."""
+"""Section of a net row to scale: slope, snow, net, support, forces, pressure."""
 
 from __future__ import annotations
 
@@ -6,33 +6,112 @@ import math
 from itertools import pairwise
 
 from netdesign.numerics.curve import trace_curve
-from netdesign.report.drawing.label_board import Label, LabelBoard
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, drop_straight
-from netdesign.report.drawing.section_frame import (
+from netdesign.report.drawing.label_board import Box, Label, LabelBoard
+from netdesign.report.drawing.letters import measure_words
+from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, drop_straight
+from netdesign.report.drawing.section_measures import (
     LONGEST_ARROW,
     ROD,
-    Frame,
     Paper,
     Point,
+    Section,
+    describe_measures,
+    draw_measures,
     fit_paper,
     move,
 )
-from netdesign.report.drawing.section_labels import (
-    LEGEND_BOTTOM,
-    SLIP_DASH,
-    draw_legend,
-    draw_scale_bar,
-)
-from netdesign.report.drawing.section_measures import describe_measures, draw_measures
-from netdesign.report.drawing.section_pressure import (
-    CHART_BOTTOM,
-    describe_pressure,
-    draw_pressure,
-    list_pressures,
-)
-from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, SNOW
+from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, SNOW, TEXT_PT
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.support_records import Arrow, Drawing
+
+SLIP_DASH = "2.2 1.5"  # of the net where the snow slips on it
+_LEGEND = (
+    ("drawing.net_sticks", INK, 1.8, ""),
+    ("drawing.net_slips", INK, 1.8, SLIP_DASH),
+    ("drawing.force_on_ground", ACCENT, 1.5, ""),
+)
+_LEGEND_TOP, _LEGEND_LINE = 12.0, 13.0
+LEGEND_BOTTOM = _LEGEND_TOP + len(_LEGEND) * _LEGEND_LINE
+_KEY, _EDGE = 19.0, 8.0  # length of a line of the legend, room beside it [pt]
+
+
+def draw_scale_bar(sketch: Chart, paper: Paper, board: LabelBoard) -> None:
+    """Bar of a round length near one inch, at the lower left."""
+    inch = 72.0 / paper.scale
+    length = max(step for step in (0.5, 1, 2, 5, 10) if step <= max(0.5, 0.9 * inch))
+    left, bottom = _EDGE, paper.height - 6.0
+    right = left + length * paper.scale
+    sketch.line([(left, bottom), (right, bottom)], width=1.6)
+    middle = ((left + right) / 2, bottom - 4.5)
+    sketch.text(*middle, f"{sketch.write_tick(length)} m", anchor="middle")
+    board.reserve(Box(left, bottom - 2 * TEXT_PT, right, bottom))
+
+
+def draw_legend(sketch: Chart, words: Words, board: LabelBoard) -> None:
+    """Explain the lines; the words end at them, however wide their font is."""
+    right = WIDTH - _EDGE
+    for place, (key, stroke, width, dash) in enumerate(_LEGEND):
+        y = _LEGEND_TOP + _LEGEND_LINE * place
+        ends = [(right - _KEY, y), (right, y)]
+        sketch.line(ends, stroke=stroke, width=width, dash=dash)
+        end = right - _KEY - 6.0
+        sketch.text(end, y + 2.6, words(key), anchor="end")
+        left = end - measure_words(words(key), TEXT_PT)
+        board.reserve(Box(left, y - TEXT_PT, WIDTH, y + 5.0))
+
+
+CHART_WIDTH = 150.0  # of all that stands right of the section [pt]
+_CHART_LEFT, _CHART_HEIGHT = WIDTH - 112.0, 62.0
+_TITLES = 2.6 * TEXT_PT  # two lines above the chart
+CHART_BOTTOM = LEGEND_BOTTOM + _TITLES + _CHART_HEIGHT + 4.0 * TEXT_PT
+
+
+def list_pressures(drawing: Drawing) -> list[Point]:
+    """Pressure [kPa] and height above the slope [m] where both are known."""
+    pairs = zip(drawing.pressure_kPa, drawing.net_m, strict=False)
+    return [(pressure, y) for pressure, (_, y) in pairs if pressure is not None]
+
+
+def draw_pressure(
+    sketch: Chart, drawing: Drawing, words: Words, board: LabelBoard
+) -> None:
+    """Pressure to the right, height upwards; nothing where no pressure is known."""
+    known = list_pressures(drawing)
+    if len(known) < 2:
+        return
+    top = LEGEND_BOTTOM + _TITLES + 10.0
+    right = WIDTH - 8.0
+    title = top - 2.1 * TEXT_PT
+    sketch.text(right, title, words("drawing.pressure"), anchor="end", bold=True)
+    line = (right, title + 1.2 * TEXT_PT)
+    sketch.text(*line, words("drawing.over_height"), anchor="end")
+    frame = Frame(
+        left=_CHART_LEFT,
+        top=top,
+        width=right - _CHART_LEFT,
+        height=_CHART_HEIGHT,
+        x_low=min(0.0, *(pressure for pressure, _ in known)),
+        x_high=1.05 * max(0.1, *(pressure for pressure, _ in known)),
+        y_low=0.0,
+        y_high=max(drawing.head_m[1], known[-1][1]),
+    )
+    sketch.axes(frame)
+    points = [(frame.x(pressure), frame.y(y)) for pressure, y in known]
+    edge = [(frame.x(0.0), points[0][1]), *points, (frame.x(0.0), points[-1][1])]
+    sketch.area(edge, "#f1dfda")
+    sketch.line(points, stroke=ACCENT, width=1.2)
+    board.reserve(Box(WIDTH - CHART_WIDTH, LEGEND_BOTTOM, WIDTH, CHART_BOTTOM))
+
+
+def describe_pressure(drawing: Drawing, words: Words) -> list[str]:
+    """Least and largest pressure in words; nothing where none is known."""
+    known = [pressure for pressure, _ in list_pressures(drawing)]
+    if len(known) < 2:
+        return []
+    low, high = words.show_share(min(known)), words.show_share(max(known))
+    band = words("show.band", low=low, high=high)
+    return [words("show.label", label=words("drawing.pressure"), text=band)]
+
 
 _SHORTEST_ARROW = 0.14  # heights of the head
 _SLACK = 1e-3  # of the largest force; below it there is no arrow
@@ -45,7 +124,7 @@ Named = tuple[tuple[str, str], ...]  # lines of a label with their colours
 
 def draw_section(drawing: Drawing, name: str, words: Words = ENGLISH) -> str:
     """SVG of the section in the case of ``drawing``; ``name`` keeps its ids apart."""
-    frame = Frame(slope=math.radians(drawing.slope_deg), drawing=drawing)
+    frame = Section(slope=math.radians(drawing.slope_deg), drawing=drawing)
     has_pressure = len(list_pressures(drawing)) > 1
     paper = fit_paper(frame, CHART_BOTTOM if has_pressure else LEGEND_BOTTOM)
     board = LabelBoard(width=WIDTH, height=paper.height)
@@ -176,7 +255,7 @@ def _draw_arrow(sketch: Chart, paper: Paper, arrow: Arrow, words: Words) -> Labe
     return label
 
 
-def _aim(frame: Frame, start: Point) -> Point:
+def _aim(frame: Section, start: Point) -> Point:
     """Direction from an anchor to the head."""
     target = frame.drawing.head_m
     length = math.dist(start, target)

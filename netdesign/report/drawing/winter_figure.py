@@ -12,7 +12,7 @@ from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, shade
 from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import Words, show_member
-from netdesign.words.numerals import set_marks
+from netdesign.words.catalogue import set_marks
 
 _LEFT, _RIGHT = 36.0, 158.0  # beside the panels [pt]
 # Above the first panel, whose days are named on two lines over its title; between two.

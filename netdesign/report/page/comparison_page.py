@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
+    Cell,
     Items,
     Paragraph,
     Part,
+    Table,
     masthead,
+    name_columns,
     section,
+    strong,
+    text_cell,
 )
-from netdesign.report.blocks.table import Cell, Table, name_columns, text_cell
-from netdesign.report.blocks.text import strong
 from netdesign.report.governing import find_governing
 from netdesign.report.page.render import render_page
-from netdesign.report.sections.profile import name_profile
+from netdesign.report.sections.basis import name_profile
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from netdesign.report.blocks.text import link
-from netdesign.report.gate import require_sections
+from netdesign.report.blocks import link
 from netdesign.report.page.render import render_page
 from netdesign.report.sections.whole import (
     Detail,
     build_report,
-    list_sections,
     title_pages,
 )
 from netdesign.report.what_if import mark_verdict
@@ -35,7 +33,7 @@ def render_html(
     detail: Detail = "full",
     places: RowsMap | None = None,
 ) -> str:
-    """Page of a study: complete, or an error.
+    """Page of a study.
 
     Parameters
     ----------
@@ -51,14 +49,12 @@ def render_html(
     Raises
     ------
     NetDesignError
-        If the study contradicts its own numbers or a section would be missing.
+        If the study contradicts its own numbers.
     """
     words = Words(language)
     running = title_pages(study, words)
     title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
     blocks = build_report(study, words, detail, places)
-    mapped = [] if places is None else ["map"]
-    require_sections(blocks, [*list_sections(study, detail), *mapped])
     return render_page(
         blocks,
         " - ".join(title),

@@ -10,15 +10,18 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup, escape
 
 from netdesign.edge.given_files import find_resource, make_printable
-from netdesign.report.blocks.block import Block, Pair
-from netdesign.report.blocks.table import Cell, Column, Table
-from netdesign.report.blocks.text import (
+from netdesign.report.blocks import (
     CODE,
     STRONG,
     Badge,
+    Block,
+    Cell,
+    Column,
     Content,
+    Pair,
     Piece,
     Sketch,
+    Table,
     Text,
     list_pieces,
 )

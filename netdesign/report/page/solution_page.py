@@ -18,27 +18,28 @@ from netdesign.coupling.moments import (
     REST_WAY,
 )
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
+    SMALL,
     Block,
+    Column,
     Figure,
     Pair,
     Pairs,
     Paragraph,
     Part,
-    masthead,
-    notes,
-    section,
-)
-from netdesign.report.blocks.table import (
-    Column,
+    Piece,
     Table,
+    masthead,
     name_columns,
+    notes,
     number_cell,
     number_column,
     quantity_column,
+    section,
+    strong,
     text_cell,
+    write_csv,
 )
-from netdesign.report.blocks.text import SMALL, Piece, strong
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import (
     draw_meshes,
@@ -47,7 +48,6 @@ from netdesign.report.drawing.net_figures import (
     picture_mesh,
 )
 from netdesign.report.drawing.panel_figure import draw_panel
-from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import render_page
 from netdesign.report.page.solved_support import show_support
 from netdesign.report.words import (

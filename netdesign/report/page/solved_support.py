@@ -8,12 +8,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from netdesign.report.blocks.block import Block, Part, notes, section
-from netdesign.report.blocks.table import (
+from netdesign.report.blocks import (
+    Block,
     Cell,
+    Part,
     Table,
+    notes,
     number_cell,
     number_column,
+    section,
     share_cell,
     text_cell,
     text_column,

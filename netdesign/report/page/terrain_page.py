@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
     Figure,
     Paragraph,
     Part,
+    Table,
+    fixed_cell,
     masthead,
+    name_columns,
     notes,
     section,
+    text_cell,
 )
-from netdesign.report.blocks.table import Table, fixed_cell, name_columns, text_cell
 from netdesign.report.drawing.terrain_map import (
     draw_map,
     draw_profile,

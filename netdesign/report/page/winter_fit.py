@@ -5,21 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
     Block,
+    Cell,
     Figure,
     Heading,
     Paragraph,
-    notes,
-)
-from netdesign.report.blocks.table import (
-    Cell,
     Table,
     fixed_cell,
     name_columns,
+    notes,
     text_cell,
 )
-from netdesign.report.drawing.residual_figure import draw_residuals
+from netdesign.report.drawing.measured_figure import draw_residuals
 from netdesign.report.words import MISSING, Words, show_member, show_text, show_unit
 
 _DECIMALS = {"slip_length": 1, "friction_angle": 1, "slack": 4}  # else 3

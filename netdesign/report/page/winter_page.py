@@ -9,21 +9,19 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
     Block,
+    Cell,
     Figure,
     Heading,
     Paragraph,
     Part,
-    masthead,
-    notes,
-    section,
-)
-from netdesign.report.blocks.table import (
-    Cell,
     Table,
     fixed_cell,
+    masthead,
     name_columns,
+    notes,
+    section,
     text_cell,
 )
 from netdesign.report.drawing.measured_figure import draw_measured, find_detail

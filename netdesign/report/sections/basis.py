@@ -1,30 +1,219 @@
-"""Basis of a report: scope, limit profile, ranges, default values, notes, reading."""
+"""Basis of a report: scope, limit profile, ranges, inputs, default values, notes."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
     Block,
+    Cell,
+    Column,
     Heading,
     Items,
     Pair,
     Pairs,
     Paragraph,
     Part,
+    Table,
+    given_cell,
+    name_columns,
     section,
+    symbols,
+    text_cell,
 )
-from netdesign.report.blocks.table import Table, name_columns, text_cell
-from netdesign.report.blocks.text import symbols
-from netdesign.report.sections.inputs import DEFAULT, build_inputs
-from netdesign.report.sections.profile import (
-    count_assumed,
-    list_below_one,
-    name_profile,
+from netdesign.report.words import (
+    MISSING,
+    Words,
+    name_heading,
+    show_own,
+    show_text,
+    show_unit,
+    understand,
 )
-from netdesign.report.words import Words, name_heading, show_own, show_text, understand
-from netdesign.study.records import Study
+from netdesign.site.model import InputEcho
+from netdesign.study.records import ProfileRecord, RowStudy, Study
 from netdesign.words.message import say
+from netdesign.words.names import name
+
+DEFAULT = "default"  # cell of an input that nobody typed
+_ACROSS = 12  # rows of nets beside each other on a page
+_BY_DEFAULT, _DERIVED = "*", "‡"
+
+
+def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Table:
+    """List inputs as typed and as understood, each with its cell."""
+    keys = ("input", "typed", "understood_as", "unit", "cell")
+    headings = [words(f"heading.{key}") for key in keys]
+    return Table(
+        caption=caption,
+        columns=name_columns(headings, numbers=(words("heading.understood_as"),)),
+        rows=tuple(
+            (
+                text_cell(words.show(echo.label)),
+                text_cell(
+                    words.show(echo.derivation) if echo.derivation else echo.text
+                ),
+                given_cell(words, understand(echo, words)),
+                text_cell(show_unit(echo.unit)),
+                text_cell(
+                    words("status.default") if echo.cell == DEFAULT else echo.cell
+                ),
+            )
+            for echo in inputs
+        ),
+        empty=words("show.none"),
+    )
+
+
+def show_inputs(study: Study, words: Words) -> Part:
+    """Section of all rows' inputs as understood, a column for each row."""
+    starts = range(0, len(study.rows), _ACROSS)
+    tables = [_build_inputs(study.rows[k : k + _ACROSS], words) for k in starts]
+    shown = tables or [_build_inputs([], words)]
+    return section(
+        "inputs",
+        words("heading.inputs_of_rows"),
+        *(one.shown("site-inputs") for one in shown),
+        look="wide",
+    )
+
+
+def _build_inputs(rows: Sequence[RowStudy], words: Words) -> Table:
+    """Inputs of some rows; one that all of them leave empty is left out."""
+    lines: dict[tuple[str, str], dict[str, InputEcho]] = {}
+    for row in rows:
+        for echo in row.inputs:
+            place = (words.show(echo.label), echo.unit)
+            lines.setdefault(place, {})[row.id] = echo
+    columns: tuple[Column, ...] = name_columns(
+        [
+            *(words(f"heading.{key}") for key in ("input", "column_of", "unit")),
+            *(show_text(row.id) for row in rows),
+        ],
+        numbers=(),
+    )
+    return Table(
+        caption=words("caption.site_inputs"),
+        columns=columns,
+        rows=tuple(
+            (
+                text_cell(label),
+                text_cell(_name_column(list(by_row.values()))),
+                text_cell(show_unit(unit)),
+                *(_show_input(by_row.get(row.id), words) for row in rows),
+            )
+            for (label, unit), by_row in lines.items()
+            if any(echo.value not in ("", row_id) for row_id, echo in by_row.items())
+        ),
+        empty=words("show.none"),
+    )
+
+
+def _show_input(echo: InputEcho | None, words: Words) -> Cell:
+    if echo is None or echo.value == "":
+        return text_cell(MISSING)
+    mark = _BY_DEFAULT if echo.cell == DEFAULT else ""
+    text = show_value(echo, words)
+    return text_cell(text + mark + (_DERIVED if echo.derivation else ""))
+
+
+def show_value(echo: InputEcho, words: Words) -> str:
+    """Input as it was typed; a length that follows from others, in cm."""
+    value = understand(echo, words)
+    if isinstance(value, str):
+        return value
+    is_length = echo.unit == "m" and echo.derivation
+    return words.show_fixed(value, 2) if is_length else words.show_given(value)
+
+
+def _name_column(echoes: Sequence[InputEcho]) -> str:
+    """Sheet and column of an input, of the rows that have it: ``Nets!C``.
+
+    A cell that several rows share stands whole: its value holds for all of them.
+    """
+    cells = [echo.cell for echo in echoes if echo.cell != DEFAULT]
+    places = {
+        one if cells.count(one) > 1 else one.rstrip("0123456789") for one in cells
+    }
+    return ", ".join(sorted(places))
+
+
+_ASSUMED = "assumed"  # status of a value that nobody has confirmed
+
+
+def show_profile(study: Study, words: Words) -> Part:
+    """Annex with the values of the profile; sources that recur have numbers."""
+    numbered, sources = _number_sources(build_profile(study, words))
+    return section(
+        "annex-profile",
+        words("heading.annex_profile"),
+        Paragraph(text=name_profile(study, words)),
+        numbered.shown("profile"),
+        *(Paragraph(text=source, look="small") for source in sources),
+    )
+
+
+def build_profile(study: Study, words: Words) -> Table:
+    """Values of the limit profile."""
+    keys = ("clause", "value_of", "value", "unit", "status", "source")
+    headings = [words(f"heading.{key}") for key in keys]
+    return Table(
+        caption=words("caption.every_value"),
+        columns=name_columns(headings, numbers=(words("heading.value"),)),
+        rows=tuple(
+            (
+                text_cell(value.clause),
+                text_cell(show_own(words, value.text)),
+                given_cell(words, value.value),
+                text_cell(show_unit(value.unit)),
+                text_cell(words.show(name("status", value.status))),
+                text_cell(show_own(words, value.source)),
+            )
+            for value in study.profile.values
+        ),
+        empty=words("show.none"),
+    )
+
+
+def _number_sources(table: Table) -> tuple[Table, tuple[str, ...]]:
+    """The table with a number for each source that several values have, and those."""
+    counts = Counter(cells[-1].text for cells in table.rows)
+    shared = [source for source, count in counts.items() if count > 1]
+    numbers = {source: f"[{k}]" for k, source in enumerate(shared, 1)}
+    rows = tuple(
+        (*cells[:-1], Cell(text=numbers.get(cells[-1].text, cells[-1].text)))
+        for cells in table.rows
+    )
+    told = tuple(f"{number} {source}" for source, number in numbers.items())
+    return replace(table, rows=rows), told
+
+
+def name_profile(study: Study, words: Words) -> str:
+    """Title and edition of the limit profile."""
+    return show_own(words, f"{study.profile.title}, {study.profile.edition}")
+
+
+def count_assumed(study: Study) -> tuple[int, int]:
+    """Values of the profile that nobody has confirmed, and all of them."""
+    values = study.profile.values
+    return sum(one.status == _ASSUMED for one in values), len(values)
+
+
+def list_below_one(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
+    """Factors below 1, each with the reason that the profile gives."""
+    return tuple(
+        words(
+            "show.label",
+            label=f"{show_own(words, value.text)} = "
+            f"{words.show_quantity(value.value, value.unit)}",
+            text=words("note.below_one", reason=show_text(value.reason_below_one)),
+        )
+        for value in profile.values
+        if value.reason_below_one
+    )
+
 
 _SCOPE = ("avalanche", "structure", "ground", "product")
 _READING = (
@@ -34,6 +223,7 @@ _READING = (
 )
 # Left empty, its factor is taken by the guideline's load.
 _ALTITUDE = say("column.Nets.altitude")
+_NAME = say("column.Nets.id")
 # Net rows of which each is named; of more, those that are left out may be fewer.
 _FEW_ROWS = 8
 
@@ -45,7 +235,7 @@ def show_basis(study: Study, words: Words) -> Part:
     notes = list_notes(study, words)
     listed: dict[str, tuple[Block, ...]] = {
         "scope": list_scope(study, words),
-        "limit_profile": tuple(_show_profile(study, words)),
+        "limit_profile": tuple(_list_profile(study, words)),
         "ranges": (show_ranges(study, words).shown("inputs"),),
         "not_typed": (_list(defaults, words),),
         "notes": (_list(notes, words),),
@@ -84,7 +274,7 @@ def _tabulate_scope(study: Study, words: Words) -> Table:
     )
 
 
-def _show_profile(study: Study, words: Words) -> Iterator[Block]:
+def _list_profile(study: Study, words: Words) -> Iterator[Block]:
     """The limit profile in some lines, and the least load."""
     profile = study.profile
     assumed, count = count_assumed(study)
@@ -227,6 +417,24 @@ def list_defaults(study: Study, words: Words) -> list[str]:
         )
         for (what, value), who in found.items()
     ]
+
+
+def anchor_rows(study: Study) -> dict[str, str]:
+    """Place of each net row in the page; rows alike but for their names share one."""
+    anchors: dict[str, str] = {}
+    known: list[tuple[RowStudy, str]] = []
+    for number, row in enumerate(study.rows, 1):
+        plain = _leave_out_name(row)
+        found = (anchor for other, anchor in known if other == plain)
+        anchors[row.id] = next(found, f"row-{number}")
+        known.append((plain, anchors[row.id]))
+    return anchors
+
+
+def _leave_out_name(row: RowStudy) -> RowStudy:
+    """The row as if it stood in no line of a workbook."""
+    inputs = [replace(one, cell="") for one in row.inputs if one.label != _NAME]
+    return replace(row, id="", inputs=inputs)
 
 
 def name_rows(names: Sequence[str], study: Study, words: Words) -> str:

@@ -6,43 +6,47 @@ import shlex
 from collections.abc import Iterator
 
 from netdesign.outcome import Verdict
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
+    HIDDEN,
+    Badge,
     Block,
+    Cell,
+    Content,
     Heading,
     Items,
     Pair,
     Pairs,
     Paragraph,
     Part,
-    masthead,
-    section,
-)
-from netdesign.report.blocks.table import (
-    Cell,
+    Piece,
     Table,
+    masthead,
     name_columns,
     rich_cell,
+    section,
+    strong,
     text_cell,
 )
-from netdesign.report.blocks.text import HIDDEN, Badge, Content, Piece, strong
 from netdesign.report.governing import SEVERITY, find_governing
 from netdesign.report.sections.basis import (
+    DEFAULT,
+    anchor_rows,
+    count_assumed,
     count_defaults,
     describe_floor,
     has_other_floor,
+    name_profile,
     name_rows,
 )
-from netdesign.report.sections.changes import list_flips
 from netdesign.report.sections.checks import (
     badge_cell,
     describe_briefly,
     describe_cause,
+    list_flips,
     name_checks,
     name_few,
     show_used,
 )
-from netdesign.report.sections.inputs import DEFAULT
-from netdesign.report.sections.profile import count_assumed, name_profile
 from netdesign.report.what_if import build_what_if, mark_verdict, name_study
 from netdesign.report.words import (
     MISSING,
@@ -127,12 +131,13 @@ def _tabulate_rows(study: Study, words: Words, *, has_rows: bool) -> Block:
     if not study.rows:
         return Paragraph(text=t("heading.no_rows"), look="none")
     keys = ("net_row", "verdict", "governing_check", "utilisation", "reason")
+    anchors = anchor_rows(study)
     return Table(
         caption=t("caption.decision"),
         columns=name_columns([t(f"heading.{key}") for key in keys], numbers=()),
         rows=tuple(
-            _list_row(row, f"row-{number}" if has_rows else "", words)
-            for number, row in enumerate(study.rows, 1)
+            _list_row(row, anchors[row.id] if has_rows else "", words)
+            for row in study.rows
         ),
         look="summary",
     )

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from netdesign.report.blocks.block import Block, Figure, Paragraph, Part, section
-from netdesign.report.blocks.table import (
+from netdesign.report.blocks import (
+    Block,
     Cell,
+    Figure,
+    Paragraph,
+    Part,
     Table,
     fixed_cell,
     name_columns,
     number_cell,
+    section,
     text_cell,
     text_column,
 )
-from netdesign.report.drawing.load_figure import draw_loads
+from netdesign.report.drawing.chain_figure import draw_loads
 from netdesign.report.words import Words
 from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.find_input import find_input

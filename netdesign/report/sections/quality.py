@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from netdesign.outcome import Outcome
-from netdesign.report.blocks.block import Block, Items, Paragraph, Part, section
-from netdesign.report.blocks.table import (
+from netdesign.report.blocks import (
+    Block,
     Cell,
     Column,
+    Items,
+    Paragraph,
+    Part,
     Table,
     fixed_cell,
     given_cell,
@@ -16,6 +19,7 @@ from netdesign.report.blocks.table import (
     number_cell,
     number_column,
     quantity_column,
+    section,
     text_cell,
     text_column,
 )

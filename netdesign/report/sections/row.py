@@ -6,44 +6,46 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.blocks.block import (
+from netdesign.report.blocks import (
+    Badge,
     Block,
+    Cell,
+    Column,
     Figure,
     Heading,
     Items,
     Paragraph,
     Part,
-    section,
-)
-from netdesign.report.blocks.table import (
-    Cell,
-    Column,
+    Piece,
     Table,
+    keep_units,
+    name_columns,
     number_cell,
     rich_cell,
+    section,
+    small,
+    symbols,
     text_cell,
 )
-from netdesign.report.blocks.text import Badge, Piece, keep_units, small, symbols
 from netdesign.report.drawing.chain_figure import draw_chains
-from netdesign.report.drawing.monitoring_figure import (
+from netdesign.report.drawing.charts import (
     describe_monitoring,
     draw_monitoring,
 )
+from netdesign.report.drawing.envelope_maps import draw_envelope
 from netdesign.report.drawing.panel_figure import draw_panel
-from netdesign.report.drawing.row_envelope import draw_envelope
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.governing import find_shown, is_far_from_limit
-from netdesign.report.sections.anchor_tests import show_tests
-from netdesign.report.sections.changes import show_changes
+from netdesign.report.sections.basis import show_value
 from netdesign.report.sections.checks import (
     CheckLine,
     describe_loads,
     list_lines,
     name_few,
     part_lines,
+    show_changes,
     show_used,
 )
-from netdesign.report.sections.inputs import show_value
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import (
     MISSING,
@@ -54,8 +56,127 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.study.records import CheckRecord, RowStudy
+from netdesign.study.records import (
+    CheckRecord,
+    RowStudy,
+    SingleTestRecord,
+    TestsRecord,
+)
 from netdesign.words.message import Message
+from netdesign.words.names import name
+
+_Tested = list[tuple[CheckRecord, TestsRecord, float | None]]
+
+
+def show_tests(row: RowStudy, words: Words) -> Iterator[Table]:
+    """Tables of the anchor types that were tested; none without tests."""
+    tested = list(_list_types(row))
+    if tested:
+        yield _tabulate_routes(tested, words)
+    if any(tests.singles for _, tests, _ in tested):
+        yield _tabulate_singles(tested, words)
+
+
+def _list_types(
+    row: RowStudy,
+) -> Iterator[tuple[CheckRecord, TestsRecord, float | None]]:
+    """First check of each tested type, its tests, and the largest design force [kN]."""
+    checks: dict[str, list[CheckRecord]] = {}
+    for check in row.checks:
+        if check.tests is not None:
+            checks.setdefault(check.resistance_type, []).append(check)
+    for first, *others in checks.values():
+        forces = [one.read_band("E_d")[1] for one in (first, *others)]
+        known = [one for one in forces if one is not None]
+        force = max(known) if len(known) == len(forces) else None
+        if first.tests is not None:
+            yield first, first.tests, force
+
+
+def _tabulate_routes(tested: _Tested, words: Words) -> Table:
+    routes = list(tested[0][1].routes)
+    names = [f"{words.show(name('route', one))}\nR_k [kN]" for one in routes]
+    headings = [words("heading.type"), words("tests.number"), *names]
+    rows: list[tuple[Cell, ...]] = []
+    for check, tests, _ in tested:
+        numbers = (
+            number_cell(words, "resistance_kN", tests.routes[one]) for one in routes
+        )
+        kind, count = text_cell(check.resistance_type), text_cell(f"{tests.count}")
+        rows.append((kind, count, *numbers))
+        remarks = words.join(_list_remarks(tests, words))
+        if remarks:
+            rows.append((rich_cell((Piece(remarks, "small"),)),))
+    counting = words.show(name("route", tested[0][1].route))
+    return Table(
+        caption=words("tests.by_route", route=counting),
+        columns=name_columns(headings, numbers=names),
+        rows=tuple(rows),
+        symbols="headings",
+    )
+
+
+def _list_remarks(tests: TestsRecord, words: Words) -> Iterator[str]:
+    """Lower bounds, and why a way gives no number."""
+    held = sum(one.is_held is True for one in tests.singles)
+    if held:
+        key = "tests.all_held" if held == tests.count else "tests.some_held"
+        yield words(key, held=held, count=tests.count)
+    for route, reason in tests.reasons.items():
+        label = words.show(name("route", route))
+        yield words("show.label", label=label, text=words.show(reason))
+
+
+def _tabulate_singles(tested: _Tested, words: Words) -> Table:
+    keys = ("load", "proof", "displacement", "outcome", "wanted", "accepted")
+    headings = [words(f"tested.{key}") for key in keys]
+    rows = tuple(
+        _show_single(check, one, tests.proof_factor, force, words)
+        for check, tests, force in tested
+        for one in tests.singles
+    )
+    return Table(
+        caption=words("tests.acceptance"),
+        columns=name_columns(
+            [words("heading.type"), words("tests.cell"), *headings],
+            numbers=[headings[0], headings[1], headings[2], headings[4]],
+        ),
+        rows=rows,
+        symbols="headings",
+    )
+
+
+def _show_single(
+    check: CheckRecord,
+    one: SingleTestRecord,
+    factor: float | None,
+    force: float | None,
+    words: Words,
+) -> tuple[Cell, ...]:
+    wanted = None if factor is None or force is None else factor * force
+    moved = one.displacement_mm
+    outcome = {True: "held", False: "pulled", None: "not_said"}[one.is_held]
+    return (
+        text_cell(check.resistance_type),
+        text_cell(show_text(one.cell)),
+        number_cell(words, "demand_kN", one.load_kN),
+        number_cell(words, "demand_kN", one.proof_load_kN),
+        text_cell(MISSING if moved is None else words.write(f"{moved:.1f}")),
+        text_cell(words(f"tested.{outcome}")),
+        number_cell(words, "demand_kN", wanted),
+        text_cell(words(f"tested.{_judge(one, wanted)}")),
+    )
+
+
+def _judge(one: SingleTestRecord, wanted: float | None) -> str:
+    """Acceptance of an anchor by its test: yes, no, or open."""
+    if one.is_held is False:
+        return "no"
+    loads = [load for load in (wanted, one.proof_load_kN) if load is not None]
+    if loads and one.load_kN < max(loads):
+        return "no"
+    return "yes" if one.is_held and wanted is not None else "open"
+
 
 # Inputs beside the drawing; all of them stand in the table of all rows.
 _SHOWN = (
@@ -65,14 +186,18 @@ _SHOWN = (
 )
 
 
+_BESIDE = 240  # signs that find room beside a drawing
+
+
 @dataclass(frozen=True, slots=True)
 class RowSections:
     """Builds the sections of one row, the notes that are ``told`` elsewhere left out.
 
-    ``anchor`` is its place in the page.
+    ``anchor`` is its place in the page, ``ids`` are the names of all rows like it.
     """
 
     row: RowStudy
+    ids: Sequence[str]
     anchor: str
     words: Words
     told: frozenset[str]
@@ -80,7 +205,8 @@ class RowSections:
     def build(self) -> Part:
         """All sections of the row."""
         row, t = self.row, self.words
-        name = f"{t('heading.net_row')} {show_text(row.id)}"
+        key = "net_row" if len(self.ids) == 1 else "net_rows"
+        name = f"{t(f'heading.{key}')} {', '.join(map(show_text, self.ids))}"
         title = (
             Piece(name, "name"),
             Piece(" "),
@@ -102,14 +228,14 @@ class RowSections:
                     "worked", t("heading.worked_check"), *self._show_worked()
                 ),
                 self._section("envelope", t("heading.envelope"), self._show_envelope()),
-                self._section("changes", heading, *changes),
+                self._section("changes", heading, *changes, look=_find_room(changes)),
                 *self._show_further(),
                 Paragraph(text=name, look="running", on="page"),
             ),
         )
 
-    def _section(self, name: str, heading: str, *blocks: Block) -> Part:
-        return section(f"{self.anchor}-{name}", heading, *blocks, level=3)
+    def _section(self, name: str, heading: str, *blocks: Block, look: str = "") -> Part:
+        return section(f"{self.anchor}-{name}", heading, *blocks, level=3, look=look)
 
     def _none(self, key: str) -> Paragraph:
         return Paragraph(text=self.words(key), look="none")
@@ -273,3 +399,9 @@ class RowSections:
         if row.panel and row.panel.assumed:
             names = tuple(map(t.show, row.panel.assumed))
             yield t("panel.assumed", names=names)
+
+
+def _find_room(blocks: Sequence[Block]) -> str:
+    """Look of what makes a row pass: short, it stands beside the envelope on paper."""
+    texts = [str(x) for one in blocks if isinstance(one, Items) for x in one.items]
+    return "beside" if sum(map(len, texts)) <= _BESIDE else ""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from netdesign.files.rows_map import RowsMap
-from netdesign.report.blocks.block import Figure, Part, section
+from netdesign.report.blocks import Figure, Part, section
 from netdesign.report.drawing.rows_map import MappedRow, draw_rows_map
 from netdesign.report.governing import find_governing
+from netdesign.report.sections.basis import anchor_rows
 from netdesign.report.words import Words, show_text, show_verdict
 from netdesign.study.records import RowStudy, Study
 
@@ -26,9 +27,9 @@ def show_rows_map(
     has_rows : bool
         The report has a page of each row, which its name leads to.
     """
+    anchors = anchor_rows(study) if has_rows else {}
     rows = {
-        row.id: _tell_row(row, f"row-{number}" if has_rows else "", words)
-        for number, row in enumerate(study.rows, 1)
+        row.id: _tell_row(row, anchors.get(row.id, ""), words) for row in study.rows
     }
     caption = words(
         "rows_map.caption", grid=show_text(places.grid), sha256=show_text(places.sha256)

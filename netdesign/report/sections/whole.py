@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Literal
 
-from netdesign.report.blocks.block import Block, Contents, section
-from netdesign.report.blocks.text import Content, Piece, link
+from netdesign.report.blocks import Block, Content, Contents, Piece, link, section
 from netdesign.report.gate import require_consistent
 from netdesign.report.sections import (
+    annexes,
     basis,
     decision,
     guideline,
-    inputs,
-    model,
-    profile,
     quality,
-    quantities,
-    verify,
+    schedule,
     worked,
 )
 from netdesign.report.sections.row import RowSections
@@ -29,7 +25,6 @@ if TYPE_CHECKING:  # it brings numpy, which a report without a map does without
     from netdesign.files.rows_map import RowsMap
 
 Detail = Literal["summary", "full"]  # two pages for the client, and everything
-_ROW = ("drawing", "checks", "worked", "envelope", "changes")
 _PARTS = ("basis", "schedule")
 _ANNEXES = (
     *("annex-checks", "annex-model", "annex-profile", "annex-quality"),
@@ -68,38 +63,36 @@ def build_report(
     if detail == "summary":
         listed = basis.list_scope(study, words)
         scope = section("scope", words("heading.scope"), *listed)
-        return (
-            *begun,
-            *answered,
-            *mapped,
-            quantities.show_quantities(study, words),
-            scope,
-        )
+        ordered = schedule.show_quantities(study, words)
+        return *begun, *answered, *mapped, ordered, scope
     return (
         *begun,
         _list_contents(study, words, has_map=places is not None),
         *answered,
         basis.show_basis(study, words),
         *mapped,
-        quantities.show_schedule(study, words),
+        schedule.show_schedule(study, words),
         *_list_rows(study, words),
-        inputs.show_inputs(study, words),
+        basis.show_inputs(study, words),
         *_list_annexes(study, words),
     )
 
 
 def _list_rows(study: Study, words: Words) -> Iterator[Block]:
     told = frozenset(basis.share_notes(study, words))
-    for number, row in enumerate(study.rows, 1):
-        yield RowSections(row, f"row-{number}", words, told).build()
+    anchors = basis.anchor_rows(study)
+    rows = {anchors[row.id]: row for row in reversed(study.rows)}
+    for anchor in dict.fromkeys(anchors.values()):
+        ids = [name for name, one in anchors.items() if one == anchor]
+        yield RowSections(rows[anchor], ids, anchor, words, told).build()
 
 
 def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
     yield worked.show_all(study, words)
-    yield model.show_model(study, words)
-    yield profile.show_profile(study, words)
+    yield annexes.show_model(study, words)
+    yield basis.show_profile(study, words)
     yield quality.show_quality(study, words)
-    yield verify.show_verification(study, words)
+    yield annexes.show_verification(study, words)
 
 
 def _map_rows(
@@ -118,33 +111,21 @@ def _list_contents(study: Study, words: Words, *, has_map: bool) -> Contents:
     named = {name: words(f"heading.{name}") for name in parts}
     named["inputs"] = words("heading.inputs_of_rows")
     named |= {name: words(f"heading.{name.replace('-', '_')}") for name in _ANNEXES}
-    lines = [_list_links(named)]
+    lines = [_list_links(named.items())]
     if study.rows:
         label = words("show.label", label=words("heading.net_rows"), text="")
-        rows = {f"row-{k}": show_text(row.id) for k, row in enumerate(study.rows, 1)}
+        rows = [
+            (anchor, show_text(name))
+            for name, anchor in basis.anchor_rows(study).items()
+        ]
         lines.append((Piece(label), *_list_links(rows)))
     return Contents(heading=words("heading.contents"), lines=tuple(lines))
 
 
-def _list_links(links: dict[str, str]) -> Content:
+def _list_links(links: Iterable[tuple[str, str]]) -> Content:
     return tuple(
-        piece
-        for anchor, text in links.items()
-        for piece in (*link(anchor, text), Piece(" "))
+        piece for anchor, text in links for piece in (*link(anchor, text), Piece(" "))
     )
-
-
-def list_sections(study: Study, detail: Detail) -> list[str]:
-    """Ids of all sections that a report must have."""
-    of_rows = [
-        f"row-{number}-{name}"
-        for number in range(1, len(study.rows) + 1)
-        for name in _ROW
-    ]
-    if detail == "summary":
-        return ["decision", "todo", "quantities", "scope"]
-    of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs"]
-    return [*of_page, *of_rows, *_ANNEXES]
 
 
 def title_pages(study: Study, words: Words) -> str:

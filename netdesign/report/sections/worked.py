@@ -13,15 +13,20 @@ from dataclasses import replace
 from netdesign.calculation.formula import PRINTED, write_formula
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.steps import Step, evaluate
-from netdesign.report.blocks.block import Items, Paragraph, Part, section
-from netdesign.report.blocks.table import (
+from netdesign.report.blocks import (
     Cell,
+    Items,
+    Paragraph,
+    Part,
+    Piece,
     Table,
     name_columns,
     rich_cell,
+    section,
+    strong,
+    symbols,
     text_cell,
 )
-from netdesign.report.blocks.text import Piece, strong, symbols
 from netdesign.report.governing import rank_check
 from netdesign.report.sections.checks import describe_resistance, name_case
 from netdesign.report.words import (

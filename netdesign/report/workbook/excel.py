@@ -3,39 +3,37 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from datetime import UTC, datetime
 
 from netdesign.outcome import NetDesignError
-from netdesign.report.blocks.table import Table, text_cell, text_column
+from netdesign.report.blocks import Table, text_cell, text_column
 from netdesign.report.gate import require_consistent
+from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
+    build_inputs,
+    build_profile,
     list_defaults,
     list_notes,
     list_reading,
     show_ranges,
 )
-from netdesign.report.sections.changes import list_changes
-from netdesign.report.sections.inputs import build_inputs
-from netdesign.report.sections.profile import build_profile
+from netdesign.report.sections.checks import list_changes
 from netdesign.report.sections.quality import (
     build_cases,
     build_extremes,
     stack_tables,
 )
-from netdesign.report.sections.quantities import build_quantities
-from netdesign.report.sections.schedule import build_schedule
-from netdesign.report.sections.verify import build_provenance
+from netdesign.report.sections.schedule import build_quantities, build_schedule
 from netdesign.report.sections.whole import title_pages
 from netdesign.report.what_if import build_what_if
 from netdesign.report.words import Words, show_text
 from netdesign.report.workbook.calculation_sheet import (
     Calculations,
+    GivenCells,
     add_calculation_sheet,
 )
-from netdesign.report.workbook.charts import add_case_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
-from netdesign.report.workbook.given_cells import GivenCells
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.workbook.writer import DEFAULT_FONT, Book
 from netdesign.study.records import Study
@@ -165,20 +163,7 @@ def _add_cases(book: Book, study: Study) -> None:
         stack_tables(words("caption.cases"), cases, words),
         stack_tables(words("caption.extremes"), extremes, words),
     ]
-    sheet = book.add_table_sheet("cases", words("heading.all_cases"), shown)
-    if shown[0].rows:
-        bottom = _FIRST_LINE + sum(_BETWEEN + len(one.rows) for one in shown)
-        add_case_chart(book, sheet, _span(cases, _FIRST_LINE), bottom)
-
-
-def _span(parts: Sequence[tuple[str, Table]], first: int) -> list[tuple[int, int]]:
-    """First and last line of each net row in a stacked table."""
-    spans = []
-    for _, table in parts:
-        if table.rows:
-            spans.append((first, first + len(table.rows) - 1))
-        first += len(table.rows)
-    return spans
+    book.add_table_sheet("cases", words("heading.all_cases"), shown)
 
 
 def _list_notes(book: Book, study: Study) -> Iterator[Table]:

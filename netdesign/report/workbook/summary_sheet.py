@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.report.blocks.table import Cell, Column
+from netdesign.report.blocks import Cell, Column
 from netdesign.report.governing import find_case, find_governing, find_highest
 from netdesign.report.sections.decision import (
     identify,
@@ -23,31 +23,28 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
-from netdesign.report.workbook.charts import add_utilisation_chart
-from netdesign.report.workbook.check_line import CHANGED, show_cached, show_load
+from netdesign.report.workbook.check_sheet import CHANGED, show_cached, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
-from netdesign.report.workbook.formulas import write_merged
-from netdesign.report.workbook.widths import count_lines, fit_headings
-from netdesign.report.workbook.writer import Book
-from netdesign.study.case_records import CasePoint
+from netdesign.report.workbook.formulas import quote, write_merged
+from netdesign.report.workbook.writer import Book, count_lines, fit_headings
 from netdesign.study.document import compute_digest
-from netdesign.study.records import RowStudy, Study
+from netdesign.study.records import CheckRecord, RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 9, 16, 6, 6, 6, 6, 9, 9, 6, 17, 17, 9, 20)
+_WIDTHS = (4, 9, 16, 6, 6, 6, 6, 9, 9, 17, 17, 9, 20)
 _ALL_WIDE, _LEAST = 163, 20  # characters of a line; of them for the reasons
 _LABELLED = 3  # columns of a label below the rows
 # Columns D, E, F, G, whose headings stand upright: their words are long.
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 _COUNTS = range(3, 7)
-_RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
-_HELD, _REASONS = 12, 13
-_STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
-_CASE_DECIMALS = 1
+_RATIO, _GOVERNING, _CASE, _HELD, _REASONS = 7, 9, 10, 11, 12
+_STORED = 5  # columns from a live sentence to the study's, which is hidden
+_BELOW = 9  # columns of what stands below the rows
 # Line, first and last column of each link to a sheet, as wide as its name is long.
-_LINKS = (
-    *((0, *place) for place in ((7, 8), (9, 10), (11, 11), (12, 12), (13, 13))),
-    *((1, *place) for place in ((7, 8), (9, 10), (11, 11))),
+_LINKS = tuple(
+    (line, *columns)
+    for line in (0, 1)
+    for columns in ((7, 8), (9, 9), (10, 10), (11, 12))
 )
 
 
@@ -64,7 +61,8 @@ def add_summary_sheet(book: Book, study: Study) -> None:
     book.write_head(sheet, _HEAD_ROW, _list_columns(book), widths, _COUNTS)
     for index, width in enumerate(widths):
         sheet.set_column(index, index, width)
-    sheet.set_column(_STUDY_REASONS, _STUDY_VERDICT, None, None, {"hidden": True})
+    hidden = [column + _STORED for column in (_GOVERNING, _CASE, _REASONS)]
+    sheet.set_column(min(hidden), max(hidden), None, None, {"hidden": True})
     if not study.rows:
         text = book.words("heading.no_rows")
         sheet.write_string(last, 1, text, book.text())
@@ -79,14 +77,6 @@ def add_summary_sheet(book: Book, study: Study) -> None:
     sheet.autofilter(_HEAD_ROW, 0, last, len(_WIDTHS) - 1)
     sheet.freeze_panes(_HEAD_ROW + 1, 2)
     sheet.repeat_rows(_HEAD_ROW)
-    rows, columns = (_HEAD_ROW + 1, last), (_RATIO, _LIMIT)
-    unbounded = [
-        _HEAD_ROW + number
-        for number, row in enumerate(study.rows, 1)
-        if any(check.is_unbounded for check in row.checks)
-    ]
-    place = (last + 2, _LIMIT + 1)
-    add_utilisation_chart(book, sheet, rows, columns, place, unbounded)
     _write_below(book, sheet, study, last + 2)
 
 
@@ -118,7 +108,6 @@ def _list_columns(book: Book) -> tuple[Column, ...]:
         *(Column(heading=book.word(v), is_number=True) for v in _COUNTED),
         Column(heading=words("heading.largest_utilisation"), is_number=True),
         Column(heading=words("heading.largest_high_end"), is_number=True),
-        Column(heading=words("heading.limit"), is_number=True),
         Column(heading=words("heading.governing_check")),
         Column(heading=words("heading.its_case")),
         Column(heading=words("heading.held_back")),
@@ -164,7 +153,6 @@ def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
     index = _HEAD_ROW + number
     line = index + 1
     verdicts = [check.verdict for check in row.checks]
-    held = row.verdict is not merge_verdicts(verdicts)
     sheet.write_number(index, 0, number, book.format(align="right"))
     formula = write_merged(
         {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEFG", strict=True)},
@@ -182,120 +170,47 @@ def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
         form = book.format(align="right")
         sheet.write_formula(index, column, count, form, verdicts.count(verdict))
     _write_largest(book, sheet, index, row)
-    sheet.write_number(index, _LIMIT, 1, book.format(align="right"))
-    _write_governing(book, sheet, index, row)
-    _write_reasons(book, sheet, index, row, is_held=held)
+    _write_words(book, sheet, index, row)
 
 
-def _write_own(index: int) -> str:
-    """Condition of a count: a check is of this net row."""
-    return f"check_net_row_number,A{index + 1}"
+def _write_words(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
+    """Governing check, its case and the reasons, while every check is as it was.
 
-
-def _write_governing_line(index: int) -> str:
-    """Line of the check that governs a row now, among the checks."""
-    return f"MATCH(_xlfn.MAXIFS(check_rank,{_write_own(index)}),check_rank,0)"
-
-
-def _write_governing(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
-    """Name and case of the check that decides now."""
-    mine, line = _write_own(index), _write_governing_line(index)
-    none = book.words("heading.no_check")
-    first, second, third = (
-        _write_mark(f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})", book)
-        for n in (1, 2, 3)
-    )
-    has_further = any(book.words.name_further(check.case) for check in row.checks)
-    further = f"&INDEX(check_case_further,{line})" if has_further else ""
-    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"{further}'
-    load = f'IFERROR(INDEX(check_load,{line}),"{MISSING}")'
-    form = book.text(text_wrap=True)
-    governing = find_governing(row.checks)
-    title = show_check(book.words, governing) if governing else none
-    is_there = f"COUNTIFS({mine})>0"
-    sheet.write_formula(
-        index,
-        _GOVERNING,
-        f'=IF({is_there},INDEX(check_name,{line}),"{none}")',
-        form,
-        title,
-    )
-    sheet.write_formula(
-        index,
-        _CASE,
-        f'=IFERROR(IF({is_there},{case},"{MISSING}"),{load})',
-        form,
-        _describe_case(book, row),
-    )
-
-
-def _describe_case(book: Book, row: RowStudy) -> str:
-    """Case that brings the governing demand, or the guideline's load case."""
+    Afterwards the sheet of checks says which one governs.
+    """
+    line, words = index + 1, book.words
     check = find_governing(row.checks)
+    held = row.verdict is not merge_verdicts(one.verdict for one in row.checks)
+    verdict = book.word(row.verdict)
+    cell = Cell(text=verdict if held else MISSING)
+    book.write_cell(sheet, (index, _HELD), Column(heading=""), cell)
+    texts = {
+        _GOVERNING: show_check(words, check) if check else words("heading.no_check"),
+        _CASE: _describe_case(check, words),
+        _REASONS: _explain(row, words),
+    }
+    mine = f"check_net_row_number,A{line}"
+    unchanged = f"COUNTIFS({mine},check_unchanged,1)=COUNTIFS({mine})"
+    form = book.text(text_wrap=True)
+    for column, text in texts.items():
+        stored = (index, column + _STORED)
+        book.write_cell(sheet, stored, Column(heading=""), Cell(text=text))
+        then = f"{chr(ord('A') + stored[1])}{line}"
+        now = quote(words(CHANGED) if column == _REASONS else MISSING)
+        formula = f"=IF(AND(C{line}={quote(verdict)},{unchanged}),{then},{now})"
+        sheet.write_formula(index, column, formula, form, text)
+    fields = {1: show_text(row.id), 2: verdict, **texts}
+    widths = _find_widths(book)
+    lines = count_lines(list(fields.values()), [widths[k] for k in fields])
+    book.set_height(sheet, index, lines)
+
+
+def _describe_case(check: CheckRecord | None, words: Words) -> str:
+    """Case that brings the governing demand, or the guideline's load case."""
     if check is None:
         return MISSING
     case = find_case(check)
-    return (
-        show_load(check, book.words) if case is None else _show_case(case, book.words)
-    )
-
-
-def _write_mark(number: str, book: Book) -> str:
-    """Formula of a number in a text, with the decimal mark of the study's language."""
-    mark = book.words.write(".")
-    return number if mark == "." else f'SUBSTITUTE({number},".","{mark}")'
-
-
-def _show_case(case: CasePoint, words: Words) -> str:
-    """Case as the formula shows it."""
-    values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
-    first, second, third = (
-        words.write(f"{round(one, _CASE_DECIMALS):.15g}") for one in values
-    )
-    return f"{first} kg/m³, φ {second}°, θ {third}°{words.name_further(case)}"
-
-
-def _write_reasons(
-    book: Book, sheet: Any, index: int, row: RowStudy, *, is_held: bool
-) -> None:
-    """Reasons of the study, as long as every check of the row is as it was.
-
-    Afterwards the reason of the check that governs now, which follows its verdict.
-    """
-    line, reasons = index + 1, _explain(row, book.words)
-    verdict = book.word(row.verdict)
-    texts = {
-        _HELD: verdict if is_held else MISSING,
-        _STUDY_REASONS: reasons,
-        _STUDY_VERDICT: verdict,
-    }
-    for column, text in texts.items():
-        cell = Cell(text=text)
-        book.write_cell(sheet, (index, column), Column(heading=""), cell)
-    of_row, check = _write_own(index), _write_governing_line(index)
-    colon = book.words("show.label", label="", text="")
-    passes = f'C{line}="{book.word(Verdict.PASS)}"'
-    name = f'IF({passes},"",INDEX(check_name,{check})&"{colon}")'
-    now = (
-        f"IFERROR(IF(INDEX(check_verdict,{check})=C{line},"
-        f'{name}&INDEX(check_reason,{check}),"{book.words("caption.changed_held")}"),'
-        f'"{book.words(CHANGED)}")'
-    )
-    formula = (
-        f"=IF(AND(C{line}=P{line},COUNTIFS({of_row},check_unchanged,1)="
-        f"COUNTIFS({of_row})),O{line},{now})"
-    )
-    form = book.text(text_wrap=True)
-    sheet.write_formula(index, _REASONS, formula, form, reasons)
-    check_now = find_governing(row.checks)
-    governing = show_check(book.words, check_now) if check_now else ""
-    fields = (
-        *((1, show_text(row.id)), (2, verdict)),
-        *((_GOVERNING, governing), (_REASONS, reasons)),
-    )
-    widths = _find_widths(book)
-    lines = count_lines([text for _, text in fields], [widths[k] for k, _ in fields])
-    book.set_height(sheet, index, lines)
+    return show_load(check, words) if case is None else words.name_case(case)
 
 
 def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
@@ -328,7 +243,7 @@ def _explain(row: RowStudy, words: Words) -> str:
 def _write_below(book: Book, sheet: Any, study: Study, top: int) -> None:
     """Open points, identification, room for signatures, under the rows."""
     head = book.text(bold=True, bottom=1)
-    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[_LABELLED:_LIMIT])
+    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[_LABELLED:_BELOW])
     words, project = book.words, study.project
     signed = (
         ("heading.prepared", project.author),
@@ -347,14 +262,14 @@ def _write_below(book: Book, sheet: Any, study: Study, top: int) -> None:
         ),
     ]
     for title, pairs in blocks:
-        for column in range(_LIMIT):
+        for column in range(_BELOW):
             shown = "" if column else book.words(title)
             sheet.write_string(top, column, shown, head)
         for label, value in pairs:
             top += 1
             sheet.merge_range(top, 0, top, _LABELLED - 1, "", wrapped)
             sheet.write_string(top, 0, label, wrapped)
-            sheet.merge_range(top, _LABELLED, top, _LIMIT - 1, "", wrapped)
+            sheet.merge_range(top, _LABELLED, top, _BELOW - 1, "", wrapped)
             sheet.write_string(top, _LABELLED, value, wrapped)
             lines = count_lines([label, value], [sum(_WIDTHS[:_LABELLED]), room])
             book.set_height(sheet, top, lines)

@@ -27,9 +27,8 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import Field, SheetPlan, normalise
 from netdesign.site.declared_sheet import list_check_names
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import Language, render, set_marks
 from netdesign.words.names import name_check
-from netdesign.words.numerals import set_marks
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from xlsxwriter.format import Format

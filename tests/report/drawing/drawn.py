@@ -10,9 +10,13 @@ import numpy as np
 from netdesign.coupling.face import Face
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
-from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
-from netdesign.report.drawing.grid_record import record_grid
-from netdesign.report.drawing.monitoring_figure import draw_monitoring
+from netdesign.report.drawing.charts import draw_monitoring
+from netdesign.report.drawing.envelope_maps import (
+    draw_drivers,
+    draw_lines,
+    draw_maps,
+    record_grid,
+)
 from netdesign.report.drawing.net_figures import draw_node_forces, draw_stick_slip
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section

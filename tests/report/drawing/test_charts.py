@@ -2,8 +2,8 @@ from xml.etree import ElementTree
 
 import pytest
 
+from netdesign.report.blocks import write_csv
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels, spread
-from netdesign.report.page.csv_text import write_csv
 
 TEXT = "{http://www.w3.org/2000/svg}text"
 MINUTE = 1.0 / 1440.0

@@ -5,8 +5,12 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
-from netdesign.report.drawing.grid_record import record_grid
+from netdesign.report.drawing.envelope_maps import (
+    draw_drivers,
+    draw_lines,
+    draw_maps,
+    record_grid,
+)
 from netdesign.report.drawing.plain_svg import Chart, Frame, list_ticks, shade
 from netdesign.study.case_records import (
     AxisRecord,

@@ -1,7 +1,7 @@
 from dataclasses import replace
 from xml.etree import ElementTree
 
-from netdesign.report.drawing.monitoring_figure import (
+from netdesign.report.drawing.charts import (
     describe_monitoring,
     draw_monitoring,
 )

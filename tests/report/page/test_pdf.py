@@ -3,15 +3,14 @@ from importlib.util import find_spec
 import pytest
 
 from netdesign.outcome import NetDesignError
-from netdesign.report.page import pdf
-from netdesign.report.page.html import render_html
+from netdesign.report import files
 from tests.report.build_study import build_study
 
 
 def test_without_the_library_the_wish_is_refused(monkeypatch):
-    monkeypatch.setattr(pdf, "find_spec", lambda _name: None)
+    monkeypatch.setattr(files, "find_spec", lambda _name: None)
     with pytest.raises(NetDesignError, match=r'pip install "netdesign\[pdf\]"'):
-        pdf.require_pdf()
+        files.require_pdf()
 
 
 @pytest.mark.skipif(
@@ -19,5 +18,7 @@ def test_without_the_library_the_wish_is_refused(monkeypatch):
 )
 @pytest.mark.filterwarnings("ignore")  # of the library's own
 def test_page_becomes_a_pdf():
-    content = pdf.render_pdf(render_html(build_study(rows=1), detail="summary"))
+    content = files.render_kind(
+        ".pdf", build_study(rows=1), files.ReportStyle(detail="summary")
+    )
     assert content.startswith(b"%PDF")

@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.outcome import Verdict
 from netdesign.report.sections.basis import (
+    anchor_rows,
     describe_accepted_law,
     list_defaults,
     name_rows,
@@ -85,3 +87,14 @@ def test_an_accepted_law_that_is_not_the_study_s_is_told_as_such(given, told):
     )
     assert found.endswith(told)
     assert bool(found) is bool(told)
+
+
+def test_rows_alike_but_for_their_names_share_a_place():
+    study = build_study(rows=1)
+    (row,) = study.rows
+    moved = [replace(one, cell=f"{one.cell}7") for one in row.inputs]
+    other = replace(row, id="other", verdict=Verdict.NOT_PROVEN)
+    again = replace(row, id="again", inputs=moved)
+    several = replace(study, rows=[row, other, again])
+    anchors = {row.id: "row-1", "other": "row-2", "again": "row-1"}
+    assert anchor_rows(several) == anchors

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.sections.changes import (
+from netdesign.report.sections.checks import (
     describe_change,
     list_changes,
     list_limits,

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.drawing.load_figure import draw_loads
+from netdesign.report.drawing.chain_figure import draw_loads
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.sections.guideline import show_difference
 from netdesign.report.words import ENGLISH, Words

@@ -5,18 +5,16 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import list_standards, load_standard
-from netdesign.report.sections.inputs import build_inputs, show_inputs
-from netdesign.report.sections.profile import name_profile
-from netdesign.report.sections.verify import build_provenance
+from netdesign.report.sections.annexes import build_provenance
+from netdesign.report.sections.basis import build_inputs, name_profile, show_inputs
 from netdesign.report.words import ENGLISH, Words
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.model import InputEcho
 from netdesign.site.ranges import SEARCHED
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.study.record_provenance import name_law
-from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.catalogue import LANGUAGES, set_marks
 from netdesign.words.message import say
-from netdesign.words.numerals import set_marks
 from tests.report.build_study import build_study
 
 SLIP = InputEcho(

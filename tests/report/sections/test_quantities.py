@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.sections.quantities import build_quantities
+from netdesign.report.sections.schedule import build_quantities
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.parts import PartRecord

@@ -29,7 +29,7 @@ EXPECTED = {
     "strong": ("PROVEN ELSEWHERE", "PASS", "PROVEN ELSEWHERE"),
     "weak": ("FAIL", "PASS", "FAIL"),
     "no resistance": ("PROVEN ELSEWHERE", "PASS", "PROVEN ELSEWHERE"),
-    "set to pass": ("NOT PROVEN", "PASS", "NOT PROVEN"),
+    "set to pass": ("PROVEN ELSEWHERE", "PASS", "PROVEN ELSEWHERE"),
     "another set to declared": ("PROVEN ELSEWHERE", "NOT PROVEN", "NOT PROVEN"),
 }
 
@@ -105,21 +105,19 @@ def test_a_study_may_not_call_a_check_declared_without_a_declaration():
 # Key of the sentence of the first two checks; None where they stand as in the study.
 REASONS = {
     "as it was": (None, None),
-    "strong": ("set", None),
-    "weak": ("fails", None),
-    "no resistance": ("set", None),
-    "set to pass": ("lacks", None),
-    "another set to declared": (None, "lacks"),
+    "strong": ("changed", None),
+    "weak": ("changed", None),
+    "no resistance": ("changed", None),
+    "set to pass": (None, None),
+    "another set to declared": (None, "changed_factor"),
 }
 
 
 @pytest.mark.parametrize("name", EDITS)
-def test_the_reason_follows_what_decides_a_declared_check(name, fresh):
+def test_the_reason_of_a_declared_check_goes_with_its_numbers(name, fresh):
     sheet = read_workbook(fresh[name])["Checks"]
-    told = {
-        Words("en")(f"caption.changed_{one}"): one for one in ("set", "fails", "lacks")
-    }
-    found = tuple(told.get(sheet[f"X{line}"].value) for line in (LINE, LINE + 1))
+    told = {Words("en")(f"caption.{x}"): x for x in ("changed", "changed_factor")}
+    found = tuple(told.get(sheet[f"W{line}"].value) for line in (LINE, LINE + 1))
     assert found == REASONS[name]
 
 
@@ -133,4 +131,5 @@ def test_a_row_that_the_study_holds_back_says_so(tmp_path):
     content = recalculate({"held": buffer.getvalue()}, tmp_path)["held"]
     summary = read_workbook(content)["Decision"]
     assert summary["C6"].value == "NOT PROVEN"
-    assert summary["N6"].value == Words("en")("caption.changed_held")
+    assert summary["L6"].value == "NOT PROVEN"
+    assert summary["M6"].value == Words("en")("caption.changed")

@@ -1,5 +1,4 @@
 import io
-import zipfile
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +9,7 @@ from xlsxwriter.worksheet import Worksheet
 from netdesign.calculation.quantity import Kind
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words
-from netdesign.report.workbook.check_line import CHANGED
+from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.study.document import compute_digest
 from netdesign.words.catalogue import LANGUAGES, load_texts
@@ -87,7 +86,6 @@ SPOILS = [
     *((*place, value) for place in FACTORS for value in (*NO_NUMBERS, 0, 0.0)),
     *((*place, value) for place in ACTIONS for value in NO_NUMBERS),
     *(("E_k", "E", 1e4), ("E_k", "D", 1e4)),
-    *(("", "R", value) for value in (None, "PASS", "abc", 0)),  # set by the study
     *(("", letter, value) for letter in "FHLMP" for value in (None, "abc", 0.5)),
 ]
 MANY = build_many(len(SPOILS))
@@ -253,35 +251,35 @@ def test_what_is_no_number_never_passes(language, fresh):
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_sentences_of_the_study_go_where_they_no_longer_hold(language, fresh):
     words, book = Words(language), read_workbook(fresh[f"spoilt-{language}"])
-    sheet, changed = book[words("heading.checks")], words(CHANGED)
+    sheet = book[words("heading.checks")]
+    changed = {words(CHANGED), words("caption.changed_factor")}
     spoilt = [line for (line, _), _ in zip(LOADED, SPOILS, strict=False)]
-    reasons = {words(f"caption.changed_{one}") for one in ("lacks", "spans")}
     for line, check in LOADED:
-        assert (sheet[f"W{line}"].value == changed) is (line in spoilt), check.id
-        assert (sheet[f"X{line}"].value in reasons) is (line in spoilt), check.id
+        shown = {sheet[f"{letter}{line}"].value for letter in "VW"}
+        assert (len(shown) == 1 and shown <= changed) is (line in spoilt), check.id
     summary = book[words("heading.decision")]
     assert summary["D3"].value == words("meaning.not_proven")
-    name = sheet["C5"].value  # the first of those not proven
-    assert summary["K6"].value == name
-    told = words("caption.changed_lacks")
-    assert summary["N6"].value == words("show.label", label=name, text=told)
+    assert [summary[f"{letter}6"].value for letter in "JKM"] == [
+        *("-", "-", words(CHANGED))
+    ]
 
 
-def test_what_governs_and_why_follows_an_edited_cell(fresh):
+def test_what_governs_goes_with_the_numbers(fresh):
+    book = read_workbook(fresh["en"])
+    checks, summary = book["Checks"], book["Decision"]
+    assert {summary[f"J{line}"].value for line in (6, 7, 8)} <= {
+        line["Check"] for line in read_rows(checks, "No.")
+    }
+    assert summary["K6"].value == "450 kg/m³, φ 15°, θ 35°"
     book = read_workbook(fresh["edited"])
     checks, summary = book["Checks"], book["Decision"]
-    assert [summary[f"K{line}"].value for line in (6, 7, 8)] == [
-        "Foot anchor, pull-out", "Foot anchor, pull-out", "Foot anchor, pull-out"
-    ]  # fmt: skip
-    assert summary["L6"].value == "450 kg/m³, φ 15°, θ 35°"
-    fails, lacks, passes = (
-        ENGLISH(f"caption.changed_{one}") for one in ("fails", "lacks", "passes")
-    )
-    assert [checks[f"X{line}"].value for line in (5, 6, 18, 22)] == [
-        "Failed cases.", fails, lacks, passes
-    ]  # fmt: skip
+    assert [checks[f"W{line}"].value for line in (5, 6, 18, 22)] == [
+        *("Failed cases.", *(ENGLISH(CHANGED),) * 3)
+    ]
     assert summary["D3"].value == ENGLISH("meaning.fail")
-    assert summary["N6"].value == f"Foot anchor, pull-out: {fails}"
+    for line in (6, 7, 8):
+        found = [summary[f"{letter}{line}"].value for letter in "JKM"]
+        assert found == ["-", "-", ENGLISH(CHANGED)]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -365,7 +363,7 @@ def test_sheets_are_ready_to_read_and_print(content):
         captions = sum(bool(cell.font.i) for cell in sheet["A"])
         is_one = captions == 1 or sheet.title in ("Decision", "Checks")
         assert bool(sheet.print_title_rows) is is_one, sheet.title
-    assert book["Checks"].auto_filter.ref == "A4:AA25"
+    assert book["Checks"].auto_filter.ref == "A4:W25"
     assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
         book.defined_names
     )
@@ -407,19 +405,19 @@ def list_live(book):
 @pytest.mark.parametrize("name", ["other-value", "no-value"])
 def test_nothing_is_proven_by_a_profile_that_was_not_solved(name, fresh):
     book = read_workbook(fresh[name])
-    reason = ENGLISH("caption.changed_profile")
+    reason = ENGLISH("caption.changed_factor")
     assert {(one, why) for one, _, why in list_live(book)} == {("NOT PROVEN", reason)}
     summary = book["Decision"]
     assert summary["C3"].value == "NOT PROVEN"
-    assert summary["N6"].value == f"{summary['K6'].value}: {reason}"
+    assert summary["M6"].value == ENGLISH(CHANGED)
 
 
-# A factor on all actions of a study that passes; verdict and reason of its checks.
+# A factor on all actions of a study that passes, and the verdict of its checks.
 FACTOR_EDITS = {
-    "eases": (0.75, "pass", "passes"),
-    "breaks": (4.5, "fail", "fails"),
-    "spans": (None, "not_proven", "spans"),
-    "lacks": ("", "not_proven", "lacks"),
+    "eases": (0.75, "pass"),
+    "breaks": (4.5, "fail"),
+    "spans": (None, "not_proven"),
+    "lacks": ("", "not_proven"),
 }
 
 
@@ -449,7 +447,7 @@ def factored(tmp_path_factory):
     books = {
         f"{language}-{name}": edit_factor(language, factor)
         for language in LANGUAGES
-        for name, (factor, *_) in FACTOR_EDITS.items()
+        for name, (factor, _) in FACTOR_EDITS.items()
     }
     return recalculate(books, tmp_path_factory.mktemp("factored"))
 
@@ -457,26 +455,19 @@ def factored(tmp_path_factory):
 @pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("name", FACTOR_EDITS)
-def test_the_reason_follows_the_verdict_of_another_factor(language, name, factored):
+def test_no_sentence_outlives_the_verdict_of_another_factor(language, name, factored):
     words, book = Words(language), read_workbook(factored[f"{language}-{name}"])
-    _, verdict, reason = FACTOR_EDITS[name]
+    _, verdict = FACTOR_EDITS[name]
     sheet, summary = book[words("heading.checks")], book[words("heading.decision")]
-    told = words(f"caption.changed_{reason}")
     lines = read_rows(sheet, words("heading.no"))
     found = [
         (one[words("heading.verdict")], one[words("heading.reason")]) for one in lines
     ]
-    assert (words(f"verdict.{verdict}"), told) in found
+    assert (words(f"verdict.{verdict}"), words(CHANGED)) in found
     stale = {words("check.passes"), words("check.fails")}
-    sentences = {words(f"caption.changed_{one}"): one for one in ("passes", "fails")}
-    for shown, why in found:
-        assert why not in stale or shown == words("verdict.pass")
-        if why in sentences:
-            key = {"passes": "pass", "fails": "fail"}[sentences[why]]
-            assert shown == words(f"verdict.{key}")
+    assert all(s not in stale or v == words("verdict.pass") for v, s in found)
     assert summary["C6"].value == words(f"verdict.{verdict}")
-    named = words("show.label", label=summary["K6"].value, text=told)
-    assert summary["N6"].value == (told if verdict == "pass" else named)
+    assert summary["M6"].value == words(CHANGED)
 
 
 def test_factors_of_the_profile_are_live(fresh):
@@ -548,15 +539,6 @@ def test_summary_leads_to_every_sheet_and_back(content):
     for sheet in list(book)[1:]:
         back = [c.hyperlink for line in sheet.iter_rows() for c in line if c.hyperlink]
         assert [link.location for link in back] == ["'Decision'!A1"]
-
-
-def test_charts_follow_the_cells(content):
-    with zipfile.ZipFile(io.BytesIO(content)) as parts:
-        charts = [parts.read(n).decode() for n in parts.namelist() if "/charts/" in n]
-    references = "".join(charts)
-    assert len(charts) == 2
-    for area in ("Decision!$H$6:$H$8", "Cases!$E$5:$E$31"):
-        assert area in references
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])

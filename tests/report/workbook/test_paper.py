@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import pytest
 
 from netdesign.report.workbook.excel import SHEETS, render_workbook
-from netdesign.report.workbook.pages import choose_paper
+from netdesign.report.workbook.writer import choose_paper
 from tests.programs import require_program
 from tests.report.build_study import build_study
 

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING
 from netdesign.site.columns.all_tables import NETS, USUAL_QUANTITIES, load_file
 from netdesign.site.template import workbook
 from netdesign.site.template.workbook import name_picture
-from netdesign.words.catalogue import Language
-from netdesign.words.numerals import LANGUAGES
+from netdesign.words.catalogue import LANGUAGES, Language
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

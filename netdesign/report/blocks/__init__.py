@@ -1,1 +1,0 @@
-"""Reports as blocks: what stands where, for every writer."""
