@@ -354,7 +354,7 @@ def test_pulls_added_as_numbers_are_said_and_never_less(solved):
     for one, told in ((vector, "as vectors"), (study, "as numbers")):
         assert [note for note in one.rows[0].notes if told in str(note)]
     as_vectors = replace(study, profile=replace(study.profile, shared_sum="vector"))
-    assert list(rejudge(as_vectors)) != []
+    assert list(rejudge(as_vectors, scalar)) != []
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -158,7 +158,9 @@ def test_the_audit_finds_a_panel_that_was_left_out(pair):
     assert rejudge(replace(study, rows=[replace(row, forces=left)]))
     plain = checks_of(pair[0])[name]
     checks = [plain if one.id == name else one for one in row.checks]
-    assert rejudge(replace(study, rows=[replace(row, checks=checks)]))
+    site = build_site(with_panel(a_panel()), ranges=RANGES, project=ACCEPTED)
+    assert rejudge(study, PROFILE, site) == []
+    assert rejudge(replace(study, rows=[replace(row, checks=checks)]), PROFILE, site)
 
 
 def test_ropes_are_told_as_information(pair):

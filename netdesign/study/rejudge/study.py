@@ -356,12 +356,10 @@ def rejudge(
     spans = _read_spans(study)
     is_steady = is_of_steady_states(study)
     tolerance = _read_number(study, "balance_tolerance") if is_steady else math.inf
-    law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
-    accepts_law = bool(law) and study.project.accepted_law == law
     for row in study.rows:
         parts = (
             rejudge_cases(row, spans, tolerance),
-            rejudge_checks(row, study.profile, accepts_law=accepts_law),
+            rejudge_checks(row, study.profile),
             rejudge_drawn(row, study.profile, is_steady=is_steady),
             rejudge_statics(row) if is_steady else iter(()),
             _rejudge_verdict(row),
