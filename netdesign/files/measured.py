@@ -7,7 +7,7 @@ from typing import Any
 
 from netdesign.site.model import Site
 from netdesign.snowpack.series import HeightSeries
-from netdesign.study.measured_pulls import explain_unused
+from netdesign.study.winter_row import explain_unused
 from netdesign.units import celsius_from_kelvin, kilonewton_from_newton
 from netdesign.winter.compared import Comparison, ComputedForce
 from netdesign.words.catalogue import Language, render

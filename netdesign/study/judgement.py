@@ -15,7 +15,6 @@ from netdesign.site.model import CONNECTED, NetRow, Resistance
 from netdesign.structure.members import ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
-from netdesign.study.calibration import find_doubt
 from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.check_to_record import (
     doubt_ground,
@@ -25,9 +24,9 @@ from netdesign.study.check_to_record import (
     record_geometry,
     record_result,
 )
-from netdesign.study.connection import connect
-from netdesign.study.corrosion import corrode
 from netdesign.study.dependent import (
+    connect,
+    corrode,
     find_resistance_for_force,
     find_short_post,
 )
@@ -43,7 +42,7 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.pulls import AnchorPull, check_directions, find_pull
 from netdesign.study.records import CheckRecord
-from netdesign.study.row_to_check import Basis
+from netdesign.study.row_to_check import Basis, find_doubt
 from netdesign.study.sideways import check_sideways
 from netdesign.words.message import Message, say
 from netdesign.words.names import name

@@ -15,7 +15,6 @@ from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.study.case_records import ForceRecord
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.effects import find_effects
@@ -30,6 +29,7 @@ from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import find_row_floor, record_floor
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.rejudge import rejudge
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.read_check import bring, compare_support
 from tests.small_site import RUN, build_row, build_site, resist

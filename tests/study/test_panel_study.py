@@ -21,11 +21,11 @@ from netdesign.site.model import (
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.read_check import bring, scale_force, scale_step
 from tests.small_site import (

@@ -21,8 +21,7 @@ from netdesign.report.words import (
     show_member,
 )
 from netdesign.structure.members import EndMember, NetPart
-from netdesign.study.find_input import find_input, find_word
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import CheckRecord, RowStudy, Study, find_input, find_word
 from netdesign.words.message import say
 from netdesign.words.names import name_mode
 

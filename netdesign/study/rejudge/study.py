@@ -14,7 +14,6 @@ from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
-from netdesign.study.calibration import is_calibrated
 from netdesign.study.case_records import FloorRecord
 from netdesign.study.effects import (
     RowEffects,
@@ -60,7 +59,7 @@ from netdesign.study.rejudge.cases import (
 )
 from netdesign.study.rejudge.checks import is_held_back, rejudge_checks
 from netdesign.study.rejudge.statics import rejudge_drawn, rejudge_statics
-from netdesign.study.row_to_check import Basis
+from netdesign.study.row_to_check import Basis, is_calibrated
 from netdesign.study.sideways import find_lack
 from netdesign.study.support_records import PanelRecord
 from netdesign.study.values import compare_values
