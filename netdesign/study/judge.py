@@ -25,7 +25,7 @@ from netdesign.study.case_records import (
 )
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import find_effects, record_end_effects
-from netdesign.study.judgement import Known
+from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_history_notes,
@@ -205,7 +205,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
 
 
 def _check_row(
-    task: RowToCheck, extremes: Mapping[str, Extreme], known: Known
+    task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
 ) -> tuple[list[CheckRecord], ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
@@ -222,7 +222,7 @@ def _check_row(
 
 def _list_notes(
     task: RowToCheck,
-    known: Known,
+    known: RowForces,
     checks: Sequence[CheckRecord],
     cases: Sequence[CaseRecord],
     panel: PanelRecord | None,
@@ -320,7 +320,7 @@ def know_row(
     extremes: Mapping[str, Extreme],
     gap: Message | None,
     floor: Floor | None,
-) -> Known:
+) -> RowForces:
     """Knowledge of a row by its cases and the guideline's load.
 
     ``gap`` says why the cases are not complete.
@@ -329,7 +329,7 @@ def know_row(
     effects = find_effects(row, standard, basis.site.ranges)
     head, record = floor.head if floor else None, record_floor(floor, row)
     held = find_held_sideways(row, results, extremes, standard, head)
-    return Known(
+    return RowForces(
         row=row,
         standard=standard,
         effects=effects,

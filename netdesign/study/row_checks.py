@@ -18,7 +18,6 @@ from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
 from netdesign.study.judgement import (
-    Known,
     MemberCheck,
     is_worst,
     judge_members,
@@ -29,6 +28,7 @@ from netdesign.study.judgement import (
 from netdesign.study.margins import find_margins, solve_ends
 from netdesign.study.member_force import (
     MemberForce,
+    RowForces,
     compute_end_factor,
     compute_tension_factor,
 )
@@ -45,7 +45,7 @@ _FAULT_BESIDE = say("check.fault_beside")
 
 
 def check_row(
-    task: RowToCheck, extremes: Mapping[str, Extreme], known: Known
+    task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
 ) -> list[CheckRecord]:
     """Every check of a row: the members of both supports, then the geometry.
 
@@ -165,14 +165,14 @@ def _find_end_growth(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> floa
         return _find_end_factor(task, ranges)
     effects = find_effects(task.basis.row, task.basis.standard, ranges)
     width = effects.find_support(one.width.position)
-    return compute_tension_factor(width, effects.post_spacing)
+    return compute_tension_factor(width, task.basis.row.layout.post_spacing)
 
 
 def _find_end_factor(task: RowToCheck, ranges: Ranges) -> float:
     """Factor of the end effect on a rope's pull, over some ranges [-]."""
     effects = find_effects(task.basis.row, task.basis.standard, ranges)
     edge = effects.find_support("edge")
-    return compute_end_factor(edge, effects.post_spacing)
+    return compute_end_factor(edge, task.basis.row.layout.post_spacing)
 
 
 def _follows_cases(one: MemberCheck) -> bool:

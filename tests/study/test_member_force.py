@@ -465,7 +465,7 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
         row = replace(site.rows[0], snow_thickness=thickness)
         force = a_floor(row).find(Member.FOOT_ANCHOR).force
         effects = find_effects(row, SWISS, RANGES)
-        share = effects.supports[1].width / effects.post_spacing
+        share = effects.supports[1].width / row.layout.post_spacing
         factor = share * math.hypot(1.0, effects.lateral_share)
         used = 1.5 * 1.35 * force * factor / 700e3
         assert (used <= 1.0) is is_met

@@ -22,13 +22,13 @@ from netdesign.study.effects import (
     record_end_effects,
 )
 from netdesign.study.judgement import (
-    Known,
     MemberCheck,
     judge_members,
     judge_with_fault,
     record_member,
     record_others,
 )
+from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import span_variants
 from netdesign.study.notes import list_judged_notes, list_reasons, list_site_notes
 from netdesign.study.parts import list_parts
@@ -225,11 +225,11 @@ def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Mess
 
 def _know_again(
     row: RowStudy, basis: Basis, effects: RowEffects, floor: FloorRecord | None
-) -> Known:
+) -> RowForces:
     """Knowledge of a row by what the study states of its solved cases."""
     panel = row.panel
     is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)
-    return Known(
+    return RowForces(
         row=basis.row,
         standard=basis.standard,
         effects=effects,
@@ -246,7 +246,7 @@ def _know_again(
     )
 
 
-def _check_again(row: RowStudy, basis: Basis, known: Known) -> list[CheckRecord]:
+def _check_again(row: RowStudy, basis: Basis, known: RowForces) -> list[CheckRecord]:
     """Checks of a row, judged again; a gap in its own words is one."""
     stored = {check.id: check for check in row.checks}
     judged = [
