@@ -50,24 +50,23 @@ def _record_cases(
         for state in _find_state(row, key, one.governing)
     ]
     every = (state for one in solved for state in list_states(row, one))
-    if states := sorted(every, key=lambda one: one.is_by_panel):
+    if states := sorted(every, key=lambda one: one.panel is not None):
         found += [
             (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS
         ]
-    for state, keys in _group(found, lambda one, other: one.anchors is other.anchors):
+    for state, keys in _group(found, _is_same):
         if state.foot is not None:
             yield _record_state(keys, state, None)
 
 
 def _find_state(row: NetRow, member: str, result: CaseResult) -> Iterator[SupportState]:
     """The case at rest or followed in time, whichever brings the member's force."""
-    both, anchors = result.compared, result.anchors
+    both, panel = result.compared, None
     if member in PANEL_QUANTITIES and isinstance(result.panel, PanelForces):
-        anchors = result.panel.find_worst(member).anchors
+        panel = result.panel.find_worst(member)
     elif both is not None:
         result = both.history if both.exceeds(member) else both.steady
-        anchors = result.anchors
-    return (one for one in list_states(row, result) if one.anchors is anchors)
+    return (one for one in list_states(row, result) if one.panel is panel)
 
 
 def _measure(state: SupportState) -> dict[str, float]:
@@ -90,6 +89,10 @@ def _group(
         else:
             keys.append(key)
     return groups
+
+
+def _is_same(one: SupportState, other: SupportState) -> bool:
+    return one.result is other.result and one.panel is other.panel
 
 
 def _is_same_load(one: FloorForce, other: FloorForce) -> bool:
@@ -121,7 +124,6 @@ def _record_floor_state(state: FloorForce, keys: list[str]) -> StaticsRecord:
     if not isinstance(anchors, AnchorForces):  # the floor has held it before
         raise TypeError("a state of the floor has no equilibrium")
     pulls = SupportState(
-        case=None,
         points=points,
         anchors=anchors,
         foot=EndPull(x=foot[0], y=foot[1], error=0.0),
@@ -152,7 +154,7 @@ def _record_state(
     uphill, downhill = anchors.head.guy_demands
     return StaticsRecord(
         brings=keys,
-        case=record_point(state.case) if state.case else None,
+        case=record_point(state.result.case) if state.result else None,
         load=load,
         foot_x_kN_per_m=kilonewton_from_newton(foot.x),
         foot_y_kN_per_m=kilonewton_from_newton(foot.y),
@@ -171,6 +173,6 @@ def _record_state(
         post_kN=kilonewton_from_newton(anchors.head.post_compression),
         post_base_kN=kilonewton_from_newton(max(-anchors.post_base.y, 0.0)),
         post_foot_kN=kilonewton_from_newton(anchors.head.post_tension),
-        is_by_panel=state.is_by_panel,
+        is_by_panel=state.panel is not None,
         mid_foot_kN=kilonewton_from_newton(math.hypot(*state.mid_foot)),
     )

@@ -16,7 +16,6 @@ from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.panel_forces import PanelForces
-from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
@@ -118,9 +117,9 @@ def _record(
 def _find_largest(heads: Sequence[SupportState], name: str) -> tuple[float, float]:
     """Largest weight over the heads [-], and the inclination there [deg]."""
     weighed = [
-        (float(getattr(weights, name)), one.case.inclination)
+        (float(getattr(weights, name)), one.result.case.inclination)
         for one in heads
-        if one.case and (weights := weigh_splay(one.points))
+        if one.result and (weights := weigh_splay(one.points))
     ]
     value, inclination = max(weighed, key=lambda one: one[0])
     return value, given_degree_from_radian(inclination)
@@ -177,8 +176,8 @@ class SupportState:
 
     Attributes
     ----------
-    case : Case or None
-        None under the guideline's load.
+    result, panel : CaseResult, PanelForces or None
+        What it is of; no result under the guideline's load, no panel by its section.
     points : SupportPoints
         Geometry [m].
     anchors : AnchorForces
@@ -187,25 +186,25 @@ class SupportState:
         Pulls of the net with their errors [N/m]; None without a solution.
     tension : float
         Least of the guys on both sides, of which one is at work [N].
-    mid_foot : (float, float)
-        Force on an anchor in mid-panel [N].
-    is_by_panel : bool
-        By a panel between posts.
     """
 
-    case: Case | None
+    result: CaseResult | None = None
+    panel: PanelForces | None = None
     points: SupportPoints
     anchors: AnchorForces
     foot: EndPull | None
     head: EndPull | None
     tension: float = 0.0
-    mid_foot: Point = (0.0, 0.0)
-    is_by_panel: bool = False
 
     @property
     def pull(self) -> float:
         """Size of the pull on the post head [N]."""
         return math.hypot(*self.anchors.head_pull)
+
+    @property
+    def mid_foot(self) -> Point:
+        """Force on an anchor in mid-panel [N]."""
+        return self.panel.solution.mid_foot if self.panel else (0.0, 0.0)
 
     @property
     def feet(self) -> list[GroundForce]:
@@ -221,7 +220,7 @@ def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
         return []
     points, solution = place_row(row, result.case.inclination), result.solution
     of_section = SupportState(
-        case=result.case,
+        result=result,
         points=points,
         anchors=result.anchors,
         foot=solution.foot if solution else None,
@@ -233,14 +232,13 @@ def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
         of_section,
         *(
             SupportState(
-                case=result.case,
+                result=result,
+                panel=one,
                 points=points,
                 anchors=one.anchors,
                 foot=one.foot,
                 head=one.head,
                 tension=_add_guys(one.bands, GUYS_BY_PANEL),
-                mid_foot=one.solution.mid_foot,
-                is_by_panel=True,
             )
             for one in panels
         ),
