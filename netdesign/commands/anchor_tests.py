@@ -171,7 +171,7 @@ def _evaluate(rows: Sequence[Row], profile: Standard) -> Iterator[Message]:
     """Resistance of each type and ground by every way, and what is accepted."""
     from netdesign.checks.routes import find_tested_resistance
     from netdesign.resistance.pull_out import PullOutTests
-    from netdesign.site.single_tests import read_single
+    from netdesign.site.type_lines import read_single
 
     groups: dict[tuple[str, str], list[SingleTest]] = {}
     for row in rows:

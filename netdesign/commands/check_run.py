@@ -22,11 +22,12 @@ from netdesign.edge.streams import print_json
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
+    from netdesign.edge.progress import RunProgress
     from netdesign.report.files import ReportStyle
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.study.check_run import CheckRun
-    from netdesign.study.check_site import SolvedSite, Watch
+    from netdesign.study.check_site import SolvedSite
     from netdesign.study.records import Study
     from netdesign.study.sizing import ReadInstead, SizedCell
     from netdesign.words.catalogue import Language
@@ -243,7 +244,7 @@ def check_and_size(
     run: CheckRun,
     read: ReadInstead | None,
     runner: Runner,
-    watch: Watch,
+    watch: RunProgress,
 ) -> tuple[list[Study], list[Sized]]:
     """Studies of a site by profiles, and its smallest types where ``read`` is given."""
     from netdesign.study.check_site import check_site, judge_solved, solve_rows
@@ -262,7 +263,7 @@ def _size(
     run: CheckRun,
     read: ReadInstead,
     runner: Runner,
-    watch: Watch,
+    watch: RunProgress,
 ) -> list[Sized]:
     """Smallest types for each profile, and the study of the site with all of them.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from netdesign.commands.running import print_document, print_faults
 from netdesign.commands.usage import tell
-from netdesign.site.missing import list_missing
+from netdesign.site.statements import list_missing
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 

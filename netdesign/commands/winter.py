@@ -195,12 +195,13 @@ def _solve(
     from netdesign.coupling.scene import SolverSettings
     from netdesign.files.winter import WinterRun
     from netdesign.snowpack.follow import MODELS as KNOWN
-    from netdesign.study.measured_pulls import (
+    from netdesign.study.winter_row import (
+        build_winter_row,
         compare_row,
         list_measured_pulls,
         name_measured_winters,
+        require_plausible_heights,
     )
-    from netdesign.study.winter_row import build_winter_row, require_plausible_heights
     from netdesign.winter.day import DaySolver
     from netdesign.winter.row_winters import follow_station, follow_winters
 
@@ -299,7 +300,7 @@ def require_measured_forces(site: Site) -> None:
     ModelError
         If no row has a force with a date.
     """
-    from netdesign.study.measured_pulls import list_measured_pulls
+    from netdesign.study.winter_row import list_measured_pulls
 
     if not any(list_measured_pulls(site, row.id) for row in site.rows):
         raise ModelError(say("fit.no_measured_forces"))
@@ -309,7 +310,7 @@ def fit_rows(run: WinterRun, asked: Mapping[str, Any], runner: Runner) -> Winter
     """Run with the fit of each row with measured forces; as it is without ``fit``."""
     if not asked["fit"]:
         return run
-    from netdesign.study.measured_pulls import list_measured_pulls
+    from netdesign.study.winter_row import list_measured_pulls
     from netdesign.winter.day import DaySolver
     from netdesign.winter.fit import FIT_SETTINGS, fit_season
     from netdesign.winter.fit_readings import Noise

@@ -12,8 +12,7 @@ from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
 from netdesign.snowpack.series import HeightSeries
-from netdesign.study.measured_pulls import explain_unused
-from netdesign.study.winter_row import ASSUMED_FACTOR
+from netdesign.study.winter_row import ASSUMED_FACTOR, explain_unused
 from netdesign.units import (
     celsius_from_kelvin,
     degree_from_radian,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -14,27 +12,34 @@ from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number, read_grade
 from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
 from netdesign.site.columns.lexicon import (
-    UNANSWERED,
     Lexicon,
     Meaning,
-    fold,
     says_sag,
 )
 from netdesign.site.columns.unit_names import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
-    convert_unit,
-    normalise_unit,
 )
-from netdesign.site.readings import IN_CELLS, explain_unit, refuse_stored
-from netdesign.site.titles import Title, is_asked, list_titles, understand
+from netdesign.site.readings import refuse_stored
+from netdesign.site.titles import (
+    Title,
+    explain,
+    find_near,
+    find_own_unit,
+    is_asked,
+    is_number,
+    is_unit,
+    list_titles,
+    quote_title,
+    read_unit,
+    refuse_unit,
+    understand,
+)
 from netdesign.words.catalogue import LANGUAGES, Language
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
-# How alike a heading must be to a missing one to count as that, misspelt.
-_MISSPELT = 0.8
 _EXAMPLES = 3  # cells that show how a column is written
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
@@ -266,11 +271,11 @@ def _find_units_row(
     ]
     measured = [(cell, field) for cell, field in cells if field.units]
     others = [one for one in cells if one not in measured]
-    known = sum(_is_unit(*one) for one in measured)
-    strangers = [cell for cell, field in others if not _is_unit(cell, field)]
+    known = sum(is_unit(*one) for one in measured)
+    strangers = [cell for cell, field in others if not is_unit(cell, field)]
     has_units_above = any(by_column[cell.column][0].unit for cell, _ in measured)
     is_row = 2 * known > len(measured) or not (strangers or has_units_above)
-    if not measured or not is_row or any(_is_number(*one) for one in cells):
+    if not measured or not is_row or any(is_number(*one) for one in cells):
         return None
     for cell in strangers:
         if normalise(str(cell.value)) not in _UNITS_WORDS:
@@ -285,25 +290,6 @@ def _is_numbering(cells: tuple[Cell, ...]) -> bool:
     return len(cells) >= _LEAST_NUMBERED and numbers == [
         str(number) for number in range(1, len(cells) + 1)
     ]
-
-
-def _is_unit(cell: Cell, field: Field) -> bool:
-    """A cell holds a unit; a 1 is one only where the field may have none."""
-    unit, in_brackets = _read_unit(cell)
-    is_known = unit in KNOWN_UNITS and (unit != "-" or unit in field.units)
-    return in_brackets or is_known
-
-
-def _is_number(cell: Cell, field: Field) -> bool:
-    number = parse_number(cell.value, cell.decimal_mark)
-    return not isinstance(number, Refusal) and not _is_unit(cell, field)
-
-
-def _read_unit(cell: Cell) -> tuple[str, bool]:
-    """Read a unit in a cell of its own, and whether it stands in brackets."""
-    text = str(cell.value).strip()
-    bracketed = re.fullmatch(r"[\[(](.*)[\])]", text)
-    return normalise_unit(bracketed[1] if bracketed else text), bracketed is not None
 
 
 def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
@@ -376,26 +362,6 @@ def _settle(table: Table, title: Title, meaning: Meaning) -> Field | None:
     return known[0] if len(known) == 1 else None
 
 
-def explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
-    """Reason why a heading is not read; None where nobody knows it."""
-    if meaning.is_ignored:
-        return Refusal(say("heading.ignored", file=sheet.answered_in))
-    if UNANSWERED in meaning.answer:
-        rule = say("heading.unanswered", file=sheet.answered_in)
-        return Refusal(rule, say("heading.unanswered_wanted"))
-    if meaning.is_wrong_answer:
-        rule = say("heading.wrong_answer", answer=quote(meaning.answer))
-        return Refusal(rule, say("heading.answer_wanted", file=sheet.answered_in))
-    if not meaning.is_unclear:
-        return None
-    readings = tuple(quote_title(one) for one in meaning.readings)
-    rule = say("heading.ambiguous", readings=readings)
-    if meaning.contrary:
-        says = quote(meaning.contrary)
-        rule = say("heading.contrary", readings=readings, contrary=says)
-    return Refusal(rule, say("heading.one_of_these"))
-
-
 def refuse_unused_answers(
     table: Table, titles: Iterable[Title], findings: list[Finding]
 ) -> None:
@@ -439,24 +405,6 @@ def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | N
     return cell.finding(say("heading.unknown"), severity="note"), None
 
 
-def find_near(text: str, fields: Iterable[Field]) -> list[Field]:
-    """Fields with a heading so like a text that the text may be that, misspelt."""
-    own = {split_heading(text)[0], fold(text.partition("[")[0])}
-    names = {name: one for one in fields for name in one.names}
-    names |= {fold(name): one for one in fields for name in one.raw_names}
-    close = [
-        match
-        for name in own
-        for match in difflib.get_close_matches(name, names, n=2, cutoff=_MISSPELT)
-    ]
-    return list({names[one].key: names[one] for one in close}.values())
-
-
-def quote_title(field: Field) -> Message:
-    """Heading of a field in quotes."""
-    return say("finding.in_quotes", text=field.title)
-
-
 def _find_unit(
     table: Table,
     title: Title,
@@ -473,7 +421,7 @@ def _find_unit(
     column, unit, cell = title.cell.column, title.unit, title.cell
     below = table.sheet.cell(table.units_row, column) if table.units_row else None
     if below is not None and not below.is_blank:
-        unit_below, _ = _read_unit(below)
+        unit_below, _ = read_unit(below)
         if unit not in ("", unit_below):
             rule = say("heading.other_unit", heading=quote(cell.text))
             findings.append(below.finding(rule, say("accepted.one_unit")))
@@ -489,68 +437,11 @@ def _find_unit(
         return "-"
     if unit in field.units:
         return unit
-    if not unit and (own := _find_own_unit(table.examples(column), field)):
+    if not unit and (own := find_own_unit(table.examples(column), field)):
         return own
-    refusal = _refuse_unit(unit, table.examples(column), field)
+    refusal = refuse_unit(unit, table.examples(column), field)
     findings.append(cell.finding(*refusal, field.name))
     return None
-
-
-def _find_own_unit(cells: list[Cell], field: Field) -> str:
-    """Unit of a column whose heading has none: in its cells, or that of a grade."""
-    if _have_units(cells, field):
-        return IN_CELLS
-    return field.unit if field.is_grade and _have_grades(cells) else ""
-
-
-def _have_units(cells: list[Cell], field: Field) -> bool:
-    """The first numbers of a column have their units in their cells."""
-    units = [normalise_unit(cell.own_unit) for cell in cells]
-    return any(unit in field.units for unit in units)
-
-
-def _have_grades(cells: list[Cell]) -> bool:
-    """The first cells of a column name steel grades."""
-    return bool(cells) and all(read_grade(cell.value) is not None for cell in cells)
-
-
-def _refuse_unit(unit: str, cells: list[Cell], field: Field) -> Refusal:
-    plain = explain_unit(unit, field)
-    return plain if unit else Refusal(_describe_missing_unit(cells, field), *plain[1:])
-
-
-def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
-    """Say that a column has no unit, and what its first number could be in each."""
-    if not cells:
-        return say("heading.no_unit")
-    example = cells[0]
-    number = parse_number(example.value, example.decimal_mark)
-    if isinstance(number, Refusal):
-        return say("heading.no_unit")
-    readings: list[Message] = []
-    for unit in field.units:
-        value = convert_unit(number, unit, field.unit)
-        if field.bounds[0] <= value <= field.bounds[1]:
-            readings.append(_describe_reading((number, unit), (value, field.unit)))
-    if len(readings) < 2:
-        return say("heading.no_unit")
-    return say(
-        "heading.no_unit_could_be", cell=example.address, readings=tuple(readings)
-    )
-
-
-def _describe_reading(typed: tuple[float, str], own: tuple[float, str]) -> Message:
-    """A number with the unit that it may have, and what it is in the field's unit."""
-    (number, unit), (other, other_unit) = typed, own
-    if unit == other_unit:
-        return say("text.number_in", number=number, unit=unit)
-    return say(
-        "text.number_in_two",
-        number=number,
-        unit=unit,
-        other=other,
-        other_unit=other_unit,
-    )
 
 
 def _report_missing(table: Table, known: set[str], findings: list[Finding]) -> None:

@@ -149,33 +149,16 @@ class AnchorType:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GroundAround:
-    """Ground around the bond of an anchor type, which it may pull out with itself."""
-
-    soil: Soil
-    anchor: AnchorType
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BaseFriction:
-    """Characteristic coefficient of friction of a base plate on the ground [-]."""
-
-    coefficient: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Resistance(GivenResistance):
     """Characteristic resistance of one member in one mode.
 
     ``value`` is None where the workbook gives none, and where it follows the demand,
-    from ``dimensions``.
+    from ``dimensions``: of a base that slides, its coefficient of friction [-].
     """
 
     member: Member | EndMember | NetPart
     derivation: Message | None = None  # how it follows from dimensions
-    dimensions: AnchorType | GroundAround | PostSection | BaseFriction | Link | None = (
-        None
-    )
+    dimensions: AnchorType | PostSection | Link | float | None = None
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown

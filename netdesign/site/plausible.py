@@ -17,9 +17,9 @@ from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.unit_names import from_si
 from netdesign.site.declared_sheet import show_value
-from netdesign.site.grounds import name_bare
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.type_lines import name_bare
 from netdesign.site.type_resistances import list_beside
 from netdesign.words.message import Message, say
 
@@ -27,7 +27,7 @@ from netdesign.words.message import Message, say
 def ask(
     lines: Lines, confirmed: Container[str], findings: list[Finding]
 ) -> Mapping[str, tuple[Message, ...]]:
-    """Open questions by net row.
+    """Open questions of every net row.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def ask(
         Appended to: each open question once.
     """
     asked: dict[str, Message] = {}  # by cell: one question each
-    by_row: dict[str, dict[Message, None]] = {}
+    by_row: dict[str, dict[Message, None]] = {row: {} for row in lines.places}
     for rows, (reading, rule) in _list_all(lines):
         if reading.cell is None or reading.place in confirmed or not rows:
             continue
@@ -53,7 +53,7 @@ def ask(
             )
             asked[reading.place] = _name_question(reading, rule)
         for row in rows:
-            by_row.setdefault(row, {})[asked[reading.place]] = None
+            by_row[row][asked[reading.place]] = None
     return {row: tuple(questions) for row, questions in by_row.items()}
 
 

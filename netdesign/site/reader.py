@@ -36,7 +36,6 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.columns.lexicon import UNANSWERED
 from netdesign.site.declared_sheet import read_declared
-from netdesign.site.grounds import name_by_ground, place_in_ground
 from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
     TYPE_SHEETS,
@@ -45,16 +44,13 @@ from netdesign.site.lines import (
     refuse_unknown_ids,
     spread_over_rows,
 )
-from netdesign.site.links import read_links
 from netdesign.site.mapping import (
     give_answers,
     is_meant,
     judge_answers,
     read_answers,
 )
-from netdesign.site.missing import list_missing
 from netdesign.site.model import NetRow, Project, Site
-from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.plausible import ask
 from netdesign.site.ranges import (
@@ -67,7 +63,6 @@ from netdesign.site.ranges import (
 )
 from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
 from netdesign.site.replaced import mark_replaced, replace_cells
-from netdesign.site.single_tests import count_in_tests
 from netdesign.site.site_wide import (
     SiteWide,
     fill_in_site_wide,
@@ -75,6 +70,7 @@ from netdesign.site.site_wide import (
     read_once,
 )
 from netdesign.site.snow_layers import check_layers, read_layers
+from netdesign.site.statements import list_missing
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.tables import (
     find_table,
@@ -85,13 +81,19 @@ from netdesign.site.tables import (
     match_item,
     read_rows,
 )
+from netdesign.site.type_lines import (
+    count_in_tests,
+    name_by_ground,
+    place_in_ground,
+    read_links,
+)
 from netdesign.site.type_resistances import (
     check_ends,
     check_tests,
     fill_in_resistances,
     fill_in_section,
 )
-from netdesign.site.winter_sheet import read_winter
+from netdesign.site.winter_sheet import read_monitoring, read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 
@@ -147,19 +149,15 @@ def read_site(
         findings.extend(_list_unknown_profiles(workbook, on_cover))
         raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(list(map(_shorten, findings)))
-    questions = ask(lines, confirmed, findings)
-    rows = tuple(
-        replace(
-            mark_replaced(row, replaced),
-            unsaid=_name_unsaid(row, ranges, links),
-            questions=questions.get(row.id, ()),
-        )
+    asked = ask(lines, confirmed, findings)
+    rows = (
+        replace(row, unsaid=_name_unsaid(row, ranges, links), questions=asked[row.id])
         for row in net_rows
     )
     return Site(
         project=on_cover.project,
         ranges=ranges.ranges,
-        rows=rows,
+        rows=tuple(mark_replaced(row, replaced) for row in rows),
         file_name=workbook.file,
         sha256=workbook.sha256,
         notes=(*notes, *confirmed.values()),

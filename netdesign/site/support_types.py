@@ -24,8 +24,6 @@ from netdesign.site.model import (
     NAMED_BY,
     NET_MODES,
     AnchorType,
-    BaseFriction,
-    GroundAround,
     Resistance,
     RowEnd,
 )
@@ -315,16 +313,15 @@ def _hold_by_ground(
     named: Reading, member: Member, anchor: AnchorType, types: Types
 ) -> Resistance:
     """Resistance of the ground that an anchor may pull out with itself."""
-    around = GroundAround(soil=anchor.soil, anchor=anchor) if anchor.soil else None
     place = types["Anchors"][named.word]["soil_cohesion"].place
-    return _open(named, member, "wedge", around, source=place)
+    return _open(named, member, "wedge", anchor, source=place)
 
 
 def _open(
     named: Reading,
     member: Member,
     mode: str,
-    dimensions: AnchorType | GroundAround | PostSection | BaseFriction | None = None,
+    dimensions: AnchorType | PostSection | float | None = None,
     lack: Message | None = None,
     source: str = "",
 ) -> Resistance:
@@ -369,8 +366,8 @@ def _slide(named: Reading, line: Row | None) -> Resistance:
     friction = line["base_friction"] if line else None
     given = line["sliding"] if line else None
     if friction is not None and friction.state == "given":
-        base = BaseFriction(coefficient=friction.si)
-        return _open(named, Member.POST_BASE, "sliding", base, source=friction.place)
+        place = friction.place
+        return _open(named, Member.POST_BASE, "sliding", friction.si, source=place)
     lack = say("check.no_sliding_resistance")
     found = _open(named, Member.POST_BASE, "sliding", lack=lack)
     if given is None or given.state != "given":

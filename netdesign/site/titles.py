@@ -1,21 +1,34 @@
-"""One heading, or one item of a line, as its sheet has it: what it is taken for."""
+"""One heading, or one item of a line, as its sheet has it: what it means, its unit."""
 
 from __future__ import annotations
 
+import difflib
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Cell, Sheet, name_column
-from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.cells.findings import Refusal, quote
+from netdesign.site.cells.numbers import parse_number, read_grade
+from netdesign.site.columns.fields import Field, normalise, split_heading
 from netdesign.site.columns.lexicon import (
     IGNORE,
     UNANSWERED,
     Lexicon,
     Meaning,
     find_unit,
+    fold,
 )
+from netdesign.site.columns.unit_names import (
+    KNOWN_UNITS,
+    convert_unit,
+    normalise_unit,
+)
+from netdesign.site.readings import IN_CELLS, explain_unit
+from netdesign.words.message import Message, say
 
+# How alike a heading must be to a missing one to count as that, misspelt.
+_MISSPELT = 0.8
 _COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
 
 
@@ -103,3 +116,119 @@ def _find_group(sheet: Sheet, row: int, column: int) -> str:
         if is_wide and not is_title and merged.covers(row - 1, column):
             return str(sheet.cell(merged.row, merged.column).value or "")
     return ""
+
+
+def is_unit(cell: Cell, field: Field) -> bool:
+    """A cell holds a unit; a 1 is one only where the field may have none."""
+    unit, in_brackets = read_unit(cell)
+    is_known = unit in KNOWN_UNITS and (unit != "-" or unit in field.units)
+    return in_brackets or is_known
+
+
+def is_number(cell: Cell, field: Field) -> bool:
+    """A cell holds a number, and no unit."""
+    number = parse_number(cell.value, cell.decimal_mark)
+    return not isinstance(number, Refusal) and not is_unit(cell, field)
+
+
+def read_unit(cell: Cell) -> tuple[str, bool]:
+    """Read a unit in a cell of its own, and whether it stands in brackets."""
+    text = str(cell.value).strip()
+    bracketed = re.fullmatch(r"[\[(](.*)[\])]", text)
+    return normalise_unit(bracketed[1] if bracketed else text), bracketed is not None
+
+
+def find_own_unit(cells: list[Cell], field: Field) -> str:
+    """Unit of a column whose heading has none: in its cells, or that of a grade."""
+    if _have_units(cells, field):
+        return IN_CELLS
+    return field.unit if field.is_grade and _have_grades(cells) else ""
+
+
+def _have_units(cells: list[Cell], field: Field) -> bool:
+    """The first numbers of a column have their units in their cells."""
+    units = [normalise_unit(cell.own_unit) for cell in cells]
+    return any(unit in field.units for unit in units)
+
+
+def _have_grades(cells: list[Cell]) -> bool:
+    """The first cells of a column name steel grades."""
+    return bool(cells) and all(read_grade(cell.value) is not None for cell in cells)
+
+
+def refuse_unit(unit: str, cells: list[Cell], field: Field) -> Refusal:
+    """Reason why a column has no unit that its field knows."""
+    plain = explain_unit(unit, field)
+    return plain if unit else Refusal(_describe_missing_unit(cells, field), *plain[1:])
+
+
+def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
+    """Say that a column has no unit, and what its first number could be in each."""
+    if not cells:
+        return say("heading.no_unit")
+    example = cells[0]
+    number = parse_number(example.value, example.decimal_mark)
+    if isinstance(number, Refusal):
+        return say("heading.no_unit")
+    readings: list[Message] = []
+    for unit in field.units:
+        value = convert_unit(number, unit, field.unit)
+        if field.bounds[0] <= value <= field.bounds[1]:
+            readings.append(_describe_reading((number, unit), (value, field.unit)))
+    if len(readings) < 2:
+        return say("heading.no_unit")
+    return say(
+        "heading.no_unit_could_be", cell=example.address, readings=tuple(readings)
+    )
+
+
+def _describe_reading(typed: tuple[float, str], own: tuple[float, str]) -> Message:
+    """A number with the unit that it may have, and what it is in the field's unit."""
+    (number, unit), (other, other_unit) = typed, own
+    if unit == other_unit:
+        return say("text.number_in", number=number, unit=unit)
+    return say(
+        "text.number_in_two",
+        number=number,
+        unit=unit,
+        other=other,
+        other_unit=other_unit,
+    )
+
+
+def explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
+    """Reason why a heading is not read; None where nobody knows it."""
+    if meaning.is_ignored:
+        return Refusal(say("heading.ignored", file=sheet.answered_in))
+    if UNANSWERED in meaning.answer:
+        rule = say("heading.unanswered", file=sheet.answered_in)
+        return Refusal(rule, say("heading.unanswered_wanted"))
+    if meaning.is_wrong_answer:
+        rule = say("heading.wrong_answer", answer=quote(meaning.answer))
+        return Refusal(rule, say("heading.answer_wanted", file=sheet.answered_in))
+    if not meaning.is_unclear:
+        return None
+    readings = tuple(quote_title(one) for one in meaning.readings)
+    rule = say("heading.ambiguous", readings=readings)
+    if meaning.contrary:
+        says = quote(meaning.contrary)
+        rule = say("heading.contrary", readings=readings, contrary=says)
+    return Refusal(rule, say("heading.one_of_these"))
+
+
+def find_near(text: str, fields: Iterable[Field]) -> list[Field]:
+    """Fields with a heading so like a text that the text may be that, misspelt."""
+    own = {split_heading(text)[0], fold(text.partition("[")[0])}
+    names = {name: one for one in fields for name in one.names}
+    names |= {fold(name): one for one in fields for name in one.raw_names}
+    close = [
+        match
+        for name in own
+        for match in difflib.get_close_matches(name, names, n=2, cutoff=_MISSPELT)
+    ]
+    return list({names[one].key: names[one] for one in close}.values())
+
+
+def quote_title(field: Field) -> Message:
+    """Heading of a field in quotes."""
+    return say("finding.in_quotes", text=field.title)

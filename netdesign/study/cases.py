@@ -23,8 +23,8 @@ from netdesign.search.questions import list_first_design
 from netdesign.site.model import CONNECTED, NetRow, Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.solving.runner import Runner
-from netdesign.study.case_solver import build_scene
 from netdesign.study.check_run import CheckRun
+from netdesign.study.row_to_check import build_scene
 from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search

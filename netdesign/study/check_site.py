@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol
 
 from netdesign.checks import Standard
+from netdesign.edge.progress import Phase, RunProgress
 from netdesign.envelope.rows import RowEnvelope, RowGrid
-from netdesign.envelope.search import Wave
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import have_same_forces, list_alike, search_site, solve_site
@@ -24,30 +23,11 @@ from netdesign.study.side_by_side import (
     keep_rows,
     name_rows,
 )
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
+# Progress that nobody is shown.
+_SILENT = RunProgress([Phase(key="", words="", cases=0)], lambda _: None)
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
-
-
-class Watch(Protocol):
-    """Who is told how far a check has come; ``edge.progress.RunProgress`` is one."""
-
-    def enter(self, key: str, words: Message | None = None) -> None:
-        """Tell that a phase of ``cases.list_phases`` begins, by words of its own."""
-
-    def report_wave(self, wave: Wave) -> None:
-        """Tell that a wave of the search is over."""
-
-    def count_piece(self) -> None:
-        """Tell that a check of a force is finished."""
-
-
-class _Nobody:
-    """Watch of a check whose progress nobody asks for."""
-
-    def enter(self, key: str, words: Message | None = None) -> None: ...
-    def report_wave(self, wave: Wave) -> None: ...
-    def count_piece(self) -> None: ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +43,7 @@ def check_site(
     standards: Sequence[Standard],
     run: CheckRun,
     runner: Runner | None = None,
-    watch: Watch | None = None,
+    watch: RunProgress | None = None,
 ) -> list[Study]:
     """Check a site against limit profiles; its cases are solved once.
 
@@ -79,7 +59,7 @@ def check_site(
         Where cases are solved and kept; this process unless told otherwise. It
         remembers the faults of the program. Rows that its store knows are neither
         solved nor judged again.
-    watch : Watch, optional
+    watch : RunProgress, optional
         Told of every phase, wave and check.
 
     Returns
@@ -87,7 +67,7 @@ def check_site(
     list of Study
         One for each profile.
     """
-    runner, watch = runner or Runner(), watch or _Nobody()
+    runner, watch = runner or Runner(), watch or _SILENT
     names = name_rows(site, standards, run) if runner.store else {}
     known = find_rows(names, runner, len(standards))
     new = tuple(row for row in site.rows if row.id not in known)
@@ -103,7 +83,7 @@ def _judge_new(
     standards: Sequence[Standard],
     run: CheckRun,
     runner: Runner,
-    watch: Watch,
+    watch: RunProgress,
 ) -> dict[str, Studies]:
     """Studies by the ids of the rows, solved, judged, and kept under their names.
 
@@ -132,7 +112,7 @@ def solve_rows(
     site: Site,
     run: CheckRun,
     runner: Runner,
-    watch: Watch,
+    watch: RunProgress,
     known: SolvedSite | None = None,
 ) -> SolvedSite:
     """Cases of every net row, solved; rows with the same forces as ``known`` are not.
@@ -167,7 +147,7 @@ def judge_solved(
     standards: Sequence[Standard],
     run: CheckRun,
     runner: Runner,
-    watch: Watch,
+    watch: RunProgress,
 ) -> list[Study]:
     """Studies of a solved site, one for each profile."""
     watch.enter("checks")

@@ -1,11 +1,14 @@
-"""Resistances that follow the demand: of anchors, their ground, posts and their bases.
+"""Resistances that follow row, profile or demand.
 
-Theory: resistance/THEORY.md, (R7) to (R12), (R21) and (R22).
+Of anchors, their ground, posts and their bases; of steel at the end of the design life;
+of the links between a rope and its anchor. Theory: resistance/THEORY.md, (R7) to (R12),
+(R21) and (R22).
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from netdesign.calculation.quantity import Quantity
@@ -32,6 +35,15 @@ from netdesign.guideline.load_model import (
     read_load_model,
 )
 from netdesign.outcome import ModelError
+from netdesign.resistance.catalogue import Datum
+from netdesign.resistance.connection import (
+    SHACKLE,
+    Link,
+    find_angle,
+    find_direction_factor,
+    resist_link,
+)
+from netdesign.resistance.corrosion import BARE, Wear, find_loss, leave_area
 from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,
@@ -42,11 +54,9 @@ from netdesign.resistance.steel import (
     RoundSection,
     compute_bent_bar_resistance,
 )
-from netdesign.resistance.wedge import compute_wedge_resistance
+from netdesign.resistance.wedge import Soil, compute_wedge_resistance
 from netdesign.site.model import (
     AnchorType,
-    BaseFriction,
-    GroundAround,
     NetRow,
     Resistance,
 )
@@ -58,6 +68,7 @@ from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 _LARGEST_ANGLE = math.radians(89.0)
 # Share of a post that the buckling length of its type may lack: lengths are rounded.
@@ -69,12 +80,12 @@ def find_resistance_for_force(
 ) -> Resistance:
     """Resistance with the value that row, profile and pull give it; others as is."""
     match given.dimensions:
-        case AnchorType():
-            return _find_bent_resistance(given, given.dimensions, pull)
-        case GroundAround():
-            return _find_ground_resistance(given, given.dimensions, basis, pull)
-        case PostSection():
-            return _find_post_resistance(given, given.dimensions, basis)
+        case AnchorType(soil=Soil() as soil) as anchor if given.mode == "wedge":
+            return _find_ground_resistance(given, anchor, soil, basis, pull)
+        case AnchorType() as anchor:
+            return _find_bent_resistance(given, anchor, pull)
+        case PostSection() as section:
+            return _find_post_resistance(given, section, basis)
         case _:
             return given
 
@@ -146,7 +157,11 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
 
 
 def _find_ground_resistance(
-    given: Resistance, around: GroundAround, basis: Basis, pull: AnchorPull | None
+    given: Resistance,
+    anchor: AnchorType,
+    soil: Soil,
+    basis: Basis,
+    pull: AnchorPull | None,
 ) -> Resistance:
     """Resistance of the weakest wedge of ground in front of an anchor's bond."""
     row, standard = basis.row, basis.standard
@@ -159,7 +174,7 @@ def _find_ground_resistance(
         return given
     if not pull.is_axis_known:
         return replace(given, lack=say("bending.no_axis"))
-    depths, width = around.anchor.list_depths(pull.axis), _find_ground_width(row, pull)
+    depths, width = anchor.list_depths(pull.axis), _find_ground_width(row, pull)
     if not depths:
         names = row.list_unsaid_bore(pull.anchor, pull.position)
         return replace(given, lack=say("check.unsaid", names=names))
@@ -168,7 +183,7 @@ def _find_ground_resistance(
     is_pulled_up = pull.anchor == Member.DOWNHILL_ANCHOR
     found = {
         depth: compute_wedge_resistance(
-            around.soil.reduce(on_cohesion, on_friction),
+            soil.reduce(on_cohesion, on_friction),
             depth=depth,
             width=width,
             slope=-row.slope_angle if is_pulled_up else row.slope_angle,
@@ -182,9 +197,9 @@ def _find_ground_resistance(
         "depth": depth,
         "width": width,
         "plane": degree_from_radian(found[depth].plane),
-        "cohesion": around.soil.cohesion / 1e3,
-        "friction": degree_from_radian(around.soil.friction),
-        "weight": around.soil.weight / 1e3,
+        "cohesion": soil.cohesion / 1e3,
+        "friction": degree_from_radian(soil.friction),
+        "weight": soil.weight / 1e3,
         "on_cohesion": on_cohesion,
         "on_friction": on_friction,
     }
@@ -323,7 +338,158 @@ def _press(
 def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantity:
     """Characteristic resistance of a member, also one that its force brings [kN]."""
     base, pressing = given.dimensions, force.on.pressing
-    if not isinstance(base, BaseFriction) or pressing is None or not pressing.value:
+    if not isinstance(base, float) or pressing is None or not pressing.value:
         return find_resistance(given, standard)
-    friction = quantity("μ_b", base.coefficient, "-", given.source)
+    friction = quantity("μ_b", base, "-", given.source)
     return resist_by_friction(friction, find_action_factor(standard), pressing)
+
+
+def corrode(
+    given: Resistance, row: NetRow, standard: Standard
+) -> tuple[Resistance, Message | None]:
+    """Resistance with the steel that is left, and why it may not last so long.
+
+    None is known where that is not given. As it is, and no doubt, of what does not
+    corrode, and where the profile leaves corrosion to others.
+    """
+    wear, life = given.wear, row.design_life
+    if wear is None or "corrosion" in standard.not_checked:
+        return given, None
+    unsaid = row.list_unsaid_wear(given)
+    if unsaid or life is None:
+        lack = say("corrosion.lacks", names=unsaid)
+        return replace(given, value=None, dimensions=None, lack=lack), lack
+    if not wear.is_bare:
+        return given, _doubt_protection(wear, life)
+    try:
+        return _take_loss(given, wear, life), None
+    except ModelError as error:
+        return given, error.message
+
+
+def _doubt_protection(wear: Wear, life: int) -> Message | None:
+    if wear.protection in BARE:
+        return say("corrosion.of_rope")
+    years = wear.protected_years or 0
+    return say("corrosion.short", years=years, life=life) if years < life else None
+
+
+def _take_loss(given: Resistance, wear: Wear, life: int) -> Resistance:
+    loss = find_loss(wear.soil, life)
+    outer, inner = wear.outer or 0.0, wear.inner or 0.0
+    share = leave_area(outer, inner, loss.value / 1e3)
+    if not share:
+        raise ModelError(say("corrosion.nothing_left", years=life))
+    if isinstance(given.dimensions, AnchorType) and given.dimensions.section:
+        section = replace(given.dimensions.section, outer=outer - 2e-3 * loss.value)
+        return replace(given, dimensions=replace(given.dimensions, section=section))
+    if given.value is None:
+        return given
+    derivation = _describe_loss(given, wear, life, loss, share)
+    return replace(given, value=share * given.value, derivation=derivation)
+
+
+def _describe_loss(
+    given: Resistance, wear: Wear, life: int, loss: Datum, share: float
+) -> Message:
+    origin = {"status": name("status", loss.status), "source": loss.source}
+    told = {"of": given.derivation} if given.derivation else {}
+    return say(
+        "corrosion.left_of" if told else "corrosion.left",
+        **told,
+        before=kilonewton_from_newton(given.value or 0.0),
+        share=share,
+        loss=loss.value,
+        years=life,
+        soil=say(f"choice.soil.{wear.soil}"),
+        origin=say("derivation.origin", **origin),
+    )
+
+
+CONNECTION = "connection"
+
+
+def connect(
+    given: Resistance,
+    chains: Mapping[str, tuple[Link, ...]],
+    pull: AnchorPull | None,
+    standard: Standard,
+) -> Resistance:
+    """Resistance of the chain of links of a member's type: that of the weakest.
+
+    Parameters
+    ----------
+    given : Resistance
+        Of the member's steel or rope, which names the type.
+    chains : mapping of str to tuple of Link
+        By type.
+    pull : AnchorPull or None
+        On the anchor at the end of the chain; its axis not known, a shackle may be
+        pulled at a right angle. Without a pull its angle is as given, or a right angle.
+    standard : Standard
+        Limit profile.
+    """
+    links, type_id = chains.get(given.type_id, ()), given.type_id
+    found = Resistance(
+        member=given.member, mode=CONNECTION, type_id=type_id, source=given.source
+    )
+    factors = (
+        find_action_factor(standard).value,
+        getattr(standard.find_resistance_factor(CONNECTION, "declared"), "value", None),
+    )
+    on_action, on_resistance = factors
+    if not type_id:
+        return found
+    if not links or on_action is None or on_resistance is None:
+        lack = (
+            None
+            if links
+            else say("connection.no_links", type=type_id, sheet=say("sheet.Links"))
+        )
+        return replace(found, lack=lack, basis="declared" if links else "")
+    pulled = None if pull is None else pull.angle
+    if pull is not None and not pull.is_axis_known:
+        pulled = math.pi / 2
+    strengths = [
+        resist_link(
+            one, pulled=pulled, on_action=on_action, on_resistance=on_resistance
+        )
+        for one in links
+    ]
+    weakest = min(range(len(links)), key=strengths.__getitem__)
+    return replace(
+        found,
+        value=strengths[weakest],
+        basis="declared",
+        source=links[weakest].source,
+        derivation=_describe_link(links[weakest], pulled, factors),
+        dimensions=links[weakest],
+    )
+
+
+def _describe_link(
+    link: Link, pulled: float | None, factors: tuple[float | None, float | None]
+) -> Message:
+    """Way from a link's strength to its characteristic resistance."""
+    force = kilonewton_from_newton(link.limit or link.breaking or 0.0)
+    told = say(
+        "connection.breaking",
+        link=say(f"choice.link.{link.kind}"),
+        count=link.count,
+        force=force,
+    )
+    if link.limit is not None:
+        action, resistance = (factor or 0.0 for factor in factors)
+        told = say("connection.limit", of=told, action=action, resistance=resistance)
+    if link.kind != SHACKLE:
+        return told
+    own = find_angle(link, pulled)
+    factor = find_direction_factor(own)
+    origin = {"status": name("status", factor.status), "source": factor.source}
+    return say(
+        "connection.beside",
+        strength=told,
+        factor=factor.value,
+        angle=degree_from_radian(own),
+        origin=say("derivation.origin", **origin),
+    )

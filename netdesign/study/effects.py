@@ -24,7 +24,6 @@ from netdesign.planview.end_effect import EndEffect, compute_end_effect
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.structure.members import Member
 from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
@@ -56,23 +55,17 @@ class RowEffects:
 
     Attributes
     ----------
-    post_spacing : float
-        [m].
     supports : tuple of LoadedWidth
         One inside the row, and where the row has an end its first or last one.
     lateral_share : float
         Share of the load along the row [-].
     missing : tuple of Message
         What the profile does not say.
-    at_foot : tuple of Member
-        Anchors that the load along the row acts on at the net's foot.
     """
 
-    post_spacing: float
     supports: tuple[LoadedWidth, ...]
     lateral_share: float
     missing: tuple[Message, ...]
-    at_foot: tuple[Member, ...]
 
     def find_support(self, position: str) -> LoadedWidth:
         """Support at a position; the one inside the row where it has no other."""
@@ -152,11 +145,9 @@ def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
     if share is None:
         lacks.append(say("ends.no_lateral_load", value=LATERAL_SHARE))
     return RowEffects(
-        post_spacing=spacing,
         supports=list_supports(spacing, edge),
         lateral_share=share.value if share else 0.0,
         missing=tuple(lacks),
-        at_foot=row.layout.anchors_at_foot,
     )
 
 

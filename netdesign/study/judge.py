@@ -12,15 +12,20 @@ from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import Floor
 from netdesign.outcome import merge_verdicts
+from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
-from netdesign.study.case_records import CaseRecord, EnvelopeRecord, ExtremeRecord
-from netdesign.study.case_solver import CaseSolver
+from netdesign.study.case_records import (
+    CaseRecord,
+    EnvelopeRecord,
+    ExtremeRecord,
+    ForceRecord,
+)
 from netdesign.study.check_run import CheckRun
-from netdesign.study.effects import record_end_effects
-from netdesign.study.judgement import Known
-from netdesign.study.measured_pulls import record_monitoring
+from netdesign.study.effects import find_effects, record_end_effects
+from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_history_notes,
@@ -29,8 +34,13 @@ from netdesign.study.notes import (
     list_site_notes,
 )
 from netdesign.study.parts import list_parts
-from netdesign.study.pulls import record_pulls
-from netdesign.study.record_envelope import record_case, record_envelope, record_extreme
+from netdesign.study.pulls import list_pulls, record_pulls
+from netdesign.study.record_envelope import (
+    record_case,
+    record_envelope,
+    record_extreme,
+    record_point,
+)
 from netdesign.study.record_guideline import (
     bound_row_floor,
     find_row_floor,
@@ -54,11 +64,12 @@ from netdesign.study.records import (
     merge_rows,
 )
 from netdesign.study.row_checks import check_row, distrust
-from netdesign.study.row_to_check import Basis, RowToCheck
-from netdesign.study.solved_forces import know_row
+from netdesign.study.row_to_check import Basis, CaseSolver, RowToCheck
+from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.study.support_records import PanelRecord
-from netdesign.units import newton_from_kilonewton
-from netdesign.words.message import Message
+from netdesign.study.winter_row import record_monitoring
+from netdesign.units import kilonewton_from_newton, newton_from_kilonewton
+from netdesign.words.message import Message, say
 
 _Found = TypeVar("_Found")
 
@@ -194,7 +205,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
 
 
 def _check_row(
-    task: RowToCheck, extremes: Mapping[str, Extreme], known: Known
+    task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
 ) -> tuple[list[CheckRecord], ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
@@ -211,7 +222,7 @@ def _check_row(
 
 def _list_notes(
     task: RowToCheck,
-    known: Known,
+    known: RowForces,
     checks: Sequence[CheckRecord],
     cases: Sequence[CaseRecord],
     panel: PanelRecord | None,
@@ -301,3 +312,55 @@ def _find_model_form(
         return None
     member = _name_largest(worst)
     return record_model_form(task.solver, task.basis.row, governing, member, worst)
+
+
+def know_row(
+    basis: Basis,
+    results: Sequence[CaseResult],
+    extremes: Mapping[str, Extreme],
+    gap: Message | None,
+    floor: Floor | None,
+) -> RowForces:
+    """Knowledge of a row by its cases and the guideline's load.
+
+    ``gap`` says why the cases are not complete.
+    """
+    row, standard = basis.row, basis.standard
+    effects = find_effects(row, standard, basis.site.ranges)
+    head, record = floor.head if floor else None, record_floor(floor, row)
+    held = find_held_sideways(row, results, extremes, standard, head)
+    return RowForces(
+        row=row,
+        standard=standard,
+        effects=effects,
+        largest={name: _record_force(one) for name, one in extremes.items()},
+        floor={one.member: one for one in record.forces} if record else None,
+        held=held,
+        tilt=find_tilt(
+            row, (one.case.inclination for one in results if one.is_converged)
+        ),
+        pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
+        gap=gap,
+        floor_gap=floor.reason if floor else None,
+        panel_gap=_find_failed_panel(row, results),
+    )
+
+
+def _record_force(extreme: Extreme) -> ForceRecord:
+    force = extreme.widened
+    return ForceRecord(
+        quantity=extreme.member,
+        low_kN=kilonewton_from_newton(force.low),
+        value_kN=kilonewton_from_newton(force.value),
+        high_kN=kilonewton_from_newton(force.high),
+        case=record_point(extreme.governing.case),
+        unknown=list(extreme.unknown),
+    )
+
+
+def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
+    """Reason why an assumed panel fails, so that nothing is known of the row."""
+    failed = [one for one in results if isinstance(one.panel, FailedPanel)]
+    if not failed or row.panel is None or not row.panel.assumed:
+        return None
+    return say("panel.assumed_fails", reason=failed[0].lack or "")

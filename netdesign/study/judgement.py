@@ -15,7 +15,6 @@ from netdesign.site.model import CONNECTED, NetRow, Resistance
 from netdesign.structure.members import ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
-from netdesign.study.calibration import find_doubt
 from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.check_to_record import (
     doubt_ground,
@@ -25,9 +24,9 @@ from netdesign.study.check_to_record import (
     record_geometry,
     record_result,
 )
-from netdesign.study.connection import connect
-from netdesign.study.corrosion import corrode
 from netdesign.study.dependent import (
+    connect,
+    corrode,
     find_resistance_for_force,
     find_short_post,
 )
@@ -41,39 +40,12 @@ from netdesign.study.member_force import (
     name_governing,
     name_unsaid,
 )
-from netdesign.study.pulls import (
-    AnchorPull,
-    check_directions,
-    doubt_mortar,
-    find_pull,
-)
+from netdesign.study.pulls import AnchorPull, check_directions, doubt_mortar, find_pull
 from netdesign.study.records import CheckRecord
-from netdesign.study.row_to_check import Basis
+from netdesign.study.row_to_check import Basis, find_doubt
 from netdesign.study.sideways import check_sideways
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Known(RowForces):
-    """Knowledge of a row by its solved cases, or by its study: forces and directions.
-
-    Attributes
-    ----------
-    pulls : tuple of AnchorPull
-        Directions at the anchors.
-    gap : Message or None
-        Why the forces do not cover every case.
-    floor_gap : Message or None
-        Why the guideline's load is not known.
-    panel_gap : Message or None
-        Why an assumed panel fails, so that nothing is known of the row.
-    """
-
-    pulls: tuple[AnchorPull, ...]
-    gap: Message | None = None
-    floor_gap: Message | None = None
-    panel_gap: Message | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -133,7 +105,7 @@ def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
     return one is max(rivals, key=lambda other: other.ratio)
 
 
-def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
+def judge_members(basis: Basis, known: RowForces) -> list[MemberCheck]:
     """Checks of both supports' members, then of the net and what holds its ropes."""
     effects, row = known.effects, basis.row
     at_end, not_checked = effects.find_support("edge"), basis.standard.not_checked
@@ -155,7 +127,7 @@ def judge_members(basis: Basis, known: Known) -> list[MemberCheck]:
     return judged
 
 
-def _concerns(basis: Basis, known: Known, given: Resistance) -> bool:
+def _concerns(basis: Basis, known: RowForces, given: Resistance) -> bool:
     """The check is one of this row and profile: some case lifts a foot that is held."""
     if given.member == Member.POST_FOOT:
         floor = known.floor or {}
@@ -164,7 +136,7 @@ def _concerns(basis: Basis, known: Known, given: Resistance) -> bool:
 
 
 def _find_chain(
-    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
+    basis: Basis, known: RowForces, given: Resistance, width: LoadedWidth
 ) -> Resistance:
     """Resistance of the links between a rope and its anchor."""
     anchor = CONNECTED[given.member]
@@ -182,7 +154,7 @@ def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCh
 
 
 def _judge_member(
-    basis: Basis, known: Known, given: Resistance, width: LoadedWidth
+    basis: Basis, known: RowForces, given: Resistance, width: LoadedWidth
 ) -> MemberCheck:
     unsaid = _find_unsaid(basis.row, known, given, width)
     if unsaid:
@@ -226,7 +198,7 @@ def _find_lasting(
 
 
 def _find_unsaid(
-    row: NetRow, known: Known, given: Resistance, width: LoadedWidth
+    row: NetRow, known: RowForces, given: Resistance, width: LoadedWidth
 ) -> Message | None:
     """Lack of what a force depends on, so that nothing is known of it."""
     if row.unsaid:
@@ -298,7 +270,7 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     return next((one for one in points if one is not None), None)
 
 
-def record_member(basis: Basis, known: Known, one: MemberCheck) -> CheckRecord:
+def record_member(basis: Basis, known: RowForces, one: MemberCheck) -> CheckRecord:
     """Check of a force as the study has it, without what a solve adds to it."""
     position = one.width.position
     check = record_result(
@@ -331,7 +303,7 @@ def _find_floor(forces: RowForces, member: str) -> FloorForceRecord | None:
 
 
 def record_others(
-    basis: Basis, known: Known, judged: Sequence[MemberCheck]
+    basis: Basis, known: RowForces, judged: Sequence[MemberCheck]
 ) -> Iterator[CheckRecord]:
     """Checks that compare no force: load along the row, directions, geometry."""
     site, row, standard = basis.site, basis.row, basis.standard

@@ -4,7 +4,7 @@ A quantity that ranges is in the envelope; one that is a single value is not cer
 either. Each is moved alone, to both sides, within what is plausible: first to the ends
 of its search, in a case that carries about the members' largest forces; where a check
 turns on the way, the value is found in the governing case and its nearest neighbour
-(`turning.py`). Between solved values a force is taken to be monotone.
+(`check_by_case.py`). Between solved values a force is taken to be monotone.
 """
 
 from __future__ import annotations
@@ -18,10 +18,16 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.study.case_solver import CaseSolver
-from netdesign.study.check_by_case import TRIED_DENSITIES, CheckByCase, list_near
+from netdesign.study.check_by_case import (
+    TRIED_DENSITIES,
+    CheckByCase,
+    CheckLine,
+    NoResultError,
+    Point,
+    list_near,
+)
 from netdesign.study.records import HoldRecord
-from netdesign.study.turning import CheckLine, NoResultError, Point
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 
 # Ends of a search; half and twice the given value where nothing else is said.

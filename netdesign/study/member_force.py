@@ -35,6 +35,7 @@ from netdesign.structure.members import (
 from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.case_records import FloorForceRecord, ForceRecord
 from netdesign.study.effects import RowEffects
+from netdesign.study.pulls import AnchorPull
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
@@ -54,7 +55,7 @@ PARTS: Mapping[str, str] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowForces:
-    """Forces that the checks of a row rest on, in engineer's units.
+    """Knowledge of a row by its solved cases, or by its study, in engineer's units.
 
     Attributes
     ----------
@@ -68,6 +69,13 @@ class RowForces:
         Load along the row at the head, or why nothing holds it.
     tilt : float
         Largest force along the slope at a post's base over that across, (S19) [-].
+    pulls : tuple of AnchorPull
+        Directions at the anchors.
+    gap, floor_gap : Message or None
+        Why the forces do not cover every case, and why the guideline's load is not
+        known.
+    panel_gap : Message or None
+        Why an assumed panel fails, so that nothing is known of the row.
     """
 
     row: NetRow
@@ -77,6 +85,10 @@ class RowForces:
     floor: Mapping[str, FloorForceRecord] | None
     held: HeldSidewaysRecord | Message
     tilt: float
+    pulls: tuple[AnchorPull, ...] = ()
+    gap: Message | None = None
+    floor_gap: Message | None = None
+    panel_gap: Message | None = None
 
     @property
     def along_row(self) -> HeldSidewaysRecord | None:
@@ -216,7 +228,11 @@ def find_force(
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
     force = calculate_force({one.symbol: one for one in leaves})
     is_by_panel, held = _high(force.by_panel) > _high(force.coupled), forces.along_row
-    has_no_pull = member in (Member.FOOT_ANCHOR, NetPart.MESH, *forces.effects.at_foot)
+    has_no_pull = member in (
+        Member.FOOT_ANCHOR,
+        NetPart.MESH,
+        *forces.row.layout.anchors_at_foot,
+    )
     return MemberForce(
         on=force,
         solved=(section,) if panel is None else (section, panel),
@@ -273,7 +289,7 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     """Leaves of what the load along the row adds, and how that may grow [kN]."""
     share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
     held = forces.along_row
-    if member in forces.effects.at_foot:
+    if member in forces.row.layout.anchors_at_foot:
         return ([share] if share.is_known else []), 0.0
     if held is None or member in (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH):
         return [], 0.0  # it presses a post, (S18)

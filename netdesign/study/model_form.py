@@ -29,10 +29,9 @@ from netdesign.snow.ground import (
 )
 from netdesign.snow.law import Sides
 from netdesign.structure.members import Member
-from netdesign.study.calibration import is_calibrated, list_densities
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.record_envelope import record_point
 from netdesign.study.records import CheckRecord, ModelFormRecord, VariantRecord
+from netdesign.study.row_to_check import CaseSolver, is_calibrated, list_densities
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 

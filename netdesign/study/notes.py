@@ -1,4 +1,7 @@
-"""Notes and reasons of a study: what was taken for granted, done otherwise, not met."""
+"""Notes and reasons of a study: what was taken for granted, done otherwise, not met.
+
+Also on the net under its snow, for information.
+"""
 
 from __future__ import annotations
 
@@ -6,21 +9,23 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from netdesign.checks import Standard
+from netdesign.checks.check import find_action_factor
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.ranges import Interval
-from netdesign.outcome import Verdict
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.outcome import ModelError, Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
+from netdesign.study.dependent import find_snow_pressure
 from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
-from netdesign.study.net_in_snow import list_guy_notes, list_sag_notes
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.study.row_to_check import Basis
+from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.winter.model_code import find_model_code_density
@@ -305,3 +310,77 @@ def list_reasons(
         if not one.is_met
     ]
     return [*unproven, *unmet]
+
+
+def list_guy_notes(
+    row: NetRow, ranges: Ranges, checks: Sequence[CheckRecord], standard: Standard
+) -> Iterator[Message]:
+    """Note on the width of snow that working guys bear beside their design forces.
+
+    Theory: structure/THEORY.md, (S23). Of several supports the least.
+    """
+    on_action = find_action_factor(standard).value
+    try:
+        pressure = find_snow_pressure(row, ranges).value / 1e3
+    except ModelError:  # outside the guideline's closed forms
+        return
+    across = min(row.net_height, row.held_thickness)
+    widths = []
+    for guy in GUYS:
+        spare = [
+            bear_snow(force, check.resistance_kN, _find_cosine(row, ranges, guy))
+            for check in checks
+            if (check.member, check.mode) == (guy, "rope")
+            and check.resistance_kN is not None
+            and (force := check.read_band("E_d")[1])
+        ]
+        if spare and on_action and min(spare) > 0.0:
+            width = min(spare) / (on_action * pressure * across)
+            named = name_member(guy)
+            widths.append(say("row.guy_in_snow", member=named, width=width))
+    if widths:
+        yield say("row.guys_in_snow", guys=tuple(widths), pressure=pressure)
+
+
+def bear_snow(force: float, resistance: float, cosine: float) -> float:
+    """Load of snow down the slope that a guy bears beside its own force; (S23).
+
+    Parameters
+    ----------
+    force, resistance : float
+        Design values [kN].
+    cosine : float
+        Of the angle between the guy and the slope's line of fall, at least 0 [-].
+
+    Returns
+    -------
+    float
+        Design value [kN]; 0 where nothing is left.
+    """
+    if not resistance > force:
+        return 0.0
+    across = force**2 * (1.0 - cosine**2)
+    return math.sqrt(resistance**2 - across) - force * cosine
+
+
+def _find_cosine(row: NetRow, ranges: Ranges, guy: Member) -> float:
+    """Largest cosine of a guy's angle to the line of fall [-]."""
+    span, found = ranges["inclination"], []
+    for points in (place_row(row, one) for one in (span.low, span.high)):
+        anchor = points.find_anchor(guy)
+        along = abs(points.head[0] - anchor[0])
+        found.append(along / math.dist(points.head, anchor))
+    return max(found) * math.cos(row.guys.splay or 0.0)
+
+
+def list_sag_notes(row: NetRow, panel: PanelRecord | None) -> Iterator[Message]:
+    """Height of the loaded net between two posts, in the case that is drawn."""
+    if panel is None or panel.drawing is None:
+        return
+    height = panel.drawing.mid_net_m[-1][1]
+    yield say(
+        "row.loaded_net",
+        height=height,
+        of_net=height / row.net_height,
+        of_snow=height / row.held_thickness,
+    )

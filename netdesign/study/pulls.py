@@ -9,12 +9,10 @@ from dataclasses import dataclass
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import conclude, judge, not_proven
 from netdesign.checks.schema import ROPE_ANGLE
-from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.anchors import GroundForce
 from netdesign.structure.axis import (
     PullRange,
     find_dip,
@@ -27,7 +25,7 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
-from netdesign.study.sideways import place_row
+from netdesign.study.sideways import list_states, place_row
 from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian, radian_from_degree
 from netdesign.words.message import Message, say
@@ -90,7 +88,8 @@ def list_pulls(
     """
     solved = [one for one in results if one.is_converged]
     points = [place_row(row, one.case.inclination) for one in solved]
-    feet = [one for result in solved for one in _list_feet(result)]
+    states = [state for one in solved for state in list_states(row, one)]
+    feet = [force for state in states for force in state.feet]
     directions = {
         anchor: [_measure_guy(place, anchor, row.guys) for place in points]
         for anchor in ANCHORS
@@ -110,18 +109,6 @@ def list_pulls(
         for anchor, pulls in ranges.items()
         if pulls is not None
     ]
-
-
-def _list_feet(result: CaseResult) -> list[GroundForce]:
-    """Forces of the net on foot anchors in a case, also by the panel between posts."""
-    feet = [] if result.anchors is None else [result.anchors.foot_anchor]
-    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
-    for panel in panels:
-        x, y = panel.solution.mid_foot
-        feet.append(panel.anchors.foot_anchor)
-        if x or y:
-            feet.append(GroundForce(member=Member.NET, x=x, y=y))
-    return feet
 
 
 def list_positions(row: NetRow) -> tuple[Position, ...]:

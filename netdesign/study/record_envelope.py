@@ -25,7 +25,6 @@ from netdesign.search.sensitivity import (
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.calibration import is_calibrated
 from netdesign.study.case_records import (
     AdditionRecord,
     AxisRecord,
@@ -40,6 +39,7 @@ from netdesign.study.case_records import (
     LineRecord,
     MapRecord,
 )
+from netdesign.study.row_to_check import is_calibrated
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 
 

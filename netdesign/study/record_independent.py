@@ -14,7 +14,6 @@ from netdesign.cable.tension import (
     compute_ratio_bounds,
     compute_turning_angles,
 )
-from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_met
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import NetGeometry, place_head
@@ -229,3 +228,38 @@ def _judge(
     return IndependentRecord(
         name=name, value=value, limit=limit, is_met=is_law_met(name, value, limit)
     )
+
+
+BALANCE = 1e-3  # of a largest force or of the weight: tight enough for print
+DIRECTION = 2e-2  # pulls are those of two meshes, the shape that of the finer one
+DIRECTION_ERRORS = 3.0  # or so many times the relative error of the end's pull
+RATIO = 1e-2  # of the ratio of tensions, as the allowed error of forces
+
+# Largest value of each law whose limit does not depend on the case [-].
+LIMITS = {
+    "global_balance": BALANCE,
+    "friction_excess": BALANCE,
+    "head_balance": BALANCE,
+    "tension_share": 0.0,  # that one lies above it
+}
+
+
+def is_law_met(name: str, value: float | None, limit: float | None) -> bool:
+    """A law is met.
+
+    Parameters
+    ----------
+    name : str
+        As in an ``IndependentRecord``.
+    value : float or None
+        Share or ratio [-]; None where there is none, which never meets a law.
+    limit : float or None
+        Its limit [-]; None where nothing bounds a ratio of tensions.
+    """
+    if value is None or (limit is None and name != "capstan_ratio"):
+        return False
+    if name == "tension_share":  # a net does not push
+        return value > 0.0
+    if name == "capstan_ratio":
+        return limit is None or value <= limit * (1.0 + RATIO)
+    return limit is not None and abs(value) <= limit

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from netdesign.coupling.solution import EndPull
@@ -15,43 +14,16 @@ from netdesign.guideline.floor import SPANS, Floor, FloorForce
 from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.axis import measure_pull
-from netdesign.structure.layout import SupportPoints, place_support
+from netdesign.structure.layout import place_support
 from netdesign.structure.members import Member, NetPart, RopeForce
-from netdesign.study.case_records import CasePoint, GuidelineLoadRecord
+from netdesign.study.case_records import GuidelineLoadRecord
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import list_load
-from netdesign.study.sideways import (
-    GUYS,
-    GUYS_BY_PANEL,
-    place_row,
-)
+from netdesign.study.sideways import SupportState, list_states
 from netdesign.study.support_records import StaticsRecord
 from netdesign.units import kilonewton_from_newton
 
 _Any = TypeVar("_Any")  # state of a row
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Pulls:
-    """End pulls of a state with the support that they act on.
-
-    ``mid_foot`` is the force on an anchor in mid-panel [N].
-    """
-
-    foot: EndPull
-    head: EndPull
-    points: SupportPoints
-    anchors: AnchorForces
-    is_by_panel: bool = False
-    mid_foot: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class _State:
-    """A solved case, by its section or by a panel between posts."""
-
-    result: CaseResult
-    panel: PanelForces | None = None
 
 
 def record_statics(
@@ -72,75 +44,36 @@ def _record_cases(
     row: NetRow, solved: Sequence[CaseResult], extremes: Mapping[str, Extreme]
 ) -> Iterable[StaticsRecord]:
     found = [
-        (key, _find_state(key, one.governing))
+        (key, state)
         for key, one in extremes.items()
         if one.force.value > 0.0 and key not in (*RopeForce, NetPart.MESH)
+        for state in _find_state(row, key, one.governing)
     ]
-    states = _list_states(solved)
-    if states:
+    every = (state for one in solved for state in list_states(row, one))
+    if states := sorted(every, key=lambda one: one.panel is not None):
         found += [
             (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS
         ]
     for state, keys in _group(found, _is_same):
-        pulls = _read_pulls(row, state)
-        if pulls is not None:
-            case = record_point(state.result.case)
-            yield _record_state(keys, pulls, case=case, load=None)
+        if state.foot is not None:
+            yield _record_state(keys, state, None)
 
 
-def _list_states(solved: Sequence[CaseResult]) -> list[_State]:
-    """States of solved cases, by section and by panel where there is one."""
-    by_panel = [
-        _State(one, panel)
-        for one in solved
-        if isinstance(one.panel, PanelForces)
-        for panel in one.panel.variants
-    ]
-    return [*map(_State, solved), *by_panel]
-
-
-def _read_pulls(row: NetRow, state: _State) -> _Pulls | None:
-    result, panel = state.result, state.panel
-    solution, anchors = result.solution, result.anchors
-    if solution is None or anchors is None:
-        return None
-    points = place_row(row, result.case.inclination)
-    if panel is None:
-        return _Pulls(
-            foot=solution.foot, head=solution.head, points=points, anchors=anchors
-        )
-    return _Pulls(
-        foot=panel.foot,
-        head=panel.head,
-        points=points,
-        anchors=panel.anchors,
-        is_by_panel=True,
-        mid_foot=math.hypot(*panel.solution.mid_foot),
-    )
-
-
-def _find_state(member: str, result: CaseResult) -> _State:
+def _find_state(row: NetRow, member: str, result: CaseResult) -> Iterator[SupportState]:
     """The case at rest or followed in time, whichever brings the member's force."""
-    both = result.compared
+    both, panel = result.compared, None
     if member in PANEL_QUANTITIES and isinstance(result.panel, PanelForces):
-        return _State(result, result.panel.find_worst(member))
-    if both is None:
-        return _State(result)
-    return _State(both.history if both.exceeds(member) else both.steady)
+        panel = result.panel.find_worst(member)
+    elif both is not None:
+        result = both.history if both.exceeds(member) else both.steady
+    return (one for one in list_states(row, result) if one.panel is panel)
 
 
-def _measure(state: _State) -> dict[str, float]:
+def _measure(state: SupportState) -> dict[str, float]:
     """Sizes of a state of which the largest counts, by the keys `SPANS`."""
-    anchors, bands = state.result.anchors, state.result.member_forces
-    guys: Sequence[str] = GUYS
-    if state.panel is not None:
-        anchors, bands, guys = state.panel.anchors, state.panel.bands, GUYS_BY_PANEL
-    if anchors is None:
-        return dict.fromkeys(SPANS, -math.inf)
-    foot = anchors.foot_anchor
+    foot = state.anchors.foot_anchor
     turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
-    tension = sum(bands[guy].low for guy in guys)
-    sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
+    sizes = (state.pull, -state.tension, -turn, turn)
     return dict(zip(SPANS, sizes, strict=True))
 
 
@@ -158,7 +91,7 @@ def _group(
     return groups
 
 
-def _is_same(one: _State, other: _State) -> bool:
+def _is_same(one: SupportState, other: SupportState) -> bool:
     return one.result is other.result and one.panel is other.panel
 
 
@@ -190,13 +123,13 @@ def _record_floor_state(state: FloorForce, keys: list[str]) -> StaticsRecord:
     )
     if not isinstance(anchors, AnchorForces):  # the floor has held it before
         raise TypeError("a state of the floor has no equilibrium")
-    pulls = _Pulls(
-        foot=EndPull(x=foot[0], y=foot[1], error=0.0),
-        head=EndPull(x=head[0], y=head[1], error=0.0),
+    pulls = SupportState(
         points=points,
         anchors=anchors,
+        foot=EndPull(x=foot[0], y=foot[1], error=0.0),
+        head=EndPull(x=head[0], y=head[1], error=0.0),
     )
-    return _record_state(keys, pulls, case=None, load=_record_load(state))
+    return _record_state(keys, pulls, _record_load(state))
 
 
 def _record_load(state: FloorForce) -> GuidelineLoadRecord:
@@ -213,17 +146,15 @@ def _record_load(state: FloorForce) -> GuidelineLoadRecord:
 
 
 def _record_state(
-    keys: list[str],
-    pulls: _Pulls,
-    *,
-    case: CasePoint | None,
-    load: GuidelineLoadRecord | None,
+    keys: list[str], state: SupportState, load: GuidelineLoadRecord | None
 ) -> StaticsRecord:
-    foot, head, points, anchors = pulls.foot, pulls.head, pulls.points, pulls.anchors
+    foot, head, points, anchors = state.foot, state.head, state.points, state.anchors
+    if foot is None or head is None:
+        raise TypeError("a state without pulls has no statics")
     uphill, downhill = anchors.head.guy_demands
     return StaticsRecord(
         brings=keys,
-        case=case,
+        case=record_point(state.result.case) if state.result else None,
         load=load,
         foot_x_kN_per_m=kilonewton_from_newton(foot.x),
         foot_y_kN_per_m=kilonewton_from_newton(foot.y),
@@ -242,6 +173,6 @@ def _record_state(
         post_kN=kilonewton_from_newton(anchors.head.post_compression),
         post_base_kN=kilonewton_from_newton(max(-anchors.post_base.y, 0.0)),
         post_foot_kN=kilonewton_from_newton(anchors.head.post_tension),
-        is_by_panel=pulls.is_by_panel,
-        mid_foot_kN=kilonewton_from_newton(pulls.mid_foot),
+        is_by_panel=state.panel is not None,
+        mid_foot_kN=kilonewton_from_newton(math.hypot(*state.mid_foot)),
     )

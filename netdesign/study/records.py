@@ -460,3 +460,23 @@ class Study:
     def written_rows(self) -> JsonPart:
         """Net rows in the document."""
         return join_items([row.written for row in self.rows], _DEPTH_OF_ROWS - 1)
+
+
+def find_input(row: RowStudy, column: str) -> float | None:
+    """Number of a column of sheet Nets, as understood; None where it is empty."""
+    value = _find(row, column)
+    return None if isinstance(value, str) else value
+
+
+def find_word(row: RowStudy, column: str) -> str:
+    """Word of a column of sheet Nets, by its key; "" where it is empty."""
+    value = _find(row, column)
+    return value if isinstance(value, str) else ""
+
+
+def _find(row: RowStudy, column: str) -> float | str | None:
+    for echo in row.inputs:
+        label = echo.label
+        if isinstance(label, Message) and label.key == f"column.Nets.{column}":
+            return echo.value
+    return None

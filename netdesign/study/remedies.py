@@ -1,9 +1,9 @@
 """Remedies: changes that make a check pass, or limits of one that just passes.
 
 Proportions (resistance, post spacing) are exact. Density, snow height and friction
-angle are found by solves (`turning.py`), and confirmed in every case whose force comes
-near to governing. A floor by the guideline's load knows neither density nor friction of
-the ranges; it limits the snow height.
+angle are found by solves (`check_by_case.py`), and confirmed in every case whose force
+comes near to governing. A floor by the guideline's load knows neither density nor
+friction of the ranges; it limits the snow height.
 """
 
 from __future__ import annotations
@@ -16,22 +16,21 @@ from typing import Literal
 
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
-from netdesign.site.model import BaseFriction, GroundAround
 from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.calibration import find_doubt
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.check_by_case import (
     TRIED_DENSITIES,
     CheckByCase,
+    CheckLine,
+    NoResultError,
+    Point,
     Setting,
     list_near,
 )
 from netdesign.study.judgement import MemberCheck
 from netdesign.study.records import ChangeRecord
-from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.row_to_check import CaseSolver, RowToCheck, find_doubt
 from netdesign.study.stronger_types import find_type_change
-from netdesign.study.turning import CheckLine, NoResultError, Point
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 
@@ -51,9 +50,8 @@ def list_remedies(
 
     What needs a solve is looked for where there is a ``check``.
     """
-    if not _is_worth_telling(task, one) or isinstance(
-        one.given.dimensions, BaseFriction | GroundAround
-    ):
+    is_of_ground = one.given.mode in ("sliding", "wedge") and one.given.dimensions
+    if is_of_ground or not _is_worth_telling(task, one):
         return []  # sliding goes with what presses the base; a ground is as it is
     changes = _list_resistance_remedies(task, one)
     used = one.result.find("μ")

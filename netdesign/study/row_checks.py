@@ -2,37 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache, partial
 
-from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.extremes import Extreme, find_extreme
+from netdesign.envelope.ranges import Ranges
+from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
-from netdesign.study.build_check_by_case import (
-    find_row_margins,
-    list_checks_by_case,
-)
-from netdesign.study.check_by_case import CheckByCase
+from netdesign.site.model import NetRow
+from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.structure.members import ROPE_OF, NetPart, RopeForce, name_in_panel
+from netdesign.study.case_records import ForceRecord
+from netdesign.study.check_by_case import CheckByCase, Push
+from netdesign.study.effects import find_effects
 from netdesign.study.judgement import (
-    Known,
     MemberCheck,
+    is_worst,
     judge_members,
     judge_with_fault,
     record_member,
     record_others,
 )
-from netdesign.study.margins import solve_ends
-from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.margins import find_margins, solve_ends
+from netdesign.study.member_force import (
+    MemberForce,
+    RowForces,
+    compute_end_factor,
+    compute_tension_factor,
+)
+from netdesign.study.records import ChangeRecord, CheckRecord, HoldRecord, SpreadRecord
 from netdesign.study.remedies import list_remedies
-from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.spreads import list_spreads
-from netdesign.words.message import say
+from netdesign.study.row_to_check import CaseSolver, RowToCheck
+from netdesign.study.sideways import find_tilt
+from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 # A program that fails beside the cases of a check is not trusted in them.
 _FAULT_BESIDE = say("check.fault_beside")
 
 
 def check_row(
-    task: RowToCheck, extremes: Mapping[str, Extreme], known: Known
+    task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
 ) -> list[CheckRecord]:
     """Every check of a row: the members of both supports, then the geometry.
 
@@ -88,3 +101,314 @@ def distrust(check: CheckRecord) -> CheckRecord:
     if told.key == "load.reason":
         reason = say(told.key, **{**told.arguments, "reason": reason})
     return replace(check, verdict=Verdict.NOT_PROVEN, reason=reason)
+
+
+# Changes that are limits of single values, too, and the names of these.
+_SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness"}
+
+
+def list_checks_by_case(
+    task: RowToCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
+) -> list[CheckByCase | None]:
+    """Checks as functions of a solved case; None of those that no solve may turn.
+
+    Of several supports that one which uses a member most: where that holds, the
+    others do. What the ropes load has to be known as a whole.
+    """
+    if task.solver is None or task.solved.gap or task.basis.row.is_overtopped:
+        return [None] * len(judged)
+    return [
+        _build_check(task, one, extremes)
+        if _follows_cases(one) and is_worst(one, judged)
+        else None
+        for one in judged
+    ]
+
+
+def find_row_margins(
+    task: RowToCheck,
+    judged: Sequence[MemberCheck],
+    changes: Sequence[Sequence[ChangeRecord]],
+    by_case: Sequence[CheckByCase | None],
+) -> dict[str, list[HoldRecord]]:
+    """Limits of single values for the checks that follow from forces, by their ids.
+
+    ``changes`` and ``by_case`` are those of the checks in their order.
+    """
+    if task.solver is None:
+        return {}
+    held = {
+        one.id: by_case
+        for one, by_case in zip(judged, by_case, strict=True)
+        if by_case is not None
+    }
+    known = {
+        one.id: _list_known(found) for one, found in zip(judged, changes, strict=True)
+    }
+    return find_margins(held, task.solver, known)
+
+
+def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:
+    """Largest values up to which a check passes, by the quantity's name [SI]."""
+    found = {}
+    for change in changes:
+        quantity = change.quantity
+        key = quantity.key if isinstance(quantity, Message) else ""
+        if key in _SOLVED and change.bound is not None:
+            found[_SOLVED[key]] = change.bound
+    return found
+
+
+def _find_end_growth(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Growth of a rope's force by the end effect, over some ranges [-]."""
+    if one.given.member not in tuple(NetPart):
+        return _find_end_factor(task, ranges)
+    effects = find_effects(task.basis.row, task.basis.standard, ranges)
+    width = effects.find_support(one.width.position)
+    return compute_tension_factor(width, task.basis.row.layout.post_spacing)
+
+
+def _find_end_factor(task: RowToCheck, ranges: Ranges) -> float:
+    """Factor of the end effect on a rope's pull, over some ranges [-]."""
+    effects = find_effects(task.basis.row, task.basis.standard, ranges)
+    edge = effects.find_support("edge")
+    return compute_end_factor(edge, task.basis.row.layout.post_spacing)
+
+
+def _follows_cases(one: MemberCheck) -> bool:
+    """The check follows from the member's force by numbers that stay as they are.
+
+    A resistance that follows the snow does not, nor what is added to no force at all,
+    nor an anchor of two guys: what these add may grow while its own force falls.
+    """
+    force = one.force
+    if force is not None and force.on.load.across is not None:
+        return False
+    if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
+        return False
+    if one.is_of_end and (one.gap is not None or one.doubt is not None):
+        return False
+    return force.largest.high_kN > 0.0 or force.added_high == 0.0
+
+
+def _build_check(
+    task: RowToCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
+) -> CheckByCase:
+    """The check as a function of a solved case and of the row.
+
+    Of section and panel that one which is larger is followed, the other beside it.
+    """
+    force, use = one.force, one.use
+    if force is None or use is None:
+        raise ValueError("a check without a force has no target")
+    member, results = one.given.member, task.solved.results
+    scales = {
+        record.quantity: use * force.share * _widen(record, results) / 1e3
+        for record in force.solved
+    }
+    followed = force.largest.quantity
+    floor = (task, member, force, use)
+    return CheckByCase(
+        row=task.basis.row,
+        ranges=task.basis.site.ranges,
+        member=followed,
+        scale=scales.pop(followed),
+        beside=tuple(scales.items()),
+        added=use * force.added_high,
+        rise=use * force.rise,
+        governing=extremes[followed].governing.case,
+        results=results,
+        widen=cache(partial(_choose_load(one, force), task, one)),
+        push=_find_push(task, one, force),
+        use_floor=partial(_use_floor, *floor),
+        bound_floor=partial(_bound_floor, *floor),
+    )
+
+
+def _choose_load(
+    one: MemberCheck, force: MemberForce
+) -> Callable[[RowToCheck, MemberCheck, Ranges], float]:
+    """Function that tells how the load of a check's support follows the ranges."""
+    if one.is_of_end:
+        return _find_end_growth
+    return _find_load if force.on.push else _find_tilted
+
+
+def _use_floor(
+    task: RowToCheck, member: str, force: MemberForce, use: float, ranges: Ranges
+) -> float:
+    """Utilisation of a member by the guideline's load alone [-]."""
+    floor = task.find_floor(ranges)
+    if floor is None or member in ROPE_OF:
+        return 0.0
+    least = floor.find(member)
+    if least is None:
+        return math.inf
+    pull = floor.head.pull if floor.head else 0.0
+    return use * (force.share * least.force / 1e3 + _add_by_floor(force, pull / 1e3))
+
+
+def _bound_floor(
+    task: RowToCheck, member: str, force: MemberForce, use: float, ranges: Ranges
+) -> tuple[float, float]:
+    """Ends of what `_use_floor` gives; no upper one where the bound is not known."""
+    ends = None if member in ROPE_OF else task.bound_floor(ranges)
+    if ends is None:
+        return 0.0, math.inf
+    least, most = (
+        use
+        * (
+            force.share * end.of_members[member] / 1e3
+            + _add_by_floor(force, end.pull / 1e3)
+        )
+        for end in ends
+    )
+    return least, most
+
+
+def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push | None:
+    """Part of the panel's force that the end guy brings; None of any other member."""
+    if force.on.push is None or not force.on.push.high:
+        return None
+    name, rope = name_in_panel(one.given.member), RopeForce.UPPER_ALONG
+    results = task.solved.results
+    panel = next(record for record in force.solved if record.quantity == name)
+    inside = force.on_support * force.share * _widen(panel, results)
+    pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
+    return Push(force=name, rope=rope, ratio=force.on.push.high / pull / inside)
+
+
+def _find_load(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Load of an end post over some ranges, at most, over that of the row as is [-].
+
+    The larger growth of width and ropes' pull counts for both.
+    """
+    now = task.basis.site.ranges
+    widths = _find_width(task, one, ranges) / _find_width(task, one, now)
+    pulls = _find_end_factor(task, ranges) / _find_end_factor(task, now)
+    return max(widths, pulls) * _find_tilt(task, one, ranges)
+
+
+def _find_tilted(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Width that loads a support, times the tilt where a base would slide by it."""
+    return _find_width(task, one, ranges) * _find_tilt(task, one, ranges)
+
+
+def _find_tilt(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Share of a post's force along the slope over some ranges; 1 of other checks [-].
+
+    The tangent of its tilt is largest at an end of the inclinations.
+    """
+    if one.given.mode != "sliding":
+        return 1.0
+    span = ranges["inclination"]
+    return find_tilt(task.basis.row, (span.low, span.high))
+
+
+def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
+    """Upper end with what may hide, over the largest one of the solved cases [-]."""
+    at_cases = kilonewton_from_newton(find_extreme(force.quantity, results).force.high)
+    return force.high_kN / at_cases if at_cases else 1.0
+
+
+def _find_width(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Width that loads a support over ranges in which something was moved [m].
+
+    Of the mesh its local load over that inside the row [-].
+    """
+    supports = find_effects(task.basis.row, task.basis.standard, ranges).supports
+    if one.given.member == NetPart.MESH:
+        factors = [w.end_factor for w in supports if w.position == one.width.position]
+        return 1.0 + max(factors, default=0.0)
+    widths = [w.width for w in supports if w.position == one.width.position]
+    return max(widths, default=one.width.width)
+
+
+def _add_by_floor(force: MemberForce, pull: float) -> float:
+    """Force added to a member where the guideline's pull on the head may be larger.
+
+    It grows with that pull, and never falls [kN].
+    """
+    growth = max(0.0, pull / force.pull - 1.0) if force.pull else 0.0
+    return force.added + growth * force.rise
+
+
+def list_spreads(
+    task: RowToCheck, one: MemberCheck, extreme: Extreme
+) -> list[SpreadRecord]:
+    """Parts of the interval of a utilisation, the creep law's for comparison.
+
+    A floor cuts off what lies below it. What the ropes load has none, and is not
+    compared: it is in proportion to the rope's force.
+    """
+    force, use = one.force, one.use
+    if force is None or use is None or not one.result.find_value("μ"):
+        return []
+    is_by_panel = force.is_by_panel
+
+    def rate(solved: float) -> float:
+        return use * force.find_high(solved / 1e3, is_by_panel=is_by_panel)
+
+    largest = 1e3 * force.largest.high_kN
+    scale = rate(largest) / largest if largest else use * force.share / 1e3
+    unknown = tuple(name("axis", axis) for axis in extreme.unknown)
+    is_floor = force.governs == "guideline"
+    spreads = _split(
+        one,
+        rate(extreme.force.high),
+        say("spread.floor_governs") if is_floor else None,
+        say("spread.unknown_along", axes=unknown) if unknown else None,
+    )
+    if one.is_of_end:
+        return spreads
+    if task.solver is not None and extreme.force.value > 0.0:
+        spreads += _list_creep_laws(task.solver, task.basis.row, extreme, scale)
+    return spreads
+
+
+def _split(
+    one: MemberCheck, at_cases: float, *notes: Message | None
+) -> list[SpreadRecord]:
+    """Interval of a utilisation: numerical error, and what may hide between the cases.
+
+    ``at_cases`` is its upper end at the solved cases.
+    """
+    used = one.result.find("μ")
+    if used is None or used.value is None or used.low is None or used.high is None:
+        return []
+    numerical = max(used.value, at_cases)
+    of_numbers, between = notes
+    return [
+        SpreadRecord(
+            source=say("spread.numerical_error"),
+            low=used.low,
+            high=numerical,
+            in_verdict=True,
+            note=of_numbers,
+        ),
+        SpreadRecord(
+            source=say("spread.between_cases"),
+            low=used.value,
+            high=used.value + used.high - numerical,
+            in_verdict=True,
+            note=between,
+        ),
+    ]
+
+
+def _list_creep_laws(
+    solver: CaseSolver, row: NetRow, extreme: Extreme, scale: float
+) -> Iterable[SpreadRecord]:
+    laws = {k: law for k, law in CREEP_LAWS.items() if k != solver.law.name}
+    results = solver.solve_all(
+        [(row, extreme.governing.case, law) for law in laws.values()]
+    )
+    for law, result in zip(laws, results, strict=True):
+        force = result.member_forces.get(extreme.member)
+        yield SpreadRecord(
+            source=say("spread.creep_law", law=law),
+            low=force.low * scale if force else None,
+            high=force.high * scale if force else None,
+            in_verdict=False,
+            note=say("spread.in_governing_case") if force else result.reason,
+        )

@@ -22,12 +22,12 @@ from netdesign.site.model import NetRow, Project, Site
 from netdesign.solving.identity import identify_installation
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError, write_parts
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.document import write_row
 from netdesign.study.judge import judge_row
 from netdesign.study.records import RowStudy
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import Message, say
 
 Studies = list[RowStudy]  # of one row, one a profile

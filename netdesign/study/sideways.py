@@ -13,16 +13,18 @@ from dataclasses import dataclass
 from netdesign.checks import Band, CheckResult, Standard
 from netdesign.checks.check import conclude, not_proven
 from netdesign.checks.schema import LATERAL_SHARE
+from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
+from netdesign.structure.anchors import AnchorForces, GroundForce
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, name_in_panel
-from netdesign.structure.splay import SplayWeights, compute_splayed_head, weigh_splay
+from netdesign.structure.splay import compute_splayed_head, weigh_splay
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.units import (
     degree_from_radian,
@@ -64,17 +66,17 @@ def find_held_sideways(
     lack = find_lack(row)
     if lack is not None or splay is None:
         return lack or say("sideways.no_splay")
-    heads = [head for one in results for head in _list_heads(row, one)]
+    heads = [head for one in results for head in list_states(row, one)]
     if not heads:
         return describe_gap(results) or say("check.no_case_solved")
-    failed = (head.fail(value.value, splay) for head in heads)
+    failed = (_fail(head, value.value, splay) for head in heads)
     reason = next((one for one in failed if one is not None), None)
     return reason or _record(row, heads, extremes, floor, (value.value, splay))
 
 
 def _record(
     row: NetRow,
-    heads: Sequence[_Head],
+    heads: Sequence[SupportState],
     extremes: Mapping[str, Extreme],
     floor: HeadSpan | None,
     load: tuple[float, float],
@@ -87,7 +89,7 @@ def _record(
     }
     in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
     solved = min(head.tension for head in heads)
-    pull = _widen(heads, sum(hidden.values()), floor.pull if floor else 0.0)
+    pull = _widen(row, heads, sum(hidden.values()), floor.pull if floor else 0.0)
     least = _find_least_tension(row, solved - in_guys, floor)
     (uphill, uphill_at), (downhill, downhill_at), (post, post_at) = (
         _find_largest(heads, name)
@@ -112,13 +114,25 @@ def _record(
     )
 
 
-def _find_largest(heads: Sequence[_Head], name: str) -> tuple[float, float]:
+def _find_largest(heads: Sequence[SupportState], name: str) -> tuple[float, float]:
     """Largest weight over the heads [-], and the inclination there [deg]."""
-    weighed = [one for one in heads if one.weights]
-    values = [float(getattr(one.weights, name)) for one in weighed]
-    value = max(values)
-    head = weighed[values.index(value)]
-    return value, given_degree_from_radian(head.inclination)
+    weighed = [
+        (float(getattr(weights, name)), one.result.case.inclination)
+        for one in heads
+        if one.result and (weights := weigh_splay(one.points))
+    ]
+    value, inclination = max(weighed, key=lambda one: one[0])
+    return value, given_degree_from_radian(inclination)
+
+
+def _fail(head: SupportState, share: float, splay: float) -> Message | None:
+    """Reason why the load along the row is not held in a state."""
+    found = compute_splayed_head(
+        head.anchors.head_pull, head.points, sideways=share * head.pull, splay=splay
+    )
+    if isinstance(found, FailedSupport):
+        return found.reason
+    return None if weigh_splay(head.points) else say("support.not_held_sideways")
 
 
 def _find_least_tension(row: NetRow, solved: float, floor: HeadSpan | None) -> float:
@@ -157,28 +171,78 @@ def check_sideways(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Head:
-    """One case: pull on the head with its error, tension at work [N], geometry."""
+class SupportState:
+    """A state on a support inside the row: by its section, or by a panel between posts.
 
-    pull: Point
-    error: float
-    tension: float
+    Attributes
+    ----------
+    result, panel : CaseResult, PanelForces or None
+        What it is of; no result under the guideline's load, no panel by its section.
+    points : SupportPoints
+        Geometry [m].
+    anchors : AnchorForces
+        On the ground [N].
+    foot, head : EndPull or None
+        Pulls of the net with their errors [N/m]; None without a solution.
+    tension : float
+        Least of the guys on both sides, of which one is at work [N].
+    """
+
+    result: CaseResult | None = None
+    panel: PanelForces | None = None
     points: SupportPoints
-    weights: SplayWeights | None
-    inclination: float
+    anchors: AnchorForces
+    foot: EndPull | None
+    head: EndPull | None
+    tension: float = 0.0
 
     @property
-    def size(self) -> float:
-        return math.hypot(*self.pull)
+    def pull(self) -> float:
+        """Size of the pull on the post head [N]."""
+        return math.hypot(*self.anchors.head_pull)
 
-    def fail(self, share: float, splay: float) -> Message | None:
-        """Reason why the load along the row is not held in this case."""
-        found = compute_splayed_head(
-            self.pull, self.points, sideways=share * self.size, splay=splay
-        )
-        if isinstance(found, FailedSupport):
-            return found.reason
-        return None if self.weights else say("support.not_held_sideways")
+    @property
+    def mid_foot(self) -> Point:
+        """Force on an anchor in mid-panel [N]."""
+        return self.panel.solution.mid_foot if self.panel else (0.0, 0.0)
+
+    @property
+    def feet(self) -> list[GroundForce]:
+        """Forces of the net on foot anchors, beside a post and in mid-panel."""
+        x, y = self.mid_foot
+        mid = [GroundForce(member=Member.NET, x=x, y=y)] if x or y else []
+        return [self.anchors.foot_anchor, *mid]
+
+
+def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
+    """States of a case, by its section and by every panel; none of a failed one."""
+    if not result.is_converged or result.anchors is None:
+        return []
+    points, solution = place_row(row, result.case.inclination), result.solution
+    of_section = SupportState(
+        result=result,
+        points=points,
+        anchors=result.anchors,
+        foot=solution.foot if solution else None,
+        head=solution.head if solution else None,
+        tension=_add_guys(result.member_forces, GUYS),
+    )
+    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
+    return [
+        of_section,
+        *(
+            SupportState(
+                result=result,
+                panel=one,
+                points=points,
+                anchors=one.anchors,
+                foot=one.foot,
+                head=one.head,
+                tension=_add_guys(one.bands, GUYS_BY_PANEL),
+            )
+            for one in panels
+        ),
+    ]
 
 
 def place_row(row: NetRow, inclination: float) -> SupportPoints:
@@ -194,37 +258,6 @@ def find_tilt(row: NetRow, inclinations: Iterable[float]) -> float:
     return max(map(math.fabs, tilts), default=0.0)
 
 
-def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
-    """Head of a case, also with the pull of its panel; none of a failed case."""
-    if not result.is_converged or result.anchors is None:
-        return []
-    points = place_row(row, result.case.inclination)
-    bands = result.member_forces
-    error = result.solution.head.error if result.solution else 0.0
-    error *= row.layout.post_spacing
-    pulls = [(result.anchors.head_pull, error, _add_guys(bands, GUYS))]
-    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
-    pulls += [
-        (
-            one.anchors.head_pull,
-            one.head.error * row.layout.post_spacing,
-            _add_guys(one.bands, GUYS_BY_PANEL),
-        )
-        for one in panels
-    ]
-    return [
-        _Head(
-            pull=pull,
-            error=wrong,
-            tension=tension,
-            points=points,
-            weights=weigh_splay(points),
-            inclination=result.case.inclination,
-        )
-        for pull, wrong, tension in pulls
-    ]
-
-
 def _add_guys(bands: Mapping[str, Band], guys: Sequence[str]) -> float:
     """Least tension of the guys on both sides, of which one is at work [N]."""
     return sum(bands[guy].low for guy in guys)
@@ -236,15 +269,19 @@ def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
     return max(extremes[name].hidden for name in names if name in extremes)
 
 
-def _widen(heads: Sequence[_Head], hidden: float, least: float) -> Band:
+def _widen(
+    row: NetRow, heads: Sequence[SupportState], hidden: float, least: float
+) -> Band:
     """Largest pull on a head with its error and with what may hide [N].
 
     None of its ends lies below ``least``, that of the floor.
     """
+    width = row.layout.post_spacing
+    pulls = [(one.pull, one.head.error * width if one.head else 0.0) for one in heads]
     return Band(
-        low=max(least, *(head.size - head.error for head in heads)),
-        value=max(least, *(head.size for head in heads)),
-        high=max(least, max(head.size + head.error for head in heads) + hidden),
+        low=max(least, *(pull - error for pull, error in pulls)),
+        value=max(least, *(pull for pull, _ in pulls)),
+        high=max(least, max(pull + error for pull, error in pulls) + hidden),
     )
 
 

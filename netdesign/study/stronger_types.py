@@ -1,18 +1,32 @@
-"""The weakest type that would do: of the workbook, or a part of the catalogue."""
+"""The weakest type that would do: of the workbook, or a part of the catalogue.
+
+Parts are bars, bonds, ropes and post sections, by size.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 
 from netdesign.checks import Standard, find_resistance
+from netdesign.resistance.catalogue import (
+    find_imperfection,
+    find_rope_factor,
+    find_termination,
+    load_catalogue,
+)
+from netdesign.resistance.post import compute_buckling_resistance
+from netdesign.resistance.product_data import load_products
+from netdesign.resistance.products import find_product
+from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
 from netdesign.structure.members import EndMember, Member
-from netdesign.study.catalogue_sizes import find_size
-from netdesign.study.corrosion import corrode
-from netdesign.study.dependent import find_short_post
+from netdesign.study.dependent import corrode, find_short_post
 from netdesign.study.records import ChangeRecord
-from netdesign.units import kilonewton_if_known
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 _ANCHORS = (
     *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
@@ -110,3 +124,132 @@ def _record(quantity: Message, value: float, given: Resistance) -> ChangeRecord:
         sense="has",
         solves=0,
     )
+
+
+_CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
+_ROPES_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
+_BAR_STRENGTH = 500.0  # of a bar whose steel nobody gives [MPa]
+_LONGEST_BOND = 15.0  # [m]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Size:
+    """A part of the catalogue: what it is, and its characteristic resistance [kN]."""
+
+    told: Message
+    resistance: float
+
+
+def find_size(given: Resistance, needed: float) -> Size | None:
+    """Smallest part in the place of a type that bears a characteristic force [kN].
+
+    None where the catalogue has none that bears it, or where the workbook does not say
+    what the part is made of: the ground of a bond, the section of a post.
+    """
+    sizes = _BY_MODE.get(given.mode)
+    found = sizes(given) if sizes else iter(())
+    return next((one for one in found if one.resistance >= needed), None)
+
+
+def _list_ropes(_: Resistance) -> Iterator[Size]:
+    factor = find_rope_factor(_CONSTRUCTION, "K")
+    loss = find_termination(_TERMINATION)
+    for diameter in _ROPES_MM:
+        value = compute_rope_resistance(
+            diameter=diameter / 1e3,
+            grade=_GRADE,
+            breaking_factor=factor.value,
+            termination=loss.value,
+        )
+        told = say(
+            "change.rope",
+            diameter=diameter,
+            construction=_CONSTRUCTION,
+            grade=_GRADE / 1e6,
+            termination=name("termination", _TERMINATION),
+            status=name("status", loss.status),
+        )
+        yield Size(told=told, resistance=kilonewton_from_newton(value))
+
+
+def _list_bars(given: Resistance) -> Iterator[Size]:
+    """Solid bars of the catalogue, of the steel of the type's own bar."""
+    how = _find_derivation(given, "derivation.bar")
+    strength = _take(how, "strength") if how else _BAR_STRENGTH
+    every = (one["diameters"] for one in load_products()["bar"])
+    for diameter in sorted({size for sizes in every for size in sizes}):
+        value = compute_bar_resistance(diameter / 1e3, strength * 1e6, 0.0)
+        told = say("change.bar", diameter=float(diameter), strength=strength)
+        yield Size(told=told, resistance=kilonewton_from_newton(value))
+
+
+def _list_bonds(given: Resistance) -> Iterator[Size]:
+    """Bond lengths by half metres, in the hole and ground of the type."""
+    how = _find_derivation(given, "derivation.bond")
+    if how is None:
+        return
+    diameter = _take(how, "diameter")
+    per_metre = math.pi * diameter / 1e3 * _take(how, "stress")  # [kN/m]
+    for half in range(2, int(2 * _LONGEST_BOND) + 1):
+        told = say(
+            "change.bond",
+            length=0.5 * half,
+            diameter=diameter,
+            ground=how.arguments["ground"],
+        )
+        yield Size(told=told, resistance=0.5 * half * per_metre)
+
+
+def _list_sections(given: Resistance) -> Iterator[Size]:
+    """Sections of the series of a post, by size, of its steel and buckling length."""
+    how = _find_derivation(given, "derivation.buckling")
+    if how is None:
+        return
+    series, sizes = _find_series(given.type_id)
+    strength = _take(how, "strength")
+    imperfection = find_imperfection(str(how.arguments["curve"])).value
+    for size in sorted(sizes, key=int):
+        product = find_product(f"{series} {size}")
+        if product is None:
+            continue
+        found = compute_buckling_resistance(
+            area=product.values["area"][0],
+            second_moment=product.values["second_moment_weak"][0],
+            length=_take(how, "length"),
+            yield_strength=strength * 1e6,
+            modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
+            imperfection=imperfection,
+        )
+        told = say("change.section", name=f"{series}{size}", grade=strength)
+        yield Size(told=told, resistance=kilonewton_from_newton(found.value))
+
+
+def _find_series(type_id: str) -> tuple[str, Mapping[str, object]]:
+    """Series of the section that a type is named after, with its sizes."""
+    product = find_product(type_id)
+    table = load_products()["section"]["series"]
+    for series, one in table.items():
+        if product and product.id.startswith(series):
+            return series, one["sizes"]
+    return "", {}
+
+
+def _find_derivation(given: Resistance, key: str) -> Message | None:
+    """Way in which a resistance was worked out as built, where it is this one."""
+    how = given.derivation
+    as_built = how.arguments.get("of") if how else None  # before it corrodes
+    how = as_built if isinstance(as_built, Message) else how
+    return how if how is not None and how.key == key else None
+
+
+def _take(how: Message, key: str) -> float:
+    """Number of a derivation."""
+    return float(str(how.arguments[key]))
+
+
+_BY_MODE: Mapping[str, Callable[[Resistance], Iterator[Size]]] = {
+    "rope": _list_ropes,
+    "tendon": _list_bars,
+    "pull_out": _list_bonds,
+    "compression": _list_sections,
+}

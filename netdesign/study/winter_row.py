@@ -1,16 +1,26 @@
-"""Net row of a site as winters load it: middle of the ranges, all else as designed."""
+"""Net row of a site as winters load it, and what was measured on it.
+
+Friction and inclination stand in the middle of their ranges, all else is as designed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import timedelta
 
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import ModelError
-from netdesign.site.model import NetRow, Site, StationWinter
+from netdesign.site.model import MonitoringSeries, NetRow, Site, StationWinter
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.study.case_solver import build_scene
+from netdesign.snowpack.series import HeightSeries, name_winter
+from netdesign.study.records import MonitoringRecord
+from netdesign.study.row_to_check import build_scene
+from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_if_known
+from netdesign.winter.compared import Comparison, compare_season
 from netdesign.winter.day import WinterRow
-from netdesign.words.message import say
+from netdesign.winter.measured import MeasuredPulls
+from netdesign.winter.row_winters import RowWinters
+from netdesign.words.message import Message, say
 
 ASSUMED_FACTOR = 1.0  # snow height at the rows over the station's, where none is given
 # Largest height of a series over the design height: beyond, metres may be centimetres.
@@ -66,3 +76,144 @@ def require_plausible_heights(
                     share=share,
                 )
             )
+
+
+def record_monitoring(site: Site, row: NetRow) -> list[MonitoringRecord]:
+    """Measured series of a net row; nothing is solved for them.
+
+    Parameters
+    ----------
+    site : Site
+        With its sheets Monitoring and Winter, where it has them.
+    row : NetRow
+        One of its rows.
+    """
+    of_row = (one for one in site.monitoring if one.row_id == row.id)
+    return [_record(one, _describe_model(one, site)) for one in of_row]
+
+
+def _describe_model(series: MonitoringSeries, site: Site) -> Message:
+    """Place where the model's forces stand, or what they need."""
+    if site.winter is None:
+        return say("monitoring.needs_winter")
+    if series.start is None:
+        return say("monitoring.undated", place=series.source)
+    return say("monitoring.see_winter")
+
+
+def _record(series: MonitoringSeries, model: Message) -> MonitoringRecord:
+    return MonitoringRecord(
+        member=series.member,
+        source=series.source,
+        times_d=[day_from_second(time) for time in series.times],
+        tensions_kN=[kilonewton_if_known(value) for value in series.tensions],
+        air_temperatures_C=[
+            None if value is None else celsius_from_kelvin(value)
+            for value in series.air_temperatures
+        ],
+        model=model,
+    )
+
+
+def list_measured_pulls(site: Site, row_id: str) -> tuple[MeasuredPulls, ...]:
+    """Forces measured on a row, one value for each member.
+
+    Readings without a date, and series of air temperature alone, are left out.
+
+    Parameters
+    ----------
+    site : Site
+        Whose sheet Monitoring was read.
+    row_id : str
+        Of the row.
+    """
+    found = [_date_readings(one) for one in site.monitoring if one.row_id == row_id]
+    return tuple(one for one in found if one is not None and one.forces)
+
+
+def name_measured_winters(pulls: Sequence[MeasuredPulls]) -> frozenset[str]:
+    """Winters with readings, as "1999/2000".
+
+    Parameters
+    ----------
+    pulls : sequence of MeasuredPulls
+        Of a row.
+    """
+    days = {moment.date() for one in pulls for moment in one.moments}
+    return frozenset(map(name_winter, days))
+
+
+def compare_row(
+    pulls: Sequence[MeasuredPulls],
+    winters: RowWinters,
+    row: WinterRow,
+    series: HeightSeries,
+) -> tuple[Comparison, ...]:
+    """Readings of a row beside its curves, winter by winter and member by member.
+
+    Parameters
+    ----------
+    pulls : sequence of MeasuredPulls
+        Of the row.
+    winters : RowWinters
+        With the curves of the measured winters.
+    row : WinterRow
+        As loaded.
+    series : HeightSeries
+        Of the station.
+    """
+    found = [
+        compare_season(one, season, row, series)
+        for season in winters.seasons
+        for one in pulls
+    ]
+    return tuple(one for one in found if one is not None)
+
+
+def explain_unused(
+    site: Site, row_id: str, compared: Sequence[Comparison]
+) -> tuple[Message, ...]:
+    """Reasons why measured forces of a row stand beside no curve.
+
+    Parameters
+    ----------
+    site : Site
+        With what was measured.
+    row_id : str
+        Of the row.
+    compared : sequence of Comparison
+        What stands beside a curve.
+    """
+    told = []
+    used = {one.pulls.source for one in compared if one.computed}
+    for series in site.monitoring:
+        if series.row_id != row_id or series.source in used:
+            continue
+        if not any(force is not None for force in series.tensions):
+            continue
+        if series.start is None:
+            told.append(say("monitoring.undated", place=series.source))
+        else:
+            told.append(say("monitoring.outside", place=series.source))
+    return tuple(told)
+
+
+def _date_readings(series: MonitoringSeries) -> MeasuredPulls | None:
+    if series.start is None:
+        return None
+    known = [
+        (series.start + timedelta(seconds=time), force)
+        for time, force in zip(series.times, series.tensions, strict=True)
+        if force is not None
+    ]
+    return MeasuredPulls(
+        member=series.member,
+        moments=tuple(moment for moment, _ in known),
+        forces=tuple(force for _, force in known),
+        source=series.source,
+        air_temperatures=tuple(
+            (series.start + timedelta(seconds=time), kelvin)
+            for time, kelvin in zip(series.times, series.air_temperatures, strict=True)
+            if kelvin is not None
+        ),
+    )

@@ -20,7 +20,7 @@ from netdesign.solving import workers as workers_module
 from netdesign.solving.solve import solve_scene
 from netdesign.solving.workers import ProcessPool
 from netdesign.study import cases as site_cases
-from netdesign.study.case_solver import build_scene
+from netdesign.study.row_to_check import build_scene
 from tests.short_example import write_short_example
 from tests.small_scene import SMALL_SCENE
 

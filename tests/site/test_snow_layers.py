@@ -12,10 +12,10 @@ from netdesign.envelope.rows import RowGrid
 from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.solving.runner import Runner
-from netdesign.study.case_solver import build_scene
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import build_scene
 from tests.solving.made_up_workers import Recording
 
 SNOW = [

@@ -10,9 +10,9 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import Project
 from netdesign.snow.snowpack import Layer
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CaseSolver
 from tests.small_site import (
     RANGES,
     RUN,

@@ -17,10 +17,10 @@ from netdesign.site.model import Project
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CaseSolver
 from tests.read_check import compare_support
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 from tests.solving.made_up_workers import Recording

@@ -6,7 +6,7 @@ import random
 import pytest
 
 from netdesign.site.model import Resistance
-from netdesign.study.catalogue_sizes import find_size
+from netdesign.study.stronger_types import find_size
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 

@@ -11,7 +11,7 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.resistance.corrosion import find_loss, leave_area
 from netdesign.resistance.wedge import Soil, compute_wedge_resistance
-from netdesign.site.model import AnchorType, GroundAround, Resistance
+from netdesign.site.model import AnchorType, Resistance
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
 from netdesign.structure.members import Member
@@ -268,7 +268,7 @@ def stand_in(solved, cohesion):
             source="Anchors!V5",
             basis="computed",
             type_id="A",
-            dimensions=GroundAround(soil=soil, anchor=kind),
+            dimensions=kind,
         )
         for member, kind in anchors
     )
@@ -354,7 +354,7 @@ def test_pulls_added_as_numbers_are_said_and_never_less(solved):
     for one, told in ((vector, "as vectors"), (study, "as numbers")):
         assert [note for note in one.rows[0].notes if told in str(note)]
     as_vectors = replace(study, profile=replace(study.profile, shared_sum="vector"))
-    assert list(rejudge(as_vectors)) != []
+    assert list(rejudge(as_vectors, scalar)) != []
 
 
 @pytest.mark.parametrize("seed", range(12))

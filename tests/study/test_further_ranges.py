@@ -16,12 +16,12 @@ from netdesign.site.model import InputEcho
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
-from netdesign.study.case_solver import CaseSolver, build_scene
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.rejudge import rejudge
+from netdesign.study.row_to_check import CaseSolver, build_scene
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 from netdesign.envelope.ranges import build_cases
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_support import record_drawn
+from netdesign.study.row_to_check import CaseSolver
 from tests.study.test_row_study import RANGES, ROW, RUN
 
 

@@ -19,11 +19,11 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
 from netdesign.study import check_site as use_case
 from netdesign.study import side_by_side
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import cut_site, name_rows
 from tests.short_example import write_short_example
 from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist

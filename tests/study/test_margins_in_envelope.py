@@ -11,10 +11,10 @@ from netdesign.envelope.ranges import Case
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CaseSolver
 from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines, write_lines
 
 RUN = CheckRun(settings=SolverSettings())

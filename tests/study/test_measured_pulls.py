@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.site.model import MonitoringSeries
 from netdesign.snowpack.series import HeightSeries
-from netdesign.study.measured_pulls import (
+from netdesign.study.winter_row import (
     explain_unused,
     list_measured_pulls,
     name_measured_winters,

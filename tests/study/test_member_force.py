@@ -15,7 +15,6 @@ from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.study.case_records import ForceRecord
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.effects import find_effects
@@ -30,6 +29,7 @@ from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import find_row_floor, record_floor
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.rejudge import rejudge
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.read_check import bring, compare_support
 from tests.small_site import RUN, build_row, build_site, resist
@@ -465,7 +465,7 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
         row = replace(site.rows[0], snow_thickness=thickness)
         force = a_floor(row).find(Member.FOOT_ANCHOR).force
         effects = find_effects(row, SWISS, RANGES)
-        share = effects.supports[1].width / effects.post_spacing
+        share = effects.supports[1].width / row.layout.post_spacing
         factor = share * math.hypot(1.0, effects.lateral_share)
         used = 1.5 * 1.35 * force * factor / 700e3
         assert (used <= 1.0) is is_met

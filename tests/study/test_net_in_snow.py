@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from netdesign.study.net_in_snow import bear_snow
+from netdesign.study.notes import bear_snow
 
 
 def test_force_and_snow_together_use_up_the_resistance():

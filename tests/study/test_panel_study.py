@@ -21,11 +21,11 @@ from netdesign.site.model import (
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.read_check import bring, scale_force, scale_step
 from tests.small_site import (
@@ -158,7 +158,9 @@ def test_the_audit_finds_a_panel_that_was_left_out(pair):
     assert rejudge(replace(study, rows=[replace(row, forces=left)]))
     plain = checks_of(pair[0])[name]
     checks = [plain if one.id == name else one for one in row.checks]
-    assert rejudge(replace(study, rows=[replace(row, checks=checks)]))
+    site = build_site(with_panel(a_panel()), ranges=RANGES, project=ACCEPTED)
+    assert rejudge(study, PROFILE, site) == []
+    assert rejudge(replace(study, rows=[replace(row, checks=checks)]), PROFILE, site)
 
 
 def test_ropes_are_told_as_information(pair):

@@ -69,8 +69,8 @@ def test_the_study_is_read_again_and_does_not_contradict_itself(judged):
     ids=["dropped", "passed", "passed with a reason", "declared"],
 )
 def test_a_question_taken_for_an_answer_is_found(judged, changes):
-    _, study = judged
-    assert rejudge(alter(study, **changes), STANDARD)
+    site, study = judged
+    assert rejudge(alter(study, **changes), STANDARD, site)
 
 
 def test_a_question_forgotten_with_its_check_is_found_beside_the_site(judged):

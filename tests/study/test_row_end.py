@@ -9,13 +9,12 @@ from scipy.optimize import brentq
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.site.model import BaseFriction
 from netdesign.structure.members import RopeForce
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.effects import find_effects
 from netdesign.study.member_force import compute_end_factor
 from netdesign.study.rejudge import rejudge
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.read_check import scale_force, scale_step
 from tests.small_site import RANGES, RUN, build_row, name_force_checks, resist
@@ -95,7 +94,7 @@ def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost()
 
 def test_what_the_end_guy_presses_holds_the_base_too():
     """Friction of the base: its utilisation is that inside the row."""
-    friction = BaseFriction(coefficient=0.61)
+    friction = 0.61
     resistances = tuple(
         replace(one, value=None, dimensions=friction) if one.mode == "sliding" else one
         for one in resist()
@@ -121,7 +120,7 @@ def test_the_study_agrees_with_its_site(judged):
 
 
 def test_the_audit_finds_an_end_that_was_made_smaller(judged):
-    _, study = judged
+    site, study = judged
     row = study.rows[0]
     for name, symbol, share in (
         ("lateral_anchor.tendon.end", "T_r", 0.9),
@@ -134,7 +133,7 @@ def test_the_audit_finds_an_end_that_was_made_smaller(judged):
     for rope in tuple(RopeForce):
         assert rejudge(scale_force(study, rope, 0.9)), rope
     left = [one for one in row.checks if one.id != "lateral_anchor.tendon.end"]
-    assert rejudge(replace(study, rows=[replace(row, checks=left)]))
+    assert rejudge(replace(study, rows=[replace(row, checks=left)]), PROFILE, site)
 
 
 def test_nothing_that_holds_the_row_leaves_it_unproven():

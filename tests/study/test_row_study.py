@@ -11,10 +11,10 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES, Project, Resistance
 from netdesign.snow.ground import GroundLaw
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CaseSolver
 from tests.small_site import EYE, LASTS, build_row, build_site
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))

@@ -14,10 +14,10 @@ from netdesign.haefeli.slab import Slab, find_linear_slip
 from netdesign.outcome import Verdict
 from netdesign.snow.creep_law import BOUTILLIER_2004, GAGLIARDINI_1997
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.study.case_solver import CaseSolver
 from netdesign.study.model_form import record_model_form
 from netdesign.study.record_independent import record_slab
 from netdesign.study.records import CheckRecord
+from netdesign.study.row_to_check import CaseSolver
 from tests.small_site import build_row
 
 CASE = Case(density=393.0, friction_angle=0.41, inclination=0.52)

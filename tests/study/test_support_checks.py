@@ -10,8 +10,8 @@ from netdesign.checks import load_standard
 from netdesign.checks.check import find_action_factor
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.declared_sheet import DECLARABLE
-from netdesign.site.missing import list_missing
 from netdesign.site.reader import read_site
+from netdesign.site.statements import list_missing
 from netdesign.structure.members import Member
 from netdesign.study.stronger_types import find_type_change
 from tests.checks.given_pulls import POST, judge_row, study_row, write_row

@@ -6,9 +6,14 @@ import random
 import pytest
 
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.study.check_by_case import CheckByCase, list_near
+from netdesign.study.check_by_case import (
+    CheckByCase,
+    CheckLine,
+    NoResultError,
+    Point,
+    list_near,
+)
 from netdesign.study.remedies import find_height_remedy
-from netdesign.study.turning import CheckLine, NoResultError, Point
 from tests.study.test_remedies import ROW, MadeUpSolver, a_check
 
 STEP = 0.01  # of three digits

@@ -19,8 +19,7 @@ from netdesign.report.blocks import (
 from netdesign.report.drawing.chain_figure import draw_loads
 from netdesign.report.words import Words
 from netdesign.study.case_records import GuidelineRecord
-from netdesign.study.find_input import find_input
-from netdesign.study.records import RowStudy, Study
+from netdesign.study.records import RowStudy, Study, find_input
 
 _LOAD_CASES = ("load_case_1", "load_case_2")
 

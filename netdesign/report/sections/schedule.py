@@ -26,9 +26,8 @@ from netdesign.report.words import (
     show_member,
 )
 from netdesign.structure.members import EndMember, Member, NetPart
-from netdesign.study.find_input import find_input, find_word
 from netdesign.study.parts import PartRecord
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import CheckRecord, RowStudy, Study, find_input, find_word
 from netdesign.words.message import say
 from netdesign.words.names import name_mode
 

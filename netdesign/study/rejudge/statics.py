@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_met
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
@@ -19,9 +18,19 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.study.case_records import CasePoint, CaseRecord
-from netdesign.study.find_input import find_input
+from netdesign.study.record_independent import (
+    DIRECTION,
+    DIRECTION_ERRORS,
+    LIMITS,
+    is_law_met,
+)
 from netdesign.study.record_support import list_arrows, record_anchors, record_head
-from netdesign.study.records import IndependentRecord, ProfileRecord, RowStudy
+from netdesign.study.records import (
+    IndependentRecord,
+    ProfileRecord,
+    RowStudy,
+    find_input,
+)
 from netdesign.study.rejudge.cases import (
     Pair,
     find_largest,

@@ -14,7 +14,6 @@ from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
-from netdesign.study.calibration import is_calibrated
 from netdesign.study.case_records import FloorRecord
 from netdesign.study.effects import (
     RowEffects,
@@ -23,13 +22,13 @@ from netdesign.study.effects import (
     record_end_effects,
 )
 from netdesign.study.judgement import (
-    Known,
     MemberCheck,
     judge_members,
     judge_with_fault,
     record_member,
     record_others,
 )
+from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import span_variants
 from netdesign.study.notes import list_judged_notes, list_reasons, list_site_notes
 from netdesign.study.parts import list_parts
@@ -60,7 +59,7 @@ from netdesign.study.rejudge.cases import (
 )
 from netdesign.study.rejudge.checks import is_held_back, rejudge_checks
 from netdesign.study.rejudge.statics import rejudge_drawn, rejudge_statics
-from netdesign.study.row_to_check import Basis
+from netdesign.study.row_to_check import Basis, is_calibrated
 from netdesign.study.sideways import find_lack
 from netdesign.study.support_records import PanelRecord
 from netdesign.study.values import compare_values
@@ -226,11 +225,11 @@ def _judge_row(row: RowStudy, basis: Basis, *, is_steady: bool) -> Iterator[Mess
 
 def _know_again(
     row: RowStudy, basis: Basis, effects: RowEffects, floor: FloorRecord | None
-) -> Known:
+) -> RowForces:
     """Knowledge of a row by what the study states of its solved cases."""
     panel = row.panel
     is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)
-    return Known(
+    return RowForces(
         row=basis.row,
         standard=basis.standard,
         effects=effects,
@@ -247,7 +246,7 @@ def _know_again(
     )
 
 
-def _check_again(row: RowStudy, basis: Basis, known: Known) -> list[CheckRecord]:
+def _check_again(row: RowStudy, basis: Basis, known: RowForces) -> list[CheckRecord]:
     """Checks of a row, judged again; a gap in its own words is one."""
     stored = {check.id: check for check in row.checks}
     judged = [
@@ -356,12 +355,10 @@ def rejudge(
     spans = _read_spans(study)
     is_steady = is_of_steady_states(study)
     tolerance = _read_number(study, "balance_tolerance") if is_steady else math.inf
-    law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
-    accepts_law = bool(law) and study.project.accepted_law == law
     for row in study.rows:
         parts = (
             rejudge_cases(row, spans, tolerance),
-            rejudge_checks(row, study.profile, accepts_law=accepts_law),
+            rejudge_checks(row, study.profile),
             rejudge_drawn(row, study.profile, is_steady=is_steady),
             rejudge_statics(row) if is_steady else iter(()),
             _rejudge_verdict(row),

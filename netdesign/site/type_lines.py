@@ -1,0 +1,298 @@
+"""Lines of the type sheets as net rows meet them: by ground, with tests and links.
+
+An anchor type may have several lines, each tested or worked out in one ground; a net
+row counts with the line of its own ground. Its single pull-out tests are those of sheet
+Tests, the chain of links behind it those of sheet Links.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from statistics import fmean
+
+from netdesign.resistance.connection import Link
+from netdesign.resistance.pull_out import SingleTest
+from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.lines import Types, refuse_unknown_ids
+from netdesign.site.readings import Reading, Row, choose_given, refuse, refuse_beside
+from netdesign.site.type_resistances import TEST_COLUMNS, lacks_ground
+from netdesign.words.message import say
+
+_ANCHORS = "Anchors"
+_WITH_GROUND = re.compile(r"(.+) \(([^()]*)\)")
+_ByGround = dict[str, Row]  # lines of one type, by word of their ground; "" for none
+
+
+def name_bare(name: str) -> str:
+    """Name of a type without the ground that it may be named with."""
+    whole = _WITH_GROUND.fullmatch(name)
+    return whole[1] if whole else name
+
+
+def name_by_ground(lines: Sequence[Row]) -> list[Row]:
+    """Lines of sheet Anchors; a type with several grounds is named with each."""
+    ids = [line["id"].word for line in lines]
+    return [
+        _rename(line, line["ground"])
+        if ids.count(line["id"].word) > 1 and line["ground"].state == "given"
+        else line
+        for line in lines
+    ]
+
+
+def _rename(line: Row, ground: Reading) -> Row:
+    name = f"{line['id'].word} ({ground.text.strip()})"
+    return {**line, "id": replace(line["id"], value=name), "ground": ground}
+
+
+def place_in_ground(
+    rows: Sequence[Row],
+    lines: Sequence[Row],
+    grounds: Mapping[str, Reading],
+    findings: list[Finding],
+) -> tuple[list[Row], list[Row]]:
+    """Rows whose anchors are those of their ground, and lines of the types so far.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Lines of sheet Nets or Ends.
+    lines : sequence of Row
+        Of sheet Anchors, as read.
+    grounds : mapping of str to Reading
+        Ground by net row.
+    findings : list of Finding
+        Appended to: a type that the row's ground does not have.
+
+    Returns
+    -------
+    list of Row, list of Row
+        The rows; and lines that a type without a ground gets by that of a row, to
+        work out its bond.
+    """
+    by_id: dict[str, _ByGround] = {}
+    for line in lines:
+        by_id.setdefault(line["id"].word, {})[line["ground"].word] = line
+    made: dict[str, Row] = {}
+    placed: list[Row] = []
+    for row in rows:
+        ground = grounds.get(row.get("row", row.get("id")).word)  # type: ignore[union-attr]
+        named = {
+            key: _resolve(one, by_id, ground, made, findings)
+            for key, one in row.items()
+            if one.field.refers_to == _ANCHORS
+        }
+        placed.append({**row, **named})
+    return placed, list(made.values())
+
+
+def _resolve(
+    named: Reading,
+    by_id: Mapping[str, _ByGround],
+    ground: Reading | None,
+    made: dict[str, Row],
+    findings: list[Finding],
+) -> Reading:
+    """Cell that names a type, alone or with its ground: "A32 (scree)"."""
+    whole = _WITH_GROUND.fullmatch(named.word)
+    if named.word in by_id or whole is None or whole[1] not in by_id:
+        known = by_id.get(named.word)
+        return _choose(named, known, ground, made, findings) if known else named
+    bare = replace(named, value=whole[1])
+    chosen = _choose(bare, by_id[whole[1]], ground, made, findings)
+    if chosen.state == "faulty" or chosen.word == named.word:
+        return chosen
+    rule = say("nets.other_ground", id=quote(whole[1]), ground=chosen.word)
+    refuse(named, rule, quote(chosen.word), findings)
+    return replace(named, state="faulty")
+
+
+def _choose(
+    named: Reading,
+    of_type: _ByGround,
+    ground: Reading | None,
+    made: dict[str, Row],
+    findings: list[Finding],
+) -> Reading:
+    """Cell that names the line of a type in a ground."""
+    word = ground.word if ground else ""
+    if len(of_type) > 1 and word in of_type and word:
+        line = _rename(of_type[word], of_type[word]["ground"])
+        return replace(named, value=line["id"].word)
+    (line, *others) = of_type.values()
+    if not others and not line["ground"].word and ground and _has_bond(line):
+        line = _rename(line, ground)
+        made.setdefault(line["id"].word, line)
+        return replace(named, value=line["id"].word)
+    if not others and (word in ("", line["ground"].word) or not line["ground"].word):
+        return named
+    known = tuple(one["ground"].text for one in of_type.values() if one["ground"].word)
+    rule = say("nets.other_ground", id=quote(named.word), ground=quote(word))
+    if not word:
+        rule = say("nets.no_ground", id=quote(named.word))
+    elif ground:
+        rule = say("nets.other_ground", id=quote(named.word), ground=ground.text)
+    refuse(named, rule, say("nets.grounds", grounds=known), findings)
+    return replace(named, state="faulty")
+
+
+def _has_bond(line: Row) -> bool:
+    """A bond is to be worked out, once its ground is known."""
+    is_open = all(line[key].state == "blank" for key in ("pull_out", "test_count"))
+    return is_open and lacks_ground(line)
+
+
+def count_in_tests(
+    lines: Sequence[Row], tests: Sequence[Row], findings: list[Finding]
+) -> list[Row]:
+    """Lines of sheet Anchors with the tests of their type and ground.
+
+    A type without a ground of its own gets a line for each in which it was tested.
+
+    Parameters
+    ----------
+    lines : sequence of Row
+        Of sheet Anchors.
+    tests : sequence of Row
+        Of sheet Tests.
+    findings : list of Finding
+        Appended to: a type that is not there, a ground that it does not have, tests
+        beside others.
+    """
+    places = {line["id"].word: line["id"].place for line in lines}
+    refuse_unknown_ids((test["type"] for test in tests), places, findings)
+    by_place: dict[tuple[str, str], list[Row]] = {}
+    for test in tests:
+        if test["force"].state == "given":
+            key = (test["type"].word, test["ground"].word)
+            by_place.setdefault(key, []).append(test)
+    found: list[Row] = []
+    for line in lines:
+        found += _count(line, by_place, findings)
+    for (name, _), left in by_place.items():
+        if name in places:
+            ground = left[0]["ground"]
+            if ground.word:
+                rule = say("tests.no_line", type=name)
+                refuse(ground, rule, say("tests.line_wanted"), findings)
+            else:
+                wanted = say("tests.ground_wanted")
+                refuse(left[0]["type"], say("tests.no_ground"), wanted, findings)
+    return found
+
+
+def _count(
+    line: Row, by_place: dict[tuple[str, str], list[Row]], findings: list[Finding]
+) -> list[Row]:
+    """Lines that a line becomes; the tests that it takes leave the table."""
+    name, own = line["id"].word, line["ground"].word
+    if own or (name, "") in by_place:
+        tests = by_place.pop((name, own), None)
+        if tests:
+            _refuse_beside(line, tests[0]["force"], findings)
+        return [_fill_in(line, tests, line["ground"]) if tests else line]
+    keys = [key for key in by_place if key[0] == name]
+    if not keys:
+        return [line]
+    tested = [by_place.pop(key) for key in keys]
+    _refuse_beside(line, tested[0][0]["force"], findings)
+    return [_fill_in(line, tests, tests[0]["ground"]) for tests in tested]
+
+
+def _refuse_beside(line: Row, test: Reading, findings: list[Finding]) -> None:
+    """Refuse tests of a type that has its number of tests on its own sheet."""
+    if line["test_count"].state == "given":
+        refuse_beside(test, line["test_count"], findings)
+
+
+def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
+    """Line with number, least and mean of its tests, and their ground."""
+    forces = [test["force"].number for test in tests]
+    first = tests[0]["force"]
+    how = say("tests.counted", count=len(tests), place=first.place)
+    numbers = (float(len(forces)), min(forces), fmean(forces))
+    counted: Mapping[str, Reading] = {
+        key: replace(
+            line[key],
+            state="given",
+            value=value,
+            derivation=how,
+            cell=first.cell,
+        )
+        for key, value in zip(TEST_COLUMNS, numbers, strict=True)
+        if line[key].state == "blank"
+    }
+    if "test_count" in counted:
+        singles = tuple(map(read_single, tests))
+        counted = {
+            **counted,
+            "test_count": replace(counted["test_count"], singles=singles),
+        }
+    field = line["ground"].field
+    return {**line, **counted, "ground": replace(ground, field=field)}
+
+
+def read_single(test: Row) -> SingleTest:
+    """One test; what is not said of its result stays open."""
+    words = {"held": True, "pulled out": False}
+    return SingleTest(
+        load=test["force"].si,
+        is_held=words.get(test["result"].word),
+        proof_load=test["proof_load"].given_si,
+        displacement=test["displacement"].given_si,
+        source=test["force"].place,
+    )
+
+
+_SHEETS = ("Ropes", "Anchors")
+
+
+def read_links(
+    lines: Sequence[Row], types: Types, findings: list[Finding]
+) -> Mapping[str, tuple[Link, ...]]:
+    """Chains by type.
+
+    Parameters
+    ----------
+    lines : sequence of Row
+        Of sheet Links, in the order of the chains.
+    types : mapping of str to mapping of str to Row
+        Lines of the type sheets.
+    findings : list of Finding
+        Appended to: an unknown type, a link with two strengths, or none.
+    """
+    ids = [name for sheet in _SHEETS for name in types[sheet]]
+    chains: dict[str, tuple[Link, ...]] = {}
+    for line in lines:
+        kinds = [one for one in ids if line["type"].word in (one, name_bare(one))]
+        if _is_sound(line, kinds, findings):
+            link = _read_link(line)
+            chains |= {one: (*chains.get(one, ()), link) for one in kinds}
+    return chains
+
+
+def _is_sound(line: Row, kinds: Sequence[str], findings: list[Finding]) -> bool:
+    """A line without a fault; others are told."""
+    if any(reading.state == "faulty" for reading in line.values()):
+        return False
+    if not kinds:
+        sheets = tuple(say(f"sheet.{sheet}") for sheet in _SHEETS)
+        rule = say("nets.no_id", sheet=say("links.sheets", sheets=sheets))
+        accepted = say("links.id_of_either", sheets=sheets)
+        refuse(line["type"], rule, accepted, findings)
+        return False
+    return choose_given(line, ("strength", "working_limit"), findings) is not None
+
+
+def _read_link(line: Row) -> Link:
+    breaking, limit, count = line["strength"], line["working_limit"], line["count"]
+    return Link(
+        kind=line["link"].word,
+        breaking=breaking.given_si,
+        limit=limit.given_si,
+        count=int(count.number) if count.state == "given" else 1,
+        angle=line["angle"].given_si,
+        source=(breaking if breaking.state == "given" else limit).place,
+    )
