@@ -1,21 +1,37 @@
 """Checks of a stored study: their own arithmetic, from the forces that it states.
 
-That each check is one of its row, by the right rule and of the right resistance, is
-what judging again from site and profile shows: ``study.py``.
+None may be missing. That each is by the right rule and of the right resistance is what
+judging again from site and profile shows: ``study.py``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 
 from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate, list_steps
 from netdesign.checks.check import judge
 from netdesign.checks.forces import calculate_force, calculate_resistance, rate
 from netdesign.outcome import Verdict
+from netdesign.site.model import (
+    CONNECTED,
+    DEPENDENT_MODES,
+    END_MODES,
+    LIFTED_MODE,
+    MEMBER_MODES,
+    NET_MODES,
+)
+from netdesign.structure.members import Member
 from netdesign.study.check_to_record import UNBOUNDED
-from netdesign.study.member_force import leave_out_governing
-from netdesign.study.records import CheckRecord, ProfileRecord, RowStudy
+from netdesign.study.member_force import leave_out_governing, lifts
+from netdesign.study.records import (
+    CheckRecord,
+    ProfileRecord,
+    RowStudy,
+    find_input,
+    find_word,
+)
 from netdesign.study.rejudge.cases import (
     Pair,
     guard,
@@ -45,6 +61,7 @@ def rejudge_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
     place = say("audit.row", row=row.id)
     values = {value.id: value.value for value in profile.values}
     known = _list_known(row)
+    yield from _look_for_all(place, row, profile)
     for check in row.checks:
         where = say("audit.check", place=place, check=check.id)
         if check.is_unbounded is not _is_used_up(check):
@@ -53,6 +70,62 @@ def rejudge_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
             yield from guard(where, _rejudge_steps(where, check, known, values))
             yield from _rejudge_verdict(where, check, row)
             yield from _rejudge_spreads(where, check)
+
+
+def _look_for_all(
+    place: Message, row: RowStudy, profile: ProfileRecord
+) -> Iterator[Message]:
+    """Every check that a row has to have, once."""
+    counts = Counter(check.id for check in row.checks)
+    for twice in (name for name, count in counts.items() if count > 1):
+        yield say("audit.check_twice", place=place, check=twice)
+    inside = _add_connections((*MEMBER_MODES, *DEPENDENT_MODES), profile)
+    wanted = [f"{member}.{mode}" for member, mode in inside]
+    if lifts(row.forces, row.floor.forces if row.floor else ()):
+        wanted.append(".".join(LIFTED_MODE))
+    if _has_end(row, profile):
+        wanted += [f"{one}.end" for one in wanted]
+    if _has_ropes(row) and not _goes_on(row):
+        ends = _add_connections(END_MODES, profile)
+        wanted += [f"{member}.{mode}.end" for member, mode in ends]
+    if "mesh" not in profile.not_checked:
+        end = ".end" if _has_end(row, profile) else ""
+        of_net = NET_MODES if _has_ropes(row) else NET_MODES[:1]
+        parts = _add_connections(of_net, profile)
+        wanted += [f"{member}.{mode}{end}" for member, mode in parts]
+    wanted += [f"{Member.POST}.lateral", "geometry.inclination"]
+    wanted += ["profile.named"] if profile.is_default else []
+    wanted += ["inputs.plausible"] if row.questions else []
+    lost = [one for one in wanted if one not in counts]
+    if lost:
+        yield say("audit.no_check", place=place, checks=tuple(lost))
+
+
+def _add_connections(
+    modes: Sequence[tuple[str, str]], profile: ProfileRecord
+) -> list[tuple[str, str]]:
+    """Modes, and beside those of ropes the chains of their links."""
+    if "connections" in profile.not_checked:
+        return list(modes)
+    members = dict.fromkeys(one for one, _ in modes if one in CONNECTED)
+    return [*modes, *((one, "connection") for one in members)]
+
+
+def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
+    """Presence of a last support that a rule of the profile loads."""
+    return any(one.id == _RULES for one in profile.values) and not _goes_on(row)
+
+
+def _goes_on(row: RowStudy) -> bool:
+    """Absence of an end: the next work goes on without a gap."""
+    return find_input(row, "gap") == 0.0 or find_word(row, "row_end") == "continuous"
+
+
+def _has_ropes(row: RowStudy) -> bool:
+    """Ropes between the posts, unless the row says that there are none."""
+    system = say("column.Nets.panel_system")
+    found = [echo.value for echo in row.inputs if echo.label == system]
+    return found != ["none"] and (bool(found) or row.panel is not None)
 
 
 def _is_used_up(check: CheckRecord) -> bool:

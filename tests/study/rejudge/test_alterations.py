@@ -220,6 +220,26 @@ def test_a_study_without_its_files_is_audited_all_the_same(text):
     assert rejudge(read_document(text)) == []
 
 
+def test_no_check_of_a_force_can_be_taken_from_a_study_without_its_files(text):
+    """What is missing was not proven: the verdict of the rest says nothing."""
+    count = len(json.loads(text)["rows"][0]["checks"])
+    lost = []
+    for number in range(count):
+        document = json.loads(text)
+        check = document["rows"][0]["checks"].pop(number)
+        if not rejudge(read_document(json.dumps(document))):
+            lost.append(check["id"])
+    without_force = [x for x in lost if x.startswith("geometry.") or "direction" in x]
+    assert lost == without_force
+
+
+def test_a_check_that_stands_twice_is_found_without_the_files(text):
+    document = json.loads(text)
+    checks = document["rows"][0]["checks"]
+    checks.append(dict(checks[3]))
+    assert rejudge(read_document(json.dumps(document)))
+
+
 # Parts of a study from which no verdict follows: pictures, other models, the way of the
 # search, what was solved beside the checks. Only a new solve shows those.
 BESIDE = {
