@@ -56,8 +56,8 @@ _MOST_DIGITS = 17  # tell any two numbers apart
 _NOTHING = (None, "", "-")
 # In the order of the terminal.
 _AREAS = (
-    *("verdict", "settings", "project", "profile", "range", "input", "governing"),
-    *("check", "other"),
+    *("verdict", "quantity", "settings", "project", "profile", "range", "input"),
+    *("governing", "check", "other"),
 )
 # What follows from a utilisation, or from a largest force, that is told beside it.
 _FOLLOWS = (
@@ -97,7 +97,7 @@ class Change:
     ----------
     area : str
         ``verdict``, ``governing``, ``check``, ``project``, ``profile``, ``range``,
-        ``input``, ``settings`` or ``other``.
+        ``input``, ``settings``, ``quantity`` or ``other``.
     row : str
         Id of the net row; empty for the whole study.
     what : Message
@@ -166,6 +166,7 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
     return [
         *_compare("settings", "", _list_replaced(old), _list_replaced(new)),
         *sorted(verdicts, key=_rank),
+        *_compare("quantity", "", _list_quantities(old), _list_quantities(new)),
         *_compare_rows("governing", both, _list_governing),
         *_compare_rows("check", both, _list_checks),
         *_compare("project", "", _list_project(old), _list_project(new)),
@@ -436,6 +437,19 @@ def _list_profile(study: Study) -> Named:
         say("diff.shared_sum"): profile.shared_sum,
         **values,
     }
+
+
+def _list_quantities(study: Study) -> Named:
+    """Numbers of pieces by type, and the area of the nets, as far as they are known."""
+    found: dict[Message, Any] = {say("diff.net_rows"): len(study.rows)}
+    for part in (one for row in study.rows for one in row.parts):
+        if part.part == "net":
+            what, more = say("diff.net_area"), part.size
+        else:
+            what, more = say("diff.pieces", type=part.type_id), part.count
+        if more is not None:
+            found[what] = round(found.get(what, 0.0) + more, 1)
+    return found
 
 
 def _list_replaced(study: Study) -> Named:

@@ -11,6 +11,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, name_area, write_difference
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.document import read_document, write_document
+from netdesign.study.parts import PartRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
@@ -311,3 +312,22 @@ def test_a_basis_is_told_in_words_and_kept_as_a_key():
     changes = compare_studies(replace(old, rows=[row]), replace(old, rows=[bare]))
     assert {(one.old, one.new) for one in changes} == {("tested", "")}
     assert changes[0].tell("de").endswith("durch Versuche belegt -> kein Wert")
+
+
+def test_two_plans_differ_by_their_quantities():
+    study = build_study(rows=2)
+    parts = [
+        PartRecord(part="foot_anchor", type_id="A25", count=11, size=4.5),
+        PartRecord(part="net", type_id="", count=1, size=123.4),
+        PartRecord(part="post", type_id="HEB 140", count=None, size=3.2),
+    ]
+    more = [replace(parts[0], count=14), replace(parts[1], size=160.0), parts[2]]
+    old, new = (
+        replace(study, rows=[replace(row, parts=one) for row in study.rows])
+        for one in (parts, more)
+    )
+    found = changes_of(old, replace(new, rows=new.rows[:1]))
+    assert found["quantity", "", "number of net rows"] == (2, 1)
+    assert found["quantity", "", "pieces of A25"] == (22, 14)
+    assert found["quantity", "", "area of the nets [m²]"] == (246.8, 160.0)
+    assert not [place for place in found if "HEB 140" in place[2]]
