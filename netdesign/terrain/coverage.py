@@ -71,8 +71,11 @@ def find_coverage(
     side, places = list_steep_places(surface, plan.zones)
     held = np.zeros(len(places), dtype=bool)
     for row in rows:
-        for strip in list_strips(row, reach[row.line.id]):
-            held |= is_inside(places, strip)
+        strips = list_strips(row, reach[row.line.id])
+        corners = np.concatenate(strips)
+        is_near = (places >= corners.min(axis=0)) & (places <= corners.max(axis=0))
+        near = np.flatnonzero(is_near.all(axis=1))
+        held[near] |= is_in_any(places[near], strips)
     by_id = {row.line.id: row for row in rows}
     for gap in plan.closed_gaps:
         most = min(reach[one] for one in gap.rows)

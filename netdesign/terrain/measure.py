@@ -140,7 +140,8 @@ def measure_row(
     if bends.size and bends.max() > BROKEN:
         raise TerrainError(_refuse_bend(line, bends))
     above = follow_fall(surface, places, most=most, is_up=True)
-    below = follow_fall(surface, places, most=line.net_height, is_up=False)
+    below = follow_fall(surface, places, most=most, is_up=False)
+    plan = plan.cut_to(np.concatenate((above.points, below.points)))
     ends = tuple(
         _end_above(surface, plan, line, above, post, most, of_zone)
         for post, of_zone in enumerate(_list_zone_ends(plan, above))
@@ -152,7 +153,7 @@ def measure_row(
         ]
     )
     gradient = surface.at(places).gradient.mean(axis=0)
-    row, length = _find_below(surface, plan, line, places, most)
+    row, length = _find_below(surface, plan, line, below)
     return MeasuredRow(
         line=line,
         posts=posts,
@@ -338,15 +339,14 @@ def _band_slope(
 
 
 def _find_below(
-    surface: Surface, plan: Plan, line: NetLine, places: Floats, most: float
+    surface: Surface, plan: Plan, line: NetLine, below: FallLines
 ) -> tuple[str, float | None]:
     """Nearest row below, along the lines of fall of the posts."""
-    below = follow_fall(surface, places, most=most, is_up=False)
     found = [
         (length, other.id)
         for other in plan.lines
         if other.id != line.id
-        for post in range(len(places))
+        for post in range(below.points.shape[1])
         if (length := find_crossing(below, post, other.points, least=surface.grid.cell))
         is not None
     ]

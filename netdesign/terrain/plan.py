@@ -6,8 +6,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from itertools import combinations
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -92,26 +91,52 @@ class Plan:
         Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
     notes : tuple of Message
         What the reader of the file has to be told.
+    closed_gaps : tuple of ClosedGap
+        Between its rows.
     """
 
     lines: tuple[NetLine, ...]
     zones: tuple[Floats, ...] = ()
     crs: str = ""
     notes: tuple[Message, ...] = ()
+    closed_gaps: tuple[ClosedGap, ...] = field(init=False)
 
-    @property
-    def closed_gaps(self) -> tuple[ClosedGap, ...]:
-        """Gaps between two rows that hold the snow as the rows do."""
-        ends = [(one, end) for one in self.lines for end in (0, -1)]
-        return tuple(
-            ClosedGap(rows=(one.id, other.id), ends=(end, of_other), points=points)
-            for (one, end), (other, of_other) in combinations(ends, 2)
-            if one is not other
-            and math.dist(
-                *(points := np.array((one.points[end], other.points[of_other])))
-            )
-            <= CLOSED
+    def __post_init__(self) -> None:
+        """Find the gaps once: each line of fall is held against them."""
+        object.__setattr__(self, "closed_gaps", tuple(_list_closed_gaps(self.lines)))
+
+    def cut_to(self, places: Floats) -> Plan:
+        """Plan with the rows alone that the rectangle around places may meet.
+
+        Parameters
+        ----------
+        places : ndarray, shape (..., 2)
+            [m]; NaN does not count.
+        """
+        known = places[np.isfinite(places).all(axis=-1)]
+        low, high = known.min(axis=0) - CLOSED, known.max(axis=0) + CLOSED
+        near = (
+            one
+            for one in self.lines
+            if (one.points.max(axis=0) >= low).all()
+            and (one.points.min(axis=0) <= high).all()
         )
+        return replace(self, lines=tuple(near))
+
+
+def _list_closed_gaps(lines: Sequence[NetLine]) -> Iterator[ClosedGap]:
+    """Gaps between two rows that hold the snow as the rows do."""
+    ends = [(one, end) for one in lines for end in (0, -1)]
+    places = np.array([one.points[end] for one, end in ends]).reshape(-1, 2)
+    apart = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1))
+    for k, other_k in np.argwhere(np.triu(apart <= CLOSED, 1)):
+        (one, end), (other, of_other) = ends[k], ends[other_k]
+        if one is not other:
+            yield ClosedGap(
+                rows=(one.id, other.id),
+                ends=(end, of_other),
+                points=places[[k, other_k]],
+            )
 
 
 def read_zones(path: Path) -> Plan:
