@@ -60,6 +60,8 @@ DEFAULT_FOLDER = "netdesign-layout"
 _GUIDELINE = "swiss-guideline-2007"
 _SITE, _ROWS, _DRAWN, _PLAN = "site.xlsx", "rows.geojson", "plan.geojson", "plan.json"
 _ENDS = "Ends"  # sheet of the lines on the ends of rows
+_LEFT_OPEN = 0.1  # of the steep ground; a plan that leaves more is not whole [-]
+_NOT_PROVEN = 4  # exit code
 _EXAMPLE_SNOW = 3.2  # vertical [m]
 _LOOKED_FOR = 50.0  # of snow above a row, as `terrain` does [m]
 _FILE = click.Path(path_type=Path, dir_okay=False)
@@ -76,7 +78,11 @@ _FILE = click.Path(path_type=Path, dir_okay=False)
     help="Workbook: the nets that may be built on sheet Nets, all types, ranges.",
 )
 @click.option("--snow", type=click.FloatRange(0.1, 20.0), help="Vertical height [m].")
-@click.option("--snow-altitude", type=float, help="Where that height holds [m].")
+@click.option(
+    "--snow-altitude",
+    type=click.FloatRange(-500.0, 9000.0),
+    help="Where that height holds [m].",
+)
 @click.option(
     "--snow-gradient",
     type=click.FloatRange(-1.0, 1.0),
@@ -120,6 +126,8 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
         if grid is not None or asked["types"] or asked["prices"]:
             raise UsageRefusal(say("layout.example_alone"))
         asked |= _write_example(folder, overwrite=asked["force"])
+        if asked["snow"] is None and asked["snow_grid"] is None:
+            asked["snow"] = _EXAMPLE_SNOW
         grid, zone = asked["grid"], asked["zone"]
     if grid is None or zone is None or asked["types"] is None:
         raise UsageRefusal(say("layout.no_input"))
@@ -131,8 +139,9 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     if asked["as_json"]:
         print_document(document)
     else:
-        _tell_plan(document, asked["language"])
-    raise SystemExit(failed or find_exit_code([study]))
+        _tell_plan(document, study, asked["language"])
+    ended = failed or find_exit_code([study])
+    raise SystemExit(ended or (0 if document["is_covered"] else _NOT_PROVEN))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -196,8 +205,7 @@ def _write_example(folder: Path, *, overwrite: bool) -> dict[str, Any]:
         prices: write_prices(),
     }
     write_files(contents, overwrite=overwrite)
-    files = {"grid": grid, "zone": zone, "types": types, "prices": prices}
-    return {**files, "snow": _EXAMPLE_SNOW}
+    return {"grid": grid, "zone": zone, "types": types, "prices": prices}
 
 
 def _read(grid: Path, zone: Path, asked: Mapping[str, Any]) -> _Given:
@@ -241,6 +249,7 @@ def _read_prices(asked: Mapping[str, Any]) -> Prices | None:
 
 def _choose_snow(ground: Grid, asked: Mapping[str, Any]) -> Callable[[Floats], Floats]:
     """Vertical snow height at places, by a grid, or by a height at an altitude."""
+    from netdesign.terrain.crs import require_same
     from netdesign.terrain.grid import read_grid
     from netdesign.terrain.snow_height import follow_altitude, read_heights
 
@@ -250,8 +259,13 @@ def _choose_snow(ground: Grid, asked: Mapping[str, Any]) -> Callable[[Floats], F
         raise UsageRefusal(say("layout.snow"))
     if (altitude is None) is not (gradient is None) or (height is None and gradient):
         raise UsageRefusal(say("layout.gradient"))
+    given = [one for one in (height, altitude, gradient) if one is not None]
+    if not all(map(math.isfinite, given)):
+        raise UsageRefusal(say("layout.no_number"))
     if height is None:
-        return read_heights(read_grid(asked["snow_grid"]), asked["snow_grid"].name)
+        snow = read_grid(asked["snow_grid"])
+        require_same(ground.crs, snow.crs)
+        return read_heights(snow, asked["snow_grid"].name)
     if gradient is None:
         return follow_altitude(ground, height, 0.0, 0.0)
     return follow_altitude(ground, height, altitude, gradient / 100.0)
@@ -370,7 +384,7 @@ def _describe(given: _Given, proposed: _Proposed, study: Study) -> dict[str, Any
     """The plan as a document: its rows with their verdicts, its sums, its cost."""
     from netdesign.study.cost import add_costs
 
-    rows, costs = [], []
+    rows, costs, unknown = [], [], dict[str, None]()
     for row, checked in zip(proposed.rows, study.rows, strict=True):
         one = {
             "id": row.line.id,
@@ -383,12 +397,15 @@ def _describe(given: _Given, proposed: _Proposed, study: Study) -> dict[str, Any
             "verdict": str(checked.verdict),
         }
         if given.prices is not None:
-            costs.append(add_costs(checked.parts, given.prices)[0])
-            one["cost"] = round(costs[-1], 2)
+            cost, left_out = add_costs(checked.parts, given.prices)
+            costs.append(cost)
+            unknown |= dict.fromkeys(left_out)
+            one["cost"] = round(cost, 2)
         rows.append(one)
     found: dict[str, Any] = {
         "schema": "netdesign.layout/1",
         "verdict": str(study.verdict),
+        "is_covered": proposed.coverage.share <= _LEFT_OPEN,
         "length_m": round(sum(row.length for row in proposed.rows), 2),
         "posts": sum(len(row.posts) for row in proposed.rows),
         "zone_m2": proposed.coverage.area,
@@ -397,6 +414,7 @@ def _describe(given: _Given, proposed: _Proposed, study: Study) -> dict[str, Any
     }
     if given.prices is not None:
         found["cost"] = round(sum(costs), 2)
+        found["without_cost"] = list(unknown)
     return found
 
 
@@ -440,7 +458,9 @@ def _write(
         report_places([list(files)], language, quiet=False)
 
 
-def _tell_plan(document: Mapping[str, Any], language: Language) -> None:
+def _tell_plan(document: Mapping[str, Any], study: Study, language: Language) -> None:
+    from netdesign.report.terminal import open_console, print_summary
+
     for row in document["rows"]:
         told = {key: row[key] for key in ("length_m", "posts", "upslope_length_m")}
         verdict = say(f"verdict.{row['verdict']}")
@@ -453,3 +473,9 @@ def _tell_plan(document: Mapping[str, Any], language: Language) -> None:
     tell(say("layout.sums", rows=len(document["rows"]), **sums), language)
     if "cost" in document:
         tell(say("layout.cost", cost=document["cost"]), language)
+    if document.get("without_cost"):
+        types = tuple(document["without_cost"])
+        tell(say("layout.without_cost", types=types), language)
+    if not document["is_covered"]:
+        tell(say("layout.not_covered"), language)
+    print_summary(study, open_console(), language)

@@ -92,7 +92,7 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     netdesign terrain grid.asc rows.geojson --out site.xlsx
     netdesign terrain grid.tif rows.gpkg --types types.xlsx --most 40
     netdesign terrain --verdicts study.json --rows rows.geojson --out checked.geojson
-    netdesign terrain --verdicts study.json --rows rows.geojson --out checked.dxf
+    netdesign terrain --verdicts study.json --rows rows.geojson --out drawing.dxf
 
     GRID is an ESRI ASCII grid or a GeoTIFF, in metres. ROWS are lines in its
     coordinates: GeoJSON, a shapefile (.shp) or a GeoPackage (.gpkg). Their properties
@@ -295,7 +295,11 @@ def _describe(
 def _tell_rows(
     rows: Sequence[MeasuredRow], coverage: Coverage, noise: float, language: Language
 ) -> None:
-    from netdesign.terrain.measure import LEAST_LENGTH, describe_kinks
+    from netdesign.terrain.measure import (
+        LEAST_LENGTH,
+        describe_kinks,
+        describe_steep_above,
+    )
 
     tell(say("terrain.noise", noise=noise), language)
     for row in rows:
@@ -316,8 +320,8 @@ def _tell_rows(
         )
         if row.upslope.length.value < LEAST_LENGTH:
             tell(say("terrain.flat_row", row=row.line.id), language)
-        if kinks := describe_kinks(row):
-            tell(kinks, language)
+        for told in filter(None, (describe_kinks(row), describe_steep_above(row))):
+            tell(told, language)
     if coverage.area:
         tell(
             say(

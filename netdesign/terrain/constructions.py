@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -90,6 +91,10 @@ def read_catalogue(path: Path) -> Catalogue:
     whole = [one for one in nets if all(key in one for key in _NEEDED)]
     if not whole:
         raise TerrainError(say("layout.no_net", file=path.name))
+    names = Counter(str(one["id"]) for one in whole)
+    twice = tuple(name for name, count in names.items() if count > 1)
+    if twice:
+        raise TerrainError(say("layout.net_twice", file=path.name, nets=twice))
     found = [
         Construction(
             id=str(one["id"]),

@@ -18,12 +18,14 @@ from netdesign.terrain.coverage import list_steep_places
 from netdesign.terrain.crossings import is_inside
 from netdesign.terrain.fall_line import FallLines, follow_fall
 from netdesign.terrain.grid import Grid
-from netdesign.terrain.measure import BROKEN, LEAST_STEEP
+from netdesign.terrain.measure import BROKEN, LEAST_STEEP, find_flattest
 from netdesign.terrain.surface import Surface, choose_window
 
 LEAST_ROW, MOST_ROW = 12.0, 60.0  # length of a row [m]
 GAP = 2.0  # between two rows beside each other; what lies above it counts as held [m]
 _LEAST_SNOW = 10.0  # above a row, along the ground: anchors of nearer rows meet [m]
+_CLEAR = 14.0  # below another row: anchors of nearer rows meet [m]
+_STEEPEST = math.radians(60.0)  # ground on which a row may stand
 _STEP = 1.0  # along a contour, between two lines of fall [m]
 _WIDE = 300.0  # along a contour, to each side [m]
 _SPARE = 0.98  # of the largest distance, for what lies between two lines of fall [-]
@@ -257,7 +259,9 @@ def _find_foot(task: Task, ground: _Ground, top: Floats) -> Floats | None:
     longest = _FOOT * float(lengths[most])
     number = max(1, math.ceil((whole - _LEAST_SNOW) / longest - 1e-9))
     at = min(longest, whole / number)
-    return np.array([np.interp(at, lengths[:count], x[:count]) for x in points.T])
+    place = np.array([np.interp(at, lengths[:count], x[:count]) for x in points.T])
+    steepness = task.surface.at(place[None]).steepness[0]
+    return place if steepness <= _STEEPEST else None
 
 
 def _count_open(ground: _Ground, lines: FallLines) -> Ints:
@@ -277,10 +281,12 @@ def _follow(surface: Surface, ground: _Ground, foot: Floats) -> tuple[Floats, in
     while min(outside) < most and len(sides[0]) + len(sides[1]) < 2.0 * _WIDE / _STEP:
         there = go_along(surface, np.array([side[-1] for side in sides]), steps)
         states = ground.find_states(there)
+        steepness = surface.at(there).steepness
         for k, side in enumerate(sides):
             outside[k] += _STEP if states[k] == _ELSEWHERE else 0.0
             is_round = _is_near(there[k], [*side[:-4], *sides[1 - k][4:]])
-            if states[k] == _HELD or is_round or not np.isfinite(there[k]).all():
+            is_ground = steepness[k] <= _STEEPEST  # not of a hole in the grid
+            if states[k] == _HELD or is_round or not is_ground:
                 outside[k] = math.inf
             if outside[k] < most:
                 side.append(there[k])
@@ -303,7 +309,7 @@ def _look_up(task: Task, ground: _Ground, points: Floats) -> _Contour:
         known = np.isfinite(above.points[: last + 1, i]).all(axis=1)
         paths.append(above.points[: last + 1, i][known])
         lengths.append(float(above.lengths[max(0, last - 1), i]))
-        steepest = float(np.nanmax(above.steepness[: max(1, last), i]))
+        steepest = float(np.fmax.reduce(above.steepness[: max(1, last), i]))
         reaches.append(task.find_spared_reach(points[i], steepest))
         is_below.append(bool(states[last, i] == _HELD))
     return _Contour(
@@ -323,7 +329,7 @@ def _extend(contour: _Contour, start: int) -> tuple[int, int]:
         while 0 <= (there := ends[k] + way) < len(contour.points):
             now = max(longest, contour.lengths[there])
             least = min(reach, contour.reaches[there])
-            is_close = contour.lengths[there] < _LEAST_SNOW
+            is_close = contour.lengths[there] < _CLEAR
             if now > least or (is_close and contour.is_below_row[there]):
                 break
             ends[k], longest, reach = there, now, least
@@ -353,8 +359,7 @@ def _divide(
     """
     points = contour.points
     snow = float(task.find_snow(points).max())
-    flattest = float(task.surface.at(points).steepness.min())
-    built = task.choose(snow, flattest)
+    built = task.choose(snow, find_flattest(task.surface, points))
     count = math.ceil((contour.room + GAP) / (MOST_ROW + GAP))
     length = (contour.room - (count - 1) * GAP) / count
     bays = math.ceil(length / built.post_spacing - 1e-9)

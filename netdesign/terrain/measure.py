@@ -26,6 +26,7 @@ KINK, BROKEN = math.radians(5.0), math.radians(15.0)  # bends of a row at a post
 CARED_ANGLE, CARED_LENGTH = math.radians(0.5), 0.1  # a check cares about [rad, m]
 LEAST_LENGTH = 1.0  # of snow above a row; less is none [m]
 _FAR = 30.0  # along the ground; no anchors of two rows reach each other from there [m]
+_BEYOND = 5.0  # steep ground above a zone that is told [m]
 _ERRORS = 2.0  # standard errors of a band
 
 
@@ -50,11 +51,14 @@ class Upslope:
         "row", "zone", "flat", "cap", "edge" (of the grid, or of a hole in it).
     row : str
         The row that ends it, or "".
+    steep : float
+        Length of steep ground, whatever zone or row ends the snow before [m].
     """
 
     length: Band
     end: str
     row: str = ""
+    steep: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +77,8 @@ class MeasuredRow:
         Mean slope angle on the line of fall of each post, over its snow [rad].
     slope : Band
         Of the steepest post [rad].
+    flattest : float
+        Least slope angle of the ground at a post, less its error [rad].
     aspect : float
         Direction in which the ground falls, clockwise from north [rad].
     upslope : Upslope
@@ -93,6 +99,7 @@ class MeasuredRow:
     length: float
     slopes: Floats
     slope: Band
+    flattest: float
     aspect: float
     upslope: Upslope
     bends: Floats
@@ -160,6 +167,7 @@ def measure_row(
         length=_measure(posts),
         slopes=slopes,
         slope=_band_slope(surface, slopes, ends, line),
+        flattest=find_flattest(surface, places),
         aspect=math.atan2(-gradient[0], -gradient[1]) % (2.0 * math.pi),
         upslope=max(ends, key=lambda one: one.length.high),
         bends=bends,
@@ -169,6 +177,20 @@ def measure_row(
         below_row=row,
         below_length=length,
     )
+
+
+def find_flattest(surface: Surface, places: Floats) -> float:
+    """Least slope angle at some places, less its error [rad]: there snow is deepest.
+
+    Parameters
+    ----------
+    surface : Surface
+        Ground.
+    places : ndarray, shape (n, 2)
+        [m].
+    """
+    error = _ERRORS * surface.slope_error
+    return max(0.0, float(surface.at(places).steepness.min()) - error)
 
 
 def _refuse_bend(line: NetLine, bends: Floats) -> Message:
@@ -258,7 +280,9 @@ def _end_above(
     low, value, high = (min(one, length) for one in flat)
     if value < length:
         end, row = "flat", ""
-    return Upslope(length=Band(low=low, value=value, high=high), end=end, row=row)
+    band = Band(low=low, value=value, high=high)
+    steep = min(known, most, flat[1])
+    return Upslope(length=band, end=end, row=row, steep=steep)
 
 
 def _list_zone_ends(plan: Plan, above: FallLines) -> list[float | None]:
@@ -407,3 +431,12 @@ def measure_plan(
     if faults:
         raise TerrainError(say("text.lines", lines=tuple(faults)))
     return surface, rows
+
+
+def describe_steep_above(row: MeasuredRow) -> Message | None:
+    """Sentence on steep ground beyond the zone's edge, whose snow does not count."""
+    beyond = [one.steep - one.length.value for one in row.ends if one.end == "zone"]
+    most = max(beyond, default=0.0)
+    if most < _BEYOND:
+        return None
+    return say("terrain.steep_above", row=row.line.id, length=most)

@@ -270,11 +270,21 @@ def _read_geometry(
         found, least, named = [_read_points(_first(one)) for one in points], 4, "zone"
     else:
         return "", []
+    if named == "zone" and _has_hole(kind, points):
+        faults.append(say("text.at_place", place=place, text=say("terrain.zone_hole")))
+        return "", []
     known = [one for one in found if one is not None and len(one) >= least]
     if len(known) < len(found) or not found:
         faults.append(say("text.at_place", place=place, text=say("terrain.points")))
         return "", []
     return named, known
+
+
+def _has_hole(kind: object, points: object) -> bool:
+    polygons = points if kind == "MultiPolygon" else [points]
+    return isinstance(polygons, Sequence) and any(
+        isinstance(one, Sequence) and len(one) > 1 for one in polygons
+    )
 
 
 def _first(rings: object) -> object:

@@ -102,11 +102,31 @@ def derive_cells(
             note=say("terrain.of_row", grid=grid),
         ),
     ]
+    if "snow_height" in row.line.cells and "snow_thickness" not in row.line.cells:
+        cells.append(_derive_thickness(row, grid))
     gap = find_gap(row, rows)
     if gap is not None:
         note = say("terrain.of_gap", grid=grid)
         cells.append(DerivedCell(key="gap", value=round(gap, 2), note=note))
     return cells
+
+
+def _derive_thickness(row: MeasuredRow, grid: str) -> DerivedCell:
+    """Snow normal to the slope of a vertical height, on the flattest ground of a post.
+
+    The row's slope is that of its snow: where its foot is flatter, snow is deeper.
+    """
+    height = float(row.line.cells["snow_height"])
+    return DerivedCell(
+        key="snow_thickness",
+        value=round(height * math.cos(row.flattest), 3),
+        note=say(
+            "terrain.of_thickness",
+            grid=grid,
+            height=height,
+            flattest=math.degrees(row.flattest),
+        ),
+    )
 
 
 def _derive_slope(row: MeasuredRow, grid: str) -> DerivedCell:
@@ -227,6 +247,8 @@ def write_workbook(
     for row in rows:
         derived = {one.key: one for one in derive_cells(row, rows, grid)}
         typed = dict(row.line.cells)
+        if "snow_thickness" in derived:  # says the same, and the template takes one
+            del typed["snow_height"]
         values = {key: one.value for key, one in derived.items() if _is_told(one)}
         lines.append({**values, **typed, "id": row.line.id})
         notes.append({key: _tell(one, typed) for key, one in derived.items()})

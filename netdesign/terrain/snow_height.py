@@ -12,7 +12,7 @@ from netdesign.terrain.grid import Grid
 from netdesign.words.message import say
 
 FindSnow = Callable[[Floats], Floats]
-_LEAST, _MOST = 0.0, 20.0  # of any snow cover [m]
+_LEAST, _MOST = 0.1, 20.0  # of snow that rows are proposed for [m]
 
 
 def follow_altitude(
@@ -32,7 +32,8 @@ def follow_altitude(
 
     def find(places: Floats) -> Floats:
         found = height + gradient * (look_up_nearest(ground, places) - altitude)
-        return np.clip(found, _LEAST, _MOST)
+        _require(places, found)
+        return found
 
     return find
 
@@ -45,14 +46,22 @@ def read_heights(snow: Grid, file: str) -> FindSnow:
 
     def find(places: Floats) -> Floats:
         found = look_up_nearest(snow, places)
-        wrong = np.flatnonzero(~((found >= _LEAST) & (found <= _MOST)))
-        if wrong.size:
-            east, north = (float(one) for one in places[wrong[0]])
-            told = say("layout.no_snow", east=east, north=north, most=_MOST)
-            raise TerrainError(say("text.at_place", place=file, text=told))
+        try:
+            _require(places, found)
+        except TerrainError as error:
+            told = say("text.at_place", place=file, text=error.message)
+            raise TerrainError(told) from None
         return found
 
     return find
+
+
+def _require(places: Floats, found: Floats) -> None:
+    wrong = np.flatnonzero(~((found >= _LEAST) & (found <= _MOST)))
+    if wrong.size:
+        east, north = (float(one) for one in places[wrong[0]])
+        ends = {"least": _LEAST, "most": _MOST, "value": float(found[wrong[0]])}
+        raise TerrainError(say("layout.no_snow", east=east, north=north, **ends))
 
 
 def look_up_nearest(grid: Grid, places: Floats) -> Floats:

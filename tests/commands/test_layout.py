@@ -120,6 +120,11 @@ def test_the_study_of_the_plan_is_reported(planned, call, tmp_path):
         (("--snow", 3.0, "--snow-altitude", 1900), "belong together"),
         (("--snow", 3.0, "--snow-gradient", 0.1), "belong together"),
         (("--snow", 3.0, "--snow-grid", "grid.asc"), "--snow M"),
+        (("--snow", "nan"), "no number"),
+        (
+            ("--snow", 3.0, "--snow-altitude", "nan", "--snow-gradient", 0.1),
+            "no number",
+        ),
         (("--snow", 3.0, "--spacing-standard", "eurocode"), "how far apart"),
     ],
 )
@@ -149,7 +154,21 @@ def test_input_that_is_none_is_refused_in_words(zone, call, tmp_path, language):
         *(call, zone, tmp_path / "out", "--snow", 3.0, *shown),
         *("--prices", tmp_path / "bad.csv"),
     )
-    for ended, word in ((none, "kind"), (deep, "20"), (prices, "A99")):
+    ring = lines["features"][0]["geometry"]["coordinates"][0]
+    inner = [[0.5 * (x + ring[0][0]), 0.5 * (y + ring[0][1])] for x, y in ring]
+    lines["features"][0]["geometry"]["coordinates"] = [ring, inner]
+    (tmp_path / "hole.json").write_text(json.dumps(lines))
+    hole = call(
+        *("layout", zone / "grid.asc", tmp_path / "hole.json", "--snow", 3.0),
+        *("--types", zone / "types.xlsx", "--out", tmp_path / "out", *shown),
+    )
+    low = plan(
+        *(call, zone, tmp_path / "out", "--snow", 3.0, *shown),
+        *("--snow-altitude", 5000, "--snow-gradient", 0.9),
+    )
+    hole_words = {"en": "hole", "fr": "trou", "de": "Loch"}[language]
+    refused = ((none, "kind"), (deep, "20"), (prices, "A99"), (hole, hole_words))
+    for ended, word in (*refused, (low, "20 m")):
         assert ended.code == 3, ended.err
         assert word in ended.err
         assert "Error" not in ended.err

@@ -149,6 +149,7 @@ def test_files_of_other_programs_give_the_same_rows(other_files, tmp_path, call,
         told[grid] = [
             {key: own for key, own in one["properties"].items() if key not in unequal}
             for one in document["features"]
+            if one["properties"]["kind"] != "starting zone"
         ]
     assert told["slope.asc"] == told["slope.tif"]
     assert document["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"

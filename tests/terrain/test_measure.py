@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from netdesign.outcome import TerrainError
-from netdesign.terrain.measure import measure_row
+from netdesign.terrain.measure import describe_steep_above, measure_row
+from netdesign.terrain.site_lines import derive_cells
 from netdesign.terrain.surface import choose_window
 from tests.terrain.surfaces import SPACING, build_grid, draw_line, plan_of, plane
 
@@ -186,3 +187,44 @@ def test_a_zone_ends_the_snow_at_its_edge():
     found = measure(grid, draw_line(ALONG_CONTOUR), zones=(zone,))
     assert found.upslope.end == "zone"
     assert found.upslope.length.value == pytest.approx(16.0 / math.cos(PSI), rel=1e-9)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.77])
+def test_snow_is_as_deep_as_on_the_flattest_ground_of_a_post(turned):
+    """A row stood on 30 degrees below 52: its net was judged by the mean of both."""
+    foot, above = math.radians(30.0), math.radians(52.0)
+
+    def height(x, y):
+        flat = math.tan(foot) * np.minimum(y, 4.0)
+        return 1500.0 + flat + math.tan(above) * np.maximum(y - 4.0, 0.0) + 0.0 * x
+
+    grid = build_grid(height, size=160.0, turned=turned)
+    points = [(-15.0, -4.0), (15.0, -4.0)]
+    line = draw_line(points, turned=turned, snow_height=3.3)
+    row = measure(grid, line)
+    assert row.slope.value > math.radians(40.0)
+    cells = {one.key: one.value for one in derive_cells(row, [row], "grid.asc")}
+    assert cells["snow_thickness"] == pytest.approx(3.3 * math.cos(foot), abs=2e-3)
+    typed = draw_line(points, turned=turned, snow_height=3.3, snow_thickness=2.0)
+    row = measure(grid, typed)
+    assert "snow_thickness" not in {one.key for one in derive_cells(row, [row], "g")}
+
+
+def test_steep_ground_beyond_a_zone_is_told():
+    grid = build_grid(plane(PSI), size=160.0)
+    zone = np.array([(-40.0, -30.0), (40.0, -30.0), (40.0, -4.0), (-40.0, -4.0)])
+    row = measure(grid, draw_line(ALONG_CONTOUR), zones=(zone,))
+    told = describe_steep_above(row)
+    assert told is not None
+    beyond = row.ends[0].steep - row.upslope.length.value
+    assert told.arguments["length"] == pytest.approx(beyond)
+    assert beyond > 20.0
+    assert describe_steep_above(measure(grid, draw_line(ALONG_CONTOUR))) is None
+
+
+def test_a_row_below_a_zone_has_its_snow_and_one_beside_it_none():
+    grid = build_grid(plane(PSI), size=160.0)
+    zone = np.array([(-40.0, -10.0), (6.0, -10.0), (6.0, 4.0), (-40.0, 4.0)])
+    row = measure(grid, draw_line(ALONG_CONTOUR), zones=(zone,))
+    lengths = {round(one.length.value, 6) for one in row.ends}
+    assert lengths == {0.0, round(24.0 / math.cos(PSI), 6)}

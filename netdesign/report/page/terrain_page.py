@@ -26,7 +26,7 @@ from netdesign.report.drawing.terrain_map import (
 from netdesign.report.page.render import render_page
 from netdesign.report.words import Words, show_text
 from netdesign.terrain.coverage import Coverage
-from netdesign.terrain.measure import MeasuredRow, describe_kinks
+from netdesign.terrain.measure import MeasuredRow, describe_kinks, describe_steep_above
 from netdesign.terrain.plan import Plan
 from netdesign.terrain.surface import Surface
 from netdesign.words.catalogue import Language
@@ -69,7 +69,10 @@ def render_terrain(
     words = Words(language)
     extract = extract_ground(surface, plan)
     first = _describe_grid(surface, coverage, grid, words)
-    kinks = [words.show(one) for one in map(describe_kinks, rows) if one]
+    told = (
+        find(row) for row in rows for find in (describe_kinks, describe_steep_above)
+    )
+    kinks = [words.show(one) for one in told if one]
     maps = (
         Figure(
             svg=draw_map(extract, plan, rows, coverage, words),
