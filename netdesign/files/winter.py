@@ -18,14 +18,12 @@ from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
 )
-from netdesign.winter.compared import Comparison, ComputedForce
 from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.fit import SeasonFit
-from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
-from netdesign.winter.row_winters import RowWinters, StationPacks, list_complete
-from netdesign.winter.season import Season
-from netdesign.winter.trend import LEAST_FOR_TREND, Trend
+from netdesign.winter.measured import Comparison, ComputedForce
+from netdesign.winter.season import RowWinters, Season, StationPacks, list_complete
+from netdesign.winter.statistics import LEAST_FOR_TREND, RETURN_PERIODS, Gumbel, Trend
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 

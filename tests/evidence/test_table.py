@@ -3,8 +3,14 @@
 import pytest
 from rich.console import Console
 
-from netdesign.evidence.page_table import FORCES, TEXTS, Field, numbers, tabulate
-from netdesign.evidence.table import show_document
+from netdesign.evidence.table import (
+    FORCES,
+    TEXTS,
+    Field,
+    numbers,
+    show_document,
+    tabulate,
+)
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.pack import print_cases
 from netdesign.report.words import Words

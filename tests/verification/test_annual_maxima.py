@@ -12,9 +12,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import gumbel_r, norm
 
-from netdesign.winter.gumbel import Gumbel, fit_gumbel
-from netdesign.winter.model_code import find_model_code_density
-from netdesign.winter.trend import find_trend
+from netdesign.winter.maxima import find_model_code_density
+from netdesign.winter.statistics import Gumbel, find_trend, fit_gumbel
 
 VARIATION = 0.30  # of the maxima, whose mean is 1
 SCALE = VARIATION * math.sqrt(6.0) / math.pi

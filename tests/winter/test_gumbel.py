@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.winter.gumbel import Gumbel, fit_gumbel
+from netdesign.winter.statistics import Gumbel, fit_gumbel
 
 
 def test_fewer_than_fifteen_winters_tell_no_return_value():

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from netdesign.evidence.paper.cases import (
+from netdesign.evidence.paper.runs import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,
     MIDDLE_FRICTION_DEG,
@@ -19,13 +19,15 @@ from netdesign.evidence.paper.cases import (
     PAPER_TIME,
     RELATIVE_DENSITY,
     PaperCase,
+    PaperRun,
+    PaperStudy,
+    Track,
     find_exchange,
     find_history,
     find_paper_time,
     find_steady,
     find_trend,
 )
-from netdesign.evidence.paper.runs import PaperRun, PaperStudy, Track
 from netdesign.numerics.arrays import Floats
 from netdesign.report.words import ENGLISH, Words
 from netdesign.snow.creep_law import ICE_DENSITY

@@ -7,7 +7,21 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.coupling.history.settings import Start
-from netdesign.evidence.page_table import (
+from netdesign.evidence.paper.findings import judge_growth, last_swing
+from netdesign.evidence.paper.runs import (
+    DESIGN_NET_DEG,
+    FRICTIONS_DEG,
+    INCLINATIONS_DEG,
+    NORMAL_NET_DEG,
+    PaperCase,
+    PaperRun,
+    PaperStudy,
+    find_exchange,
+    find_history,
+    find_steady,
+    find_trend,
+)
+from netdesign.evidence.table import (
     CHANGES,
     ERRORS,
     FORCE,
@@ -22,19 +36,6 @@ from netdesign.evidence.page_table import (
     kilo,
     tabulate,
 )
-from netdesign.evidence.paper.cases import (
-    DESIGN_NET_DEG,
-    FRICTIONS_DEG,
-    INCLINATIONS_DEG,
-    NORMAL_NET_DEG,
-    PaperCase,
-    find_exchange,
-    find_history,
-    find_steady,
-    find_trend,
-)
-from netdesign.evidence.paper.findings import judge_growth, last_swing
-from netdesign.evidence.paper.runs import PaperRun, PaperStudy
 from netdesign.report.blocks import Table, text_cell, write_csv
 from netdesign.report.words import MISSING, Words
 from netdesign.units import day_from_second

@@ -9,9 +9,9 @@ from xml.etree import ElementTree
 import pytest
 
 from netdesign import __version__
-from netdesign.evidence.paper.cases import find_history
 from netdesign.evidence.paper.findings import list_findings, word_finding
 from netdesign.evidence.paper.page import PAGE_FILE, name_history, render_paper
+from netdesign.evidence.paper.runs import find_history
 from netdesign.evidence.paper.tables import list_tables
 from netdesign.report.words import Words
 from netdesign.words.message import say
