@@ -19,7 +19,9 @@ def find_sides(svg):
 
 def list_foot_lines(svg):
     """Abscissae of each piece of the foot's line [pt], not of the one at its name."""
-    found = re.findall(rf'points="([^"]*)" fill="none" stroke="{ACCENT}"[^/]*1\.2"', svg)
+    found = re.findall(
+        rf'points="([^"]*)" fill="none" stroke="{ACCENT}"[^/]*1\.2"', svg
+    )
     lines = [[float(x) for x in re.findall(r"(-?[\d.]+),", one)] for one in found]
     return [one for one in lines if min(one) < find_sides(svg)[1]]
 
