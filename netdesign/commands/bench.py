@@ -222,7 +222,6 @@ def _measure(
 ) -> Sequence[Row]:
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.benchmark.precision import (
-        FULL,
         QUICK,
         measure_steady,
         measure_transient,
@@ -235,9 +234,9 @@ def _measure(
         len(chosen), "scenes", quiet=False, language=language
     ) as on_done:
         for name, scene in chosen.items():
-            rows += measure_steady(name, scene, QUICK if quick else FULL)
+            rows += measure_steady(name, scene, **(QUICK if quick else {}))
             if name in HISTORY_SCENES and not quick:
-                rows += measure_transient(name, scene, FULL)
+                rows += measure_transient(name, scene)
             if on_done is not None:
                 on_done(name)
     return rows

@@ -153,37 +153,28 @@ class Kind:
     is_number: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
-    """One column: its key in a file, its heading or the heading's key, its kind."""
-
-    key: str
-    heading: str
-    kind: Kind
-
-
 def tabulate(
     caption: str,
-    fields: Sequence[Field],
+    columns: Sequence[tuple[str, Kind]],
     rows: Iterable[Sequence[object]],
     words: Words,
 ) -> Table:
-    """Table of rows of plain values in a language."""
+    """Table of rows of plain values in a language; a heading, or its key, is enough."""
     texts = load_texts("en")
     return Table(
         caption=caption,
         columns=tuple(
             Column(
-                heading=words(one.heading) if one.heading in texts else one.heading,
-                quantity=one.kind.quantity,
-                is_number=one.kind.is_number,
+                heading=words(heading) if heading in texts else heading,
+                quantity=kind.quantity,
+                is_number=kind.is_number,
             )
-            for one in fields
+            for heading, kind in columns
         ),
         rows=tuple(
             tuple(
-                one.kind.show(words, value)
-                for one, value in zip(fields, row, strict=True)
+                kind.show(words, value)
+                for (_, kind), value in zip(columns, row, strict=True)
             )
             for row in rows
         ),
@@ -197,9 +188,9 @@ def tabulate_items(
     words: Words,
 ) -> Table:
     """Table of a line for each item; a column's heading, kind and value of an item."""
-    fields = [Field(heading, heading, kind) for heading, (kind, _) in columns.items()]
+    kinds = [(heading, kind) for heading, (kind, _) in columns.items()]
     rows = [[value(one) for _, value in columns.values()] for one in items]
-    return tabulate(caption, fields, rows, words)
+    return tabulate(caption, kinds, rows, words)
 
 
 def numbers(form: str) -> Kind:

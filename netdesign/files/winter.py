@@ -343,7 +343,7 @@ def _largest_members(season: Season) -> dict[str, float]:
 def _write_statistics(fit: Gumbel | None) -> dict[str, Any] | None:
     if fit is None:
         return None
-    values = [fit.find_return_value(period) for period in RETURN_PERIODS]
+    values = {period: fit.find_return_value(period) for period in RETURN_PERIODS}
     return {
         "distribution": "Gumbel, by moments",
         "winters": fit.count,
@@ -351,11 +351,11 @@ def _write_statistics(fit: Gumbel | None) -> dict[str, Any] | None:
         "variation": fit.variation,
         "return_values": [
             {
-                "period_a": one.period,
-                "foot_kN_per_m": kilonewton_from_newton(one.value),
-                "standard_error_kN_per_m": kilonewton_from_newton(one.error),
+                "period_a": period,
+                "foot_kN_per_m": kilonewton_from_newton(value),
+                "standard_error_kN_per_m": kilonewton_from_newton(error),
             }
-            for one in values
+            for period, (value, error) in values.items()
         ],
     }
 

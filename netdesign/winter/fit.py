@@ -29,7 +29,7 @@ from netdesign.winter.fit_inputs import (
     vary_day,
     vary_row,
 )
-from netdesign.winter.gauss_newton import Fit, Parameter, fit_gauss_newton
+from netdesign.winter.gauss_newton import Fit, Parameter, Response, fit_gauss_newton
 from netdesign.winter.measured import MeasuredPulls, find_swing
 from netdesign.winter.season import RowWinters, StationPacks
 
@@ -198,8 +198,8 @@ def fit_season(task: FitTask) -> SeasonFit:
     measured = np.log([one.force for one in task.readings])
     thickest = max(day.thickness for day in task.days.values())
     parameters = list_parameters(task.row, task.known, thickest)
-    responder = _Responder(task, parameters, targets)
-    fit = fit_gauss_newton(responder, measured, noise, parameters)
+    respond = _respond_to(task, parameters, targets)
+    fit = fit_gauss_newton(respond, measured, noise, parameters)
     return _judge(begun, fit, parameters, measured, noise, targets)
 
 
@@ -219,33 +219,26 @@ def list_swings(task: FitTask) -> dict[int, float]:
     }
 
 
-class _Responder:
-    """Logarithms of the forces of readings and targets by the chain."""
+def _respond_to(
+    task: FitTask,
+    parameters: Sequence[Parameter],
+    targets: Sequence[tuple[ForceCase, Member]],
+) -> Response:
+    """Logarithms of the forces of readings and targets, NaN where there are none."""
+    places = {"governing": task.governing, "design": _DESIGN}
+    wanted = [(one.index, one.member) for one in task.readings]
+    wanted += [(places[case] or 0, member) for case, member in targets]
+    least = _LEAST_SHARE * max(one.force for one in task.readings)
 
-    def __init__(
-        self,
-        task: FitTask,
-        parameters: Sequence[Parameter],
-        targets: Sequence[tuple[ForceCase, Member]],
-    ) -> None:
-        self._task, self._targets = task, targets
-        self._names = [one.name for one in parameters]
-        largest = max(one.force for one in task.readings)
-        self._least = _LEAST_SHARE * largest
-
-    def __call__(self, values: Floats) -> Floats:
-        """Responses at some parameters, NaN where the model has none."""
-        task = self._task
-        named = dict(zip(self._names, map(float, values), strict=True))
-        places = {"governing": task.governing, "design": _DESIGN}
-        wanted = [(one.index, one.member) for one in task.readings]
-        wanted += [(places[case] or 0, member) for case, member in self._targets]
+    def respond(values: Floats) -> Floats:
+        named = {one.name: float(x) for one, x in zip(parameters, values, strict=True)}
         forces = _solve(task, named)
         found = [forces.get(index, {}).get(member) for index, member in wanted]
-        least = self._least
         return np.array(
             [math.nan if one is None else math.log(max(one, least)) for one in found]
         )
+
+    return respond
 
 
 _DESIGN = -1  # place of the design case among the days

@@ -16,23 +16,6 @@ RETURN_PERIODS = (30.0, 100.0)  # [a]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ReturnValue:
-    """Value that is exceeded once in so many years.
-
-    Attributes
-    ----------
-    period : float
-        T [a].
-    value, error : float
-        Estimate and its standard error, in the unit of the maxima.
-    """
-
-    period: float
-    value: float
-    error: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Gumbel:
     """Gumbel's distribution with the moments of some annual maxima.
 
@@ -53,22 +36,24 @@ class Gumbel:
         """Coefficient of variation [-]."""
         return self.deviation / self.mean if self.mean else math.nan
 
-    def find_return_value(self, period: float) -> ReturnValue:
-        """Return value with its standard error, eqs (Y6) and (Y7).
+    def find_return_value(self, period: float) -> tuple[float, float]:
+        """Value exceeded once in so many years, and its error, eqs (Y6) and (Y7).
 
         Parameters
         ----------
         period : float
             T [a], above 1.
+
+        Returns
+        -------
+        (float, float)
+            Estimate and its standard error, in the unit of the maxima.
         """
         reduced = -math.log(-math.log(1.0 - 1.0 / period))
         factor = math.sqrt(6.0) / math.pi * (reduced - float(np.euler_gamma))
         spread = math.sqrt(1.0 + 1.1396 * factor + 1.1 * factor**2)
-        return ReturnValue(
-            period=period,
-            value=self.mean + factor * self.deviation,
-            error=self.deviation * spread / math.sqrt(self.count),
-        )
+        error = self.deviation * spread / math.sqrt(self.count)
+        return self.mean + factor * self.deviation, error
 
 
 def fit_gumbel(maxima: Sequence[float]) -> Gumbel | None:

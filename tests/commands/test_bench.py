@@ -8,7 +8,6 @@ from click.testing import CliRunner
 from netdesign.commands.bench import bench
 from netdesign.evidence.benchmark import attempts, precision
 from netdesign.evidence.benchmark.attempts import Attempt
-from netdesign.evidence.benchmark.precision import Effort
 from netdesign.outcome import ModelError, OutputError
 
 
@@ -17,7 +16,7 @@ def run(*arguments):
 
 
 def test_rows_and_plot(monkeypatch, tmp_path):
-    monkeypatch.setattr(precision, "QUICK", Effort(finest=1, repeats=1))
+    monkeypatch.setattr(precision, "QUICK", {"finest": 1, "repeats": 1})
     plot = tmp_path / "plot.svg"
     result = run("--quick", "--scenes", "rough-steep", "--json", "--plot", str(plot))
     assert result.exit_code == 0, result.output

@@ -57,23 +57,16 @@ HISTORY_ACCURACY = 0.01  # of the steps
 _TIGHT, _OFFERED = 1e-4, 5e-3
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Effort:
-    """Amount of measurement: place of the finest level, repeats of each timing."""
-
-    finest: int = 3
-    repeats: int = 5
-
-
-FULL = Effort()
-QUICK = Effort(finest=2, repeats=3)
+QUICK = {"finest": 2, "repeats": 3}  # place of the finest level; of each timing
 
 
 Solve = Callable[[], Solution | FailedSolution]
 
 
-def measure_steady(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
-    """Rows of one scene: every pair of neighbouring levels, all paths.
+def measure_steady(
+    name: str, scene: Scene, finest: int = 3, repeats: int = 5
+) -> list[Row]:
+    """Rows of one scene: every pair of levels up to the finest, all paths, in turns.
 
     Raises
     ------
@@ -83,20 +76,20 @@ def measure_steady(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
     settings = SolverSettings(accuracy=_OFFERED)
     tight = replace(settings, accuracy=_TIGHT)
     # cut in four once: to cut it twice would take minutes a scene
-    truth = solve_truth(scene, MESH_LEVELS[effort.finest], tight, halvings=1)
+    truth = solve_truth(scene, MESH_LEVELS[finest], tight, halvings=1)
     rows = []
-    for pair in pairwise(MESH_LEVELS[: effort.finest + 1]):
+    for pair in pairwise(MESH_LEVELS[: finest + 1]):
         fast = replace(settings, levels=pair)
         plain = replace(fast, step=reference_path.advance)
         solves: dict[Path, Solve] = {
             "fast": partial(solve_steady, scene, fast),
             "reference": partial(solve_steady, scene, plain),
         }
-        rows += _measure(name, "steady", solves, truth, effort.repeats)
+        rows += _measure(name, "steady", solves, truth, repeats)
     return rows
 
 
-def measure_transient(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
+def measure_transient(name: str, scene: Scene, repeats: int = 5) -> list[Row]:
     """Rows of one scene's history up to its plateau; errors of its largest pulls.
 
     The truth is a history on twice the finest mesh with steps for a tenth of the
@@ -113,7 +106,7 @@ def measure_transient(name: str, scene: Scene, effort: Effort = FULL) -> list[Ro
     rows = []
     for pair in pairwise(TRANSIENT_LEVELS):
         solve = partial(solve_transient, scene, replace(settings, levels=pair))
-        rows += _measure(name, "transient", {"fast": solve}, truth, effort.repeats)
+        rows += _measure(name, "transient", {"fast": solve}, truth, repeats)
     return rows
 
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from netdesign import __version__
 from netdesign.evidence.paper.findings import (
     SETTLED,
-    Claim,
     list_findings,
     word_finding,
 )
@@ -32,11 +31,9 @@ from netdesign.evidence.paper.runs import (
 )
 from netdesign.evidence.paper.tables import list_tables
 from netdesign.report.blocks import (
-    SMALL,
     Block,
     Figure,
     Heading,
-    Pair,
     Pairs,
     Paragraph,
     Part,
@@ -318,7 +315,7 @@ def _render_page(study: PaperStudy, plates: list[Plate], words: Words) -> str:
             words("paper.statements"),
             Pairs(
                 look="claims",
-                pairs=tuple(_show_claim(word_finding(one, words)) for one in findings),
+                pairs=tuple(word_finding(one, words) for one in findings),
             ),
             Paragraph(text=rule, look="small"),
         ),
@@ -329,13 +326,6 @@ def _render_page(study: PaperStudy, plates: list[Plate], words: Words) -> str:
         section("how", words("paper.how"), *_describe_method(scene, words)),
     )
     return render_page(blocks, words("paper.title"), words.language)
-
-
-def _show_claim(claim: Claim) -> Pair:
-    call = f"{claim.symbol} {claim.call}"
-    text = [Piece(claim.said, "said"), Piece(claim.found, "found")]
-    text += [Piece(claim.reason, SMALL)] if claim.reason else []
-    return Pair(name=call, text=tuple(text), look="differs" if claim.differs else "")
 
 
 def _show_plates(plates: list[Plate]) -> Iterator[Block]:
