@@ -150,20 +150,17 @@ def _run_random(
     """Exit code of a run over random scenes."""
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.benchmark.attempts import (
-        run_stress,
-        study_errors,
+        attempt_scenes,
         write_errors,
         write_stress,
     )
 
-    known: dict[str, tuple[Any, Any]] = {
-        "--stress": (run_stress, write_stress),
-        "--errors": (study_errors, write_errors),
-    }
-    study, write = known[option]
-    shown = output.language
+    shown, is_compared = output.language, option == "--errors"
+    write = write_errors if is_compared else write_stress
     with show_progress(count, "scenes", quiet=False, language=shown) as on_done:
-        found = study(count, seed, **asked, on_done=on_done)
+        found = attempt_scenes(
+            count, seed, **asked, is_compared=is_compared, on_done=on_done
+        )
     document = write(found, seed, asked["accuracy"], "en" if output.as_json else shown)
     output.write(document)
     return 0 if document["pass"] else _EXIT_FAIL

@@ -37,7 +37,7 @@ def test_unknown_scene():
 def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
     monkeypatch.setattr(
         attempts,
-        "run_stress",
+        "attempt_scenes",
         lambda *_, **__: [Attempt(number=0, kind=kind, reason="why", balance=0.0)],
     )
     result = run("--stress", "1", "--json")

@@ -262,10 +262,10 @@ def _list_codes(words: Words) -> list[str]:
 def _tabulate_contrasts(contrasts: Sequence[Contrast], words: Words) -> Table:
     columns = {
         "validation.ground": (TEXTS, lambda one: words(_GROUNDS[one.ground])),
-        "validation.own_law": (PAIRS, lambda one: one.own),
-        "validation.other_law": (PAIRS, lambda one: one.other),
+        "validation.own_law": (PAIRS, lambda one: one.own_N_m),
+        "validation.other_law": (PAIRS, lambda one: one.other_N_m),
         "validation.change": (NUMBER_TEXTS, _show_change),
-        "validation.uniform": (PAIRS, lambda one: one.uniform),
+        "validation.uniform": (PAIRS, lambda one: one.uniform_N_m),
     }
     return tabulate_items(
         words("validation.contrast_caption"), columns, contrasts, words
@@ -273,7 +273,7 @@ def _tabulate_contrasts(contrasts: Sequence[Contrast], words: Words) -> Table:
 
 
 def _show_change(one: Contrast) -> str:
-    pairs = zip(one.own, one.other, strict=True)
+    pairs = zip(one.own_N_m, one.other_N_m, strict=True)
     return " / ".join(f"{100 * (other / own - 1):+.0f}" for own, other in pairs)
 
 
@@ -368,26 +368,8 @@ def write_evidence(evidence: Evidence) -> dict[str, Any]:
         "schema": "netdesign.validation/1",
         "version": __version__,
         "verification": write_pack(list(evidence.cases))["cases"],
-        "compaction": [
-            {
-                "density_kg_m3": place.density,
-                "stress_Pa": place.stress,
-                "laws_Pa_s": place.laws,
-                "models_Pa_s": {
-                    name: list(ends) for name, ends in place.models.items()
-                },
-            }
-            for place in evidence.places
-        ],
-        "contrasts": [
-            {
-                "ground": one.ground,
-                "own_N_m": list(one.own),
-                "other_N_m": list(one.other),
-                "uniform_N_m": list(one.uniform),
-            }
-            for one in evidence.contrasts
-        ],
+        "compaction": [asdict(one) for one in evidence.places],
+        "contrasts": [asdict(one) for one in evidence.contrasts],
         "structures": [_write_structure(one) for one in evidence.validations],
     }
 

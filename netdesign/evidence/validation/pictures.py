@@ -81,7 +81,7 @@ def _end_list(chart: Chart, frame: Frame, axis: str, title: str) -> str:
 def draw_compaction(places: Sequence[Place], words: Words = ENGLISH) -> str:
     """Apparent compaction viscosity over density, one panel a stress."""
     chart = Chart(language=words.language)
-    values = [v for one in places for v in (*one.laws.values(), *_list_ends(one))]
+    values = [v for one in places for v in (*one.laws_Pa_s.values(), *_list_ends(one))]
     ends = math.log10(min(values)), math.log10(max(values))
     step = _ABOVE + _TALL + _BELOW
     for number, stress in enumerate(STRESSES):
@@ -98,7 +98,7 @@ def draw_compaction(places: Sequence[Place], words: Words = ENGLISH) -> str:
         kilopascal = words.write(f"{stress / 1e3:g}")
         title = f"{kilopascal} kPa: {words('validation.viscosity_axis')}"
         chart.text(frame.left, frame.top - 5.0, title, bold=True)
-        _draw_stress(chart, frame, [one for one in places if one.stress == stress])
+        _draw_stress(chart, frame, [one for one in places if one.stress_Pa == stress])
         axis, middle = words("validation.density_axis"), frame.left + frame.width / 2.0
         below = frame.top + _TALL + _BELOW - 8.0
         chart.text(middle, below, axis, anchor="middle")
@@ -108,7 +108,7 @@ def draw_compaction(places: Sequence[Place], words: Words = ENGLISH) -> str:
 
 
 def _list_ends(place: Place) -> list[float]:
-    return [value for ends in place.models.values() for value in ends]
+    return [value for ends in place.models_Pa_s.values() for value in ends]
 
 
 def _draw_stress(chart: Chart, frame: Frame, places: Sequence[Place]) -> None:
@@ -116,11 +116,14 @@ def _draw_stress(chart: Chart, frame: Frame, places: Sequence[Place]) -> None:
 
     def trace(values: Sequence[float]) -> list[tuple[float, float]]:
         pairs = zip(places, values, strict=True)
-        return [(frame.x(p.density), frame.y(math.log10(value))) for p, value in pairs]
+        return [
+            (frame.x(p.density_kg_m3), frame.y(math.log10(value))) for p, value in pairs
+        ]
 
     ends = {
         model.name: [
-            trace([place.models[model.name][end] for place in places]) for end in (0, 1)
+            trace([place.models_Pa_s[model.name][end] for place in places])
+            for end in (0, 1)
         ]
         for model in MODELS
     }
@@ -132,7 +135,7 @@ def _draw_stress(chart: Chart, frame: Frame, places: Sequence[Place]) -> None:
         chart.line(cold, stroke=GREY, width=0.4)
     for number, law in enumerate(CREEP_LAWS):
         color, (_, dash) = INK if number else ACCENT, SHADES[number]
-        values = [place.laws[law] for place in places]
+        values = [place.laws_Pa_s[law] for place in places]
         chart.line(trace(values), stroke=color, width=1.3, dash=dash)
     chart.axes(frame, y_ticks=False)
     chart.decades(frame, across=False)

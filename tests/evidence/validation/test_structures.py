@@ -207,7 +207,10 @@ def build_evidence(*validations):
         places=list_places(),
         contrasts=[
             Contrast(
-                ground="free", own=(9.1, 8.2), other=(9.3, 8.1), uniform=(9.4, 8.3)
+                ground="free",
+                own_N_m=(9.1, 8.2),
+                other_N_m=(9.3, 8.1),
+                uniform_N_m=(9.4, 8.3),
             )
         ],
         validations=validations,
