@@ -47,7 +47,12 @@ def draw_measured(
     x, band = [at for at, _ in value], [[y for _, y in one] for one in (low, high)]
     member = show_member(words, entry["member"])
     computed, measured, swing = (
-        words(f"winter_measured.{key}") for key in ("computed", "measured", "band")
+        words(key)
+        for key in (
+            "winter_measured.computed",
+            "winter_measured.measured",
+            "winter_measured.band",
+        )
     )
     readings = _cut(_list_readings(entry), span)
     lines = [

@@ -47,12 +47,12 @@ def draw_winter(
     marks = [
         Mark(
             x=place(winter[key]),
-            label=words(f"winter_page.mark_{name}"),
-            is_accent=name == "governing",
+            label=words(label),
+            is_accent=key == "governing_date",
         )
-        for name, key in (
-            ("highest", "height_max_date"),
-            ("governing", "governing_date"),
+        for key, label in (
+            ("height_max_date", "winter_page.mark_highest"),
+            ("governing_date", "winter_page.mark_governing"),
         )
         if winter[key]
     ]
@@ -81,15 +81,15 @@ def _list_forces(days: Days, words: Words, marks: Sequence[Mark] = ()) -> list[P
     }
     panels = [
         Panel(
-            title=words(f"winter_page.{name}_title"),
+            title=words(title),
             lines=_list_lines(days, found, words),
-            marks=marks if name == "pulls" else (),
+            marks=marks if found is pulls else (),
             from_zero=True,
             height_pt=height,
         )
-        for name, found, height in (
-            ("pulls", pulls, _FORCES),
-            ("members", members, _MEMBERS),
+        for title, found, height in (
+            ("winter_page.pulls_title", pulls, _FORCES),
+            ("winter_page.members_title", members, _MEMBERS),
         )
     ]
     return panels if panels[1].lines else panels[:1]
