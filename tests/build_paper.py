@@ -4,8 +4,14 @@ import math
 
 import numpy as np
 
-from netdesign.evidence.paper.cases import PaperSettings, list_cases
-from netdesign.evidence.paper.runs import PaperRun, PaperStudy, Shape, Track
+from netdesign.evidence.paper.runs import (
+    PaperRun,
+    PaperSettings,
+    PaperStudy,
+    Shape,
+    Track,
+    list_cases,
+)
 from netdesign.words.message import say
 
 SETTINGS = PaperSettings()

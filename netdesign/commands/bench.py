@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 Show = Callable[[dict[str, Any], "Console", "Words"], None]
 
 _EXIT_FAIL = 1
-_RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
+_RANDOM = ("--stress", "--errors")  # over random scenes
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +70,6 @@ class _Output:
     help="Compare N random scenes with finer meshes instead: are errors honest?",
 )
 @click.option(
-    "--lines",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Follow N lines of 200 scenes instead: does a force jump beyond its error?",
-)
-@click.option(
     "--against",
     type=click.Path(path_type=Path),
     metavar="WHEEL_OR_VENV",
@@ -104,7 +98,6 @@ def bench(
     *,
     stress: int | None,
     errors: int | None,
-    lines: int | None,
     against: Path | None,
     seed: int,
     accuracy: float,
@@ -122,10 +115,9 @@ def bench(
     netdesign bench --plot bench.svg
     netdesign bench --stress 2000 --seed 1 --jobs 2
     netdesign bench --errors 200 --seed 1 --jobs 2
-    netdesign bench --lines 60 --jobs 2
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
-    counts = {"--stress": stress, "--errors": errors, "--lines": lines}
+    counts = {"--stress": stress, "--errors": errors}
     wanted = {**counts, "--against": against}
     given = [name for name, value in wanted.items() if value is not None]
     _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
@@ -158,22 +150,17 @@ def _run_random(
     """Exit code of a run over random scenes."""
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.benchmark.attempts import (
-        run_stress,
-        study_errors,
+        attempt_scenes,
         write_errors,
         write_stress,
     )
-    from netdesign.evidence.benchmark.lines import study_lines, write_lines
 
-    known: dict[str, tuple[Any, Any]] = {
-        "--stress": (run_stress, write_stress),
-        "--errors": (study_errors, write_errors),
-        "--lines": (study_lines, write_lines),
-    }
-    study, write = known[option]
-    shown, what = output.language, "lines" if option == "--lines" else "scenes"
-    with show_progress(count, what, quiet=False, language=shown) as on_done:
-        found = study(count, seed, **asked, on_done=on_done)
+    shown, is_compared = output.language, option == "--errors"
+    write = write_errors if is_compared else write_stress
+    with show_progress(count, "scenes", quiet=False, language=shown) as on_done:
+        found = attempt_scenes(
+            count, seed, **asked, is_compared=is_compared, on_done=on_done
+        )
     document = write(found, seed, asked["accuracy"], "en" if output.as_json else shown)
     output.write(document)
     return 0 if document["pass"] else _EXIT_FAIL
@@ -232,7 +219,6 @@ def _measure(
 ) -> Sequence[Row]:
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.benchmark.precision import (
-        FULL,
         QUICK,
         measure_steady,
         measure_transient,
@@ -245,9 +231,9 @@ def _measure(
         len(chosen), "scenes", quiet=False, language=language
     ) as on_done:
         for name, scene in chosen.items():
-            rows += measure_steady(name, scene, QUICK if quick else FULL)
+            rows += measure_steady(name, scene, **(QUICK if quick else {}))
             if name in HISTORY_SCENES and not quick:
-                rows += measure_transient(name, scene, FULL)
+                rows += measure_transient(name, scene)
             if on_done is not None:
                 on_done(name)
     return rows

@@ -124,7 +124,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
         started=format_time(),
     )
     if asked["dry_run"]:
-        from netdesign.commands.dry_run import announce
+        from netdesign.commands.check_run import announce
 
         as_json = asked["as_json"]
         sys.exit(announce(site, run, len(profiles), as_json=as_json, language=language))

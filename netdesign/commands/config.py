@@ -299,7 +299,8 @@ _OPTION = "--language"
 def find_language(group: click.Group, words: Sequence[str]) -> Language:
     """Language of a command line; what is no language is refused elsewhere."""
     path, command = find_command(group, words)
-    variables = (_name_language_variable(path), LANGUAGE_VARIABLE)
+    own = [_name_variable("_".join(path), _OPTION)] if path else []
+    variables = [*own, LANGUAGE_VARIABLE]
     told = next(filter(None, map(os.environ.get, variables)), None)
     found = _find_option(words) or told
     if not found and command is not None:
@@ -329,7 +330,3 @@ def _find_option(words: Sequence[str]) -> str | None:
         if name == _OPTION:
             found = value if mark else following
     return found
-
-
-def _name_language_variable(path: Sequence[str]) -> str:
-    return "_".join((ENVIRONMENT_PREFIX, *path, "LANGUAGE")).upper().replace("-", "_")

@@ -60,7 +60,7 @@ def snowpack(
     from netdesign.snowpack.follow import MODELS as KNOWN
     from netdesign.snowpack.follow import follow_heights
     from netdesign.snowpack.series import smooth
-    from netdesign.winter.row_winters import FIRST_DENSITY
+    from netdesign.winter.season import FIRST_DENSITY
 
     refuse_delimiter(height_file, language=language)
     if not as_json:

@@ -203,7 +203,7 @@ def _solve(
         require_plausible_heights,
     )
     from netdesign.winter.day import DaySolver
-    from netdesign.winter.row_winters import follow_station, follow_winters
+    from netdesign.winter.season import follow_station, follow_winters
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
     pulls = [list_measured_pulls(site, row.id) for row in rows]
@@ -312,9 +312,8 @@ def fit_rows(run: WinterRun, asked: Mapping[str, Any], runner: Runner) -> Winter
         return run
     from netdesign.study.winter_row import list_measured_pulls
     from netdesign.winter.day import DaySolver
-    from netdesign.winter.fit import FIT_SETTINGS, fit_season
-    from netdesign.winter.fit_readings import Noise
-    from netdesign.winter.fit_task import choose_fit
+    from netdesign.winter.fit import FIT_SETTINGS, choose_fit, fit_season
+    from netdesign.winter.fit_inputs import Noise
 
     stated = Noise(
         reading=asked["noise"], cell=asked["cell_error"], rope=asked["rope_kelvin"]

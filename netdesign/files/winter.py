@@ -18,14 +18,12 @@ from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
 )
-from netdesign.winter.compared import Comparison, ComputedForce
 from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.fit import SeasonFit
-from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
-from netdesign.winter.row_winters import RowWinters, StationPacks, list_complete
-from netdesign.winter.season import Season
-from netdesign.winter.trend import LEAST_FOR_TREND, Trend
+from netdesign.winter.measured import Comparison, ComputedForce
+from netdesign.winter.season import RowWinters, Season, StationPacks, list_complete
+from netdesign.winter.statistics import LEAST_FOR_TREND, RETURN_PERIODS, Gumbel, Trend
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -345,7 +343,7 @@ def _largest_members(season: Season) -> dict[str, float]:
 def _write_statistics(fit: Gumbel | None) -> dict[str, Any] | None:
     if fit is None:
         return None
-    values = [fit.find_return_value(period) for period in RETURN_PERIODS]
+    values = {period: fit.find_return_value(period) for period in RETURN_PERIODS}
     return {
         "distribution": "Gumbel, by moments",
         "winters": fit.count,
@@ -353,11 +351,11 @@ def _write_statistics(fit: Gumbel | None) -> dict[str, Any] | None:
         "variation": fit.variation,
         "return_values": [
             {
-                "period_a": one.period,
-                "foot_kN_per_m": kilonewton_from_newton(one.value),
-                "standard_error_kN_per_m": kilonewton_from_newton(one.error),
+                "period_a": period,
+                "foot_kN_per_m": kilonewton_from_newton(value),
+                "standard_error_kN_per_m": kilonewton_from_newton(error),
             }
-            for one in values
+            for period, (value, error) in values.items()
         ],
     }
 

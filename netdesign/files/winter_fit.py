@@ -16,7 +16,7 @@ from netdesign.winter.fit import (
     SeasonFit,
     list_unconstrained,
 )
-from netdesign.winter.fit_parameters import LOGARITHMIC, show_value
+from netdesign.winter.fit_inputs import LOGARITHMIC, show_value
 from netdesign.winter.gauss_newton import Parameter
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say

@@ -28,7 +28,7 @@ from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
-from netdesign.winter.model_code import find_model_code_density
+from netdesign.winter.maxima import find_model_code_density
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member

@@ -16,10 +16,9 @@ from netdesign.snowpack.series import HeightSeries, name_winter
 from netdesign.study.records import MonitoringRecord
 from netdesign.study.row_to_check import build_scene
 from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_if_known
-from netdesign.winter.compared import Comparison, compare_season
 from netdesign.winter.day import WinterRow
-from netdesign.winter.measured import MeasuredPulls
-from netdesign.winter.row_winters import RowWinters
+from netdesign.winter.measured import Comparison, MeasuredPulls, compare_season
+from netdesign.winter.season import RowWinters
 from netdesign.words.message import Message, say
 
 ASSUMED_FACTOR = 1.0  # snow height at the rows over the station's, where none is given

@@ -6,7 +6,7 @@ Theory: winter/THEORY.md, section 7.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -16,17 +16,22 @@ from netdesign.checks.result import Band
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError
+from netdesign.snowpack.pack import DayPack
 from netdesign.structure.members import Member
 from netdesign.winter.day import DaySolver, RowDay, WinterRow, build_day_scene
-from netdesign.winter.fit_parameters import list_parameters, vary_day, vary_row
-from netdesign.winter.fit_readings import (
+from netdesign.winter.fit_inputs import (
     LEAST_DAYS,
     FitReading,
     Noise,
     build_covariance,
+    choose_readings,
+    list_parameters,
+    vary_day,
+    vary_row,
 )
-from netdesign.winter.gauss_newton import Fit, Parameter, fit_gauss_newton
-from netdesign.winter.rope_temperature import find_swing
+from netdesign.winter.gauss_newton import Fit, Parameter, Response, fit_gauss_newton
+from netdesign.winter.measured import MeasuredPulls, find_swing
+from netdesign.winter.season import RowWinters, StationPacks
 
 # The same three meshes for every state: their error of some 0.4 % is in all of them,
 # and differences are smooth.
@@ -193,8 +198,8 @@ def fit_season(task: FitTask) -> SeasonFit:
     measured = np.log([one.force for one in task.readings])
     thickest = max(day.thickness for day in task.days.values())
     parameters = list_parameters(task.row, task.known, thickest)
-    responder = _Responder(task, parameters, targets)
-    fit = fit_gauss_newton(responder, measured, noise, parameters)
+    respond = _respond_to(task, parameters, targets)
+    fit = fit_gauss_newton(respond, measured, noise, parameters)
     return _judge(begun, fit, parameters, measured, noise, targets)
 
 
@@ -214,33 +219,26 @@ def list_swings(task: FitTask) -> dict[int, float]:
     }
 
 
-class _Responder:
-    """Logarithms of the forces of readings and targets by the chain."""
+def _respond_to(
+    task: FitTask,
+    parameters: Sequence[Parameter],
+    targets: Sequence[tuple[ForceCase, Member]],
+) -> Response:
+    """Logarithms of the forces of readings and targets, NaN where there are none."""
+    places = {"governing": task.governing, "design": _DESIGN}
+    wanted = [(one.index, one.member) for one in task.readings]
+    wanted += [(places[case] or 0, member) for case, member in targets]
+    least = _LEAST_SHARE * max(one.force for one in task.readings)
 
-    def __init__(
-        self,
-        task: FitTask,
-        parameters: Sequence[Parameter],
-        targets: Sequence[tuple[ForceCase, Member]],
-    ) -> None:
-        self._task, self._targets = task, targets
-        self._names = [one.name for one in parameters]
-        largest = max(one.force for one in task.readings)
-        self._least = _LEAST_SHARE * largest
-
-    def __call__(self, values: Floats) -> Floats:
-        """Responses at some parameters, NaN where the model has none."""
-        task = self._task
-        named = dict(zip(self._names, map(float, values), strict=True))
-        places = {"governing": task.governing, "design": _DESIGN}
-        wanted = [(one.index, one.member) for one in task.readings]
-        wanted += [(places[case] or 0, member) for case, member in self._targets]
+    def respond(values: Floats) -> Floats:
+        named = {one.name: float(x) for one, x in zip(parameters, values, strict=True)}
         forces = _solve(task, named)
         found = [forces.get(index, {}).get(member) for index, member in wanted]
-        least = self._least
         return np.array(
             [math.nan if one is None else math.log(max(one, least)) for one in found]
         )
+
+    return respond
 
 
 _DESIGN = -1  # place of the design case among the days
@@ -379,3 +377,98 @@ def list_unconstrained(fitted: SeasonFit) -> tuple[str, ...]:
         for one, deviation in zip(fitted.parameters, left, strict=True)
         if deviation > UNCONSTRAINED * one.deviation
     )
+
+
+# Thickest snow of a reading over the net's height: one deviation of the height factor
+# is left for snow that was higher than at the station.
+_ROOM = 0.92
+
+
+def choose_fit(
+    result: RowWinters,
+    station: StationPacks,
+    measured: Sequence[MeasuredPulls],
+    solver: DaySolver,
+    *,
+    noise: Noise,
+    known: Collection[str] = (),
+    design_density: float | None = None,
+) -> FitTask:
+    """Fit of the winter with most readings.
+
+    Parameters
+    ----------
+    result : RowWinters
+        Of the row, solved.
+    station : StationPacks
+        By the settling model of the result.
+    measured : sequence of MeasuredPulls
+        Of the row, at least one.
+    solver : DaySolver
+        Of the row; its accuracy gives way to that of fits.
+    noise : Noise
+        As stated.
+    known : collection of str
+        Parameters that were surveyed.
+    design_density : float, optional
+        Density of the design case, snow of the row's own thickness [kg/m3].
+    """
+    winters = station.packs[result.model]
+    readings = {
+        name: choose_readings(measured, station.series, _list_days(packs, solver))
+        for name, packs in winters.items()
+    }
+    winter = max(readings, key=lambda name: len(readings[name]), default="")
+    packs = winters.get(winter, {})
+    governing, is_uniform = _find_governing(result, winter)
+    taken = readings.get(winter, ())
+    if is_uniform:  # its layers failed: no reading is held against uniform snow
+        taken = tuple(one for one in taken if one.index != governing)
+    days = _prepare(taken, governing, packs, solver)
+    if is_uniform and governing is not None:
+        days[governing] = replace(days[governing], layers=())
+    return FitTask(
+        winter=winter,
+        solver=replace(solver, settings=FIT_SETTINGS),
+        days=days,
+        readings=taken,
+        noise=noise,
+        known=frozenset(known),
+        governing=governing,
+        design=_build_design(solver, design_density),
+    )
+
+
+def _list_days(packs: Mapping[int, DayPack], solver: DaySolver) -> list[RowDay]:
+    """Days whose snow leaves some room below the head."""
+    most = _ROOM * solver.row.scene.net.height_normal
+    days = solver.prepare(packs, layered=False)
+    return [day for day in days if day.thickness <= most]
+
+
+def _prepare(
+    readings: Sequence[FitReading],
+    governing: int | None,
+    packs: Mapping[int, DayPack],
+    solver: DaySolver,
+) -> dict[int, RowDay]:
+    wanted = {one.index for one in readings}
+    wanted |= {governing} if governing is not None else set()
+    days = solver.prepare({k: packs[k] for k in sorted(wanted)}, layered=True)
+    return {day.index: day for day in days}
+
+
+def _find_governing(result: RowWinters, winter: str) -> tuple[int | None, bool]:
+    """Place of the governing day, and whether it was solved as uniform snow."""
+    for season in result.seasons:
+        if season.name == winter and season.governing is not None:
+            return season.governing.index, not season.governing.layers
+    maxima = [one.index for one in result.maxima if one.winter == winter]
+    return maxima[0] if maxima else None, True
+
+
+def _build_design(solver: DaySolver, density: float | None) -> RowDay | None:
+    if density is None:
+        return None
+    thickness = solver.row.scene.snowpack.thickness
+    return RowDay(index=-1, thickness=thickness, density=density, ending="open")

@@ -1,20 +1,143 @@
 """Annual maximum of a row: uniform snow of each day's mass and height.
 
-Theory: winter/THEORY.md, sections 2 and 3.
+Of many winters through a table. Theory: winter/THEORY.md, sections 2, 3 and 9.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Mask
+from netdesign.outcome import require_positive
+from netdesign.snow.snowpack import GRAVITY
 from netdesign.snowpack.pack import DayPack
 from netdesign.winter.day import DaySolver, RowDay
-from netdesign.winter.table import UniformTable, build_table
+
+_THICKNESSES, _DENSITIES = 9, 7  # of a table
+_DEGREE = 2  # of its splines
+_EDGE = 1.005  # how far a table reaches beyond what it was asked for
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UniformTable:
+    """Pulls of uniform snow at the nodes of a grid, as logarithms.
+
+    Attributes
+    ----------
+    thicknesses : ndarray, shape (n_thicknesses,)
+        ln d, ascending [d in m].
+    densities : ndarray, shape (n_densities,)
+        ln rho, ascending [rho in kg/m3].
+    foot, head : ndarray, shape (n_thicknesses, n_densities)
+        ln of the net's pulls [in N/m].
+    """
+
+    thicknesses: Floats
+    densities: Floats
+    foot: Floats
+    head: Floats
+
+    def find_pulls(self, thickness: Floats, density: Floats) -> tuple[Floats, Floats]:
+        """Foot and head pulls [N/m], both (n_days,); NaN outside the table.
+
+        Parameters
+        ----------
+        thickness : ndarray, shape (n_days,)
+            d [m], above 0.
+        density : ndarray, shape (n_days,)
+            [kg/m3], above 0.
+        """
+        x, y = np.log(thickness), np.log(density)
+        is_inside = (
+            (x >= self.thicknesses[0])
+            & (x <= self.thicknesses[-1])
+            & (y >= self.densities[0])
+            & (y <= self.densities[-1])
+        )
+        foot, head = (
+            np.where(is_inside, np.exp(self._interpolate(values, x, y)), np.nan)
+            for values in (self.foot, self.head)
+        )
+        return foot, head
+
+    def find_density(self, thickness: float, foot: float) -> float | None:
+        """Density of uniform snow that pulls so much [kg/m3]; None outside the table.
+
+        Parameters
+        ----------
+        thickness : float
+            d [m].
+        foot : float
+            Pull [N/m].
+        """
+        densities = np.exp(np.linspace(self.densities[0], self.densities[-1], 400))
+        pulls, _ = self.find_pulls(np.full(densities.size, thickness), densities)
+        if not np.isfinite(pulls).all() or not pulls[0] <= foot <= pulls[-1]:
+            return None
+        return float(np.interp(foot, pulls, densities))
+
+    def _interpolate(self, values: Floats, x: Floats, y: Floats) -> Floats:
+        from scipy.interpolate import RectBivariateSpline
+
+        spline = RectBivariateSpline(
+            self.thicknesses, self.densities, values, kx=_DEGREE, ky=_DEGREE
+        )
+        return np.asarray(spline(x, y, grid=False))
+
+
+def build_table(
+    solver: DaySolver,
+    thicknesses: tuple[float, float],
+    densities: tuple[float, float],
+) -> UniformTable | None:
+    """Table of a row between two thicknesses and two densities.
+
+    Thin snow that fails is left out from below. None if other nodes fail.
+
+    Parameters
+    ----------
+    solver : DaySolver
+        Of the row.
+    thicknesses, densities : (float, float)
+        Least and largest [m], [kg/m3].
+    """
+    top = solver.row.scene.net.height_normal
+    high = min(thicknesses[1] * _EDGE, top)
+    d = np.geomspace(min(thicknesses[0] / _EDGE, 0.9 * high), high, _THICKNESSES)
+    rho = np.geomspace(densities[0] / _EDGE, densities[1] * _EDGE, _DENSITIES)
+    d[-1] = high  # not above the net by rounding
+    days = solver.solve(
+        [
+            RowDay(index=k, thickness=float(a), density=float(b), ending="open")
+            for k, (a, b) in enumerate((a, b) for a in d for b in rho)
+        ]
+    )
+    foot, head = (_collect(days, name).reshape(d.size, rho.size) for name in _PULLS)
+    usable: Mask = np.all(np.isfinite(foot), axis=1)
+    first = int(np.argmax(usable))
+    if not usable[first:].all() or usable.sum() <= _DEGREE:
+        return None
+    return UniformTable(
+        thicknesses=np.log(d[first:]),
+        densities=np.log(rho),
+        foot=foot[first:],
+        head=head[first:],
+    )
+
+
+_PULLS = ("foot", "head")
+
+
+def _collect(days: Sequence[RowDay], name: str) -> Floats:
+    """Logarithm of one pull of each day; NaN of those that failed."""
+    pulls = [getattr(day, name) for day in days]
+    return np.array([np.log(pull.value) if pull else np.nan for pull in pulls])
+
 
 # Powers of density and thickness that rank the days (fitted; no force follows).
 _RANKS = {"free": (0.95, 1.15), "no-slip": (1.2, 1.9), "sliding": (1.2, 1.9)}
@@ -275,3 +398,28 @@ def _look_up(
             max(day.thickness for day in days), float(foot[best])
         ),
     )
+
+
+# JCSS Probabilistic Model Code, Part 2.12 (secondary).
+_SETTLED, _FRESH = 5000.0, 1700.0  # unit weights [N/m3]
+_DEPTH = 0.85  # [m]
+
+
+def find_model_code_density(height: float) -> float:
+    """Mean density of snow of some height [kg/m3], eq. (Y20).
+
+    Parameters
+    ----------
+    height : float
+        Vertical, above 0 [m].
+
+    Raises
+    ------
+    ModelError
+        If the height is not positive.
+    """
+    require_positive("snow height", height, "m")
+    depth = height / _DEPTH
+    # ln(1 + c (exp(x) - 1)), without a large exponential
+    rest = math.log(_FRESH / _SETTLED + (1.0 - _FRESH / _SETTLED) * math.exp(-depth))
+    return _SETTLED / GRAVITY * (depth + rest) / depth

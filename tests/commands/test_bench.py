@@ -6,9 +6,8 @@ import pytest
 from click.testing import CliRunner
 
 from netdesign.commands.bench import bench
-from netdesign.evidence.benchmark import attempts, lines, precision
+from netdesign.evidence.benchmark import attempts, precision
 from netdesign.evidence.benchmark.attempts import Attempt
-from netdesign.evidence.benchmark.precision import Effort
 from netdesign.outcome import ModelError, OutputError
 
 
@@ -17,7 +16,7 @@ def run(*arguments):
 
 
 def test_rows_and_plot(monkeypatch, tmp_path):
-    monkeypatch.setattr(precision, "QUICK", Effort(finest=1, repeats=1))
+    monkeypatch.setattr(precision, "QUICK", {"finest": 1, "repeats": 1})
     plot = tmp_path / "plot.svg"
     result = run("--quick", "--scenes", "rough-steep", "--json", "--plot", str(plot))
     assert result.exit_code == 0, result.output
@@ -38,7 +37,7 @@ def test_unknown_scene():
 def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
     monkeypatch.setattr(
         attempts,
-        "run_stress",
+        "attempt_scenes",
         lambda *_, **__: [Attempt(number=0, kind=kind, reason="why", balance=0.0)],
     )
     result = run("--stress", "1", "--json")
@@ -54,22 +53,11 @@ def test_errors_of_one_scene():
     assert result.exit_code == (0 if document["pass"] else 1)
 
 
-def test_a_short_line(monkeypatch):
-    monkeypatch.setattr(lines.study_line, "__kwdefaults__", {"points": 6})
-    result = run("--lines", "1", "--accuracy", "0.05", "--json")
-    document = json.loads(result.stdout)
-    assert document["of_lines"][0]["parameter"] == "friction angle"
-    assert result.exit_code == (0 if document["pass"] else 1)
-    shown = run("--lines", "1", "--accuracy", "0.05")
-    assert "jumps beyond the stated errors" in shown.stdout
-
-
 @pytest.mark.parametrize(
     "arguments",
     [
         ["--stress", "1", "--errors", "1"],
         ["--stress", "1", "--quick"],
-        ["--lines", "1", "--stress", "1"],
         ["--errors", "1", "--plot", "x.svg"],
         ["--stress", "0"],
         ["--jobs", "0"],

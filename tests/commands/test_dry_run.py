@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from netdesign.commands import dry_run
+from netdesign.commands import check_run
 from netdesign.solving import workers
 from tests.short_example import write_short_example
 
@@ -11,7 +11,7 @@ SEARCH, BESIDE = 7 * 55, 7 * 115
 
 @pytest.fixture
 def _timed(monkeypatch):
-    monkeypatch.setattr(dry_run, "_measure_case", lambda *_: 0.5)
+    monkeypatch.setattr(check_run, "_measure_case", lambda *_: 0.5)
 
 
 def announce(call, *options):

@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.commands.winter import _list_statistics
 from netdesign.files.winter import _write_statistics
-from netdesign.winter.gumbel import Gumbel
+from netdesign.winter.statistics import Gumbel
 from netdesign.words.catalogue import LANGUAGES, render, set_marks
 from tests.report.accessible import list_violations
 from tests.report.printing import PAPER_PX, PHONE_PX, list_too_wide

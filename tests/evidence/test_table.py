@@ -3,8 +3,13 @@
 import pytest
 from rich.console import Console
 
-from netdesign.evidence.page_table import FORCES, TEXTS, Field, numbers, tabulate
-from netdesign.evidence.table import show_document
+from netdesign.evidence.table import (
+    FORCES,
+    TEXTS,
+    numbers,
+    show_document,
+    tabulate,
+)
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.pack import print_cases
 from netdesign.report.words import Words
@@ -55,12 +60,14 @@ def test_what_has_no_name_is_not_shown(language, mark):
 
 
 def test_a_page_has_few_digits_and_its_file_all():
-    fields = (
-        Field("name", "verify_table.id", TEXTS),
-        Field("force", "θ [°]", FORCES),
-        Field("share", "kN", numbers(".1e")),
+    columns = [
+        ("verify_table.id", TEXTS),
+        ("θ [°]", FORCES),
+        ("kN", numbers(".1e")),
+    ]
+    table = tabulate(
+        "c", columns, [("a", 123456.7, 0.04567), ("", None, None)], ENGLISH
     )
-    table = tabulate("c", fields, [("a", 123456.7, 0.04567), ("", None, None)], ENGLISH)
     assert [column.heading for column in table.columns] == ["Case", "θ [°]", "kN"]
     full, empty = table.rows
     assert [cell.text for cell in full] == ["a", "123.46", "4.6e-02"]

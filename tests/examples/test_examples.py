@@ -18,7 +18,7 @@ import pytest
 
 from netdesign import GroundLaw, Scene, Snowpack, solve_rigid, solve_steady
 from netdesign.examples import envelope, fit, history, panel, wall, winter
-from netdesign.winter.fit_parameters import vary_day, vary_row
+from netdesign.winter.fit_inputs import vary_day, vary_row
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "netdesign" / "examples"

@@ -3,7 +3,7 @@
 import pytest
 
 from netdesign.files.winter import _write_trend
-from netdesign.winter.trend import Trend
+from netdesign.winter.statistics import Trend
 from netdesign.words.catalogue import LANGUAGES
 
 GROWN_AND_FALLEN = {

@@ -14,7 +14,7 @@ from netdesign.report.page.winter_fit import show_fit
 from netdesign.report.words import Words
 from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.fit import ForceBand, SeasonFit
-from netdesign.winter.fit_readings import FitReading, Noise
+from netdesign.winter.fit_inputs import FitReading, Noise
 from netdesign.winter.gauss_newton import Parameter, fit_gauss_newton
 from netdesign.words.catalogue import LANGUAGES
 

@@ -25,7 +25,7 @@ _CHILD = """
 import contextlib, io, json, resource, sys, time
 from netdesign import cli
 import netdesign.site.template.annotate, netdesign.study.records, openpyxl, pydantic
-import netdesign.solving.solve, netdesign.study.check_site, netdesign.commands.dry_run
+import netdesign.solving.solve, netdesign.study.check_site, netdesign.commands.check_run
 
 def peak():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

@@ -57,8 +57,8 @@ def test_default_law_settles_like_them_in_the_middle_only():
     (case,) = list_compaction()
     assert case.passes
     softness = {
-        (one.density, one.stress): find_middle(one.density)
-        / one.laws["boutillier-2004"]
+        (one.density_kg_m3, one.stress_Pa): find_middle(one.density_kg_m3)
+        / one.laws_Pa_s["boutillier-2004"]
         for one in list_places()
     }
     assert softness[250.0, 10e3] > 20.0

@@ -18,8 +18,11 @@ from scipy.sparse.linalg import spsolve
 from scipy.special import k0
 from skfem.helpers import dot, grad
 
-from netdesign.evidence.verification.plan_view import build_block, find_plan_excess
-from netdesign.evidence.verification.snow_in_space import find_excess
+from netdesign.evidence.verification.plan_view import (
+    build_block,
+    find_excess,
+    find_plan_excess,
+)
 from netdesign.planview.free_gap import (
     find_isolated_excess,
     find_isolated_load,

@@ -16,8 +16,7 @@ from netdesign.evidence.verification.winters import (
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer
-from netdesign.winter.day import RowDay, build_day_scene
-from netdesign.winter.layers import merge_layers
+from netdesign.winter.day import RowDay, build_day_scene, merge_layers
 from tests.winter.made_up_row import SLOPE, a_scene, a_solver, slides
 
 HIGHEST = 2.90  # [m], of this winter

@@ -12,14 +12,16 @@ from netdesign.snowpack.follow import follow_heights
 from netdesign.structure.layout import SupportLayout
 from netdesign.winter.day import DaySolver
 from netdesign.winter.fit import FitTask, fit_season, list_swings
-from netdesign.winter.fit_parameters import (
+from netdesign.winter.fit_inputs import (
     PARAMETER_NAMES,
     PRIOR_DEVIATIONS,
+    FitReading,
+    Noise,
+    build_covariance,
     list_parameters,
     vary_day,
     vary_row,
 )
-from netdesign.winter.fit_readings import FitReading, Noise, build_covariance
 from tests.winter.made_up_row import a_solver, read_winter, slides
 
 GOVERNING = 161  # of the made-up winter

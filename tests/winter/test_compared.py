@@ -8,11 +8,9 @@ import pytest
 
 from netdesign.checks.result import Band
 from netdesign.snowpack.series import HeightSeries
-from netdesign.winter.compared import compare_season
 from netdesign.winter.day import RowDay
 from netdesign.winter.maxima import AnnualMaximum
-from netdesign.winter.measured import MeasuredPulls
-from netdesign.winter.rope_temperature import find_swing
+from netdesign.winter.measured import MeasuredPulls, compare_season, find_swing
 from netdesign.winter.season import Season
 from tests.winter.made_up_row import a_solver
 

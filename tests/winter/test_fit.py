@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from netdesign.winter.fit import fit_season, list_unconstrained
-from netdesign.winter.fit_parameters import (
+from netdesign.winter.fit_inputs import (
+    Noise,
     list_parameters,
     show_value,
     vary_day,
     vary_row,
 )
-from netdesign.winter.fit_readings import Noise
 from netdesign.winter.gauss_newton import FAR
 from tests.winter.made_up_readings import (
     a_task,

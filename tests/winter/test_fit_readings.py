@@ -8,7 +8,7 @@ import pytest
 from netdesign.outcome import ModelError
 from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.day import RowDay
-from netdesign.winter.fit_readings import (
+from netdesign.winter.fit_inputs import (
     FitReading,
     Noise,
     build_covariance,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from netdesign.snow.snowpack import build_layered_snowpack
-from netdesign.winter.layers import merge_layers
+from netdesign.winter.day import merge_layers
 
 
 def drawn_packs(seed=17, count=60):

@@ -7,13 +7,13 @@ from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
 from netdesign.winter.day import RowDay
 from netdesign.winter.maxima import (
+    build_table,
     choose_days,
     find_annual_maximum,
     find_equivalent,
     find_many_maxima,
 )
 from netdesign.winter.season import follow_season
-from netdesign.winter.table import build_table
 from tests.winter.made_up_row import a_solver
 
 QUICK = {"accuracy": 0.03}

@@ -13,7 +13,7 @@ import pytest
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw
-from netdesign.winter.rope_temperature import (
+from netdesign.winter.measured import (
     find_amplitude,
     find_half_time,
     find_swing,

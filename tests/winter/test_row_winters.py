@@ -7,13 +7,13 @@ import pytest
 from netdesign.snowpack.follow import MODELS
 from netdesign.snowpack.hs2swe import HS2SWE
 from netdesign.snowpack.series import HeightSeries
-from netdesign.winter.row_winters import (
+from netdesign.winter.season import (
     follow_station,
     follow_winters,
     list_complete,
     split_packs,
 )
-from netdesign.winter.trend import find_trend
+from netdesign.winter.statistics import find_trend
 from tests.winter.made_up_row import a_formula_solver
 
 

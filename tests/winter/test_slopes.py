@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.winter.fit import FIT_SETTINGS
-from netdesign.winter.fit_parameters import PRIOR_DEVIATIONS, list_parameters
+from netdesign.winter.fit_inputs import PRIOR_DEVIATIONS, list_parameters
 from netdesign.winter.gauss_newton import differentiate
 from tests.winter.made_up_readings import GOVERNING, MEMBERS, a_task, solve_truth
 

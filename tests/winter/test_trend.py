@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.winter.trend import find_trend
+from netdesign.winter.statistics import find_trend
 
 SERIES = st.lists(st.integers(0, 40), min_size=10, max_size=30)
 

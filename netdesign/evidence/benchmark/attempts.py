@@ -83,41 +83,27 @@ class Attempt:
     is_inside: bool = False
 
 
-def run_stress(
+def attempt_scenes(
     count: int,
     seed: int,
     *,
     accuracy: float = DEFAULT_ACCURACY,
     jobs: int = 1,
+    is_compared: bool = False,
     on_done: Callable[[Attempt], None] | None = None,
 ) -> list[Attempt]:
     """Attempts of scenes 0 to ``count`` - 1 of a seed.
 
-    Verified by
-    -----------
-    tests/evidence/benchmark/test_stress_report.py
-    """
-    work = partial(attempt_scene, seed=seed, accuracy=accuracy)
-    return spread(work, range(count), jobs=jobs, on_done=on_done)
-
-
-def study_errors(
-    count: int,
-    seed: int,
-    *,
-    accuracy: float = DEFAULT_ACCURACY,
-    jobs: int = 1,
-    on_done: Callable[[Attempt], None] | None = None,
-) -> list[Attempt]:
-    """Attempts, held against finer meshes, of the first scenes that are accepted.
+    ``is_compared`` takes the first scenes that are accepted, and holds each against a
+    finer mesh.
 
     Verified by
     -----------
-    tests/evidence/benchmark/test_honesty.py
+    tests/evidence/benchmark/test_stress_report.py, test_honesty.py
     """
-    work = partial(attempt_scene, seed=seed, accuracy=accuracy, is_compared=True)
-    numbers = list(islice(list_accepted(seed), count))
-    return spread(work, numbers, jobs=jobs, on_done=on_done)
+    work = partial(attempt_scene, seed=seed, accuracy=accuracy, is_compared=is_compared)
+    numbers = islice(list_accepted(seed), count) if is_compared else range(count)
+    return spread(work, list(numbers), jobs=jobs, on_done=on_done)
 
 
 def list_accepted(seed: int) -> Iterator[int]:

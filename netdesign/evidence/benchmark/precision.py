@@ -8,6 +8,7 @@ scene's shape are found before the first timing, as in an envelope of many cases
 
 from __future__ import annotations
 
+import math
 import os
 import platform
 import tracemalloc
@@ -34,20 +35,18 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
-from netdesign.evidence.figure_style import use_style, write_svg
 from netdesign.evidence.runner import fit_order, measure, run_in_turns
 from netdesign.evidence.table import show_document, show_rows
 from netdesign.outcome import SolveError
+from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, bounds_of
 from netdesign.report.drawing.style import (
     ACCENT,
     GREY,
     INK,
-    WIDTH_IN,
 )
 from netdesign.report.words import ENGLISH, Words
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from rich.console import Console
 
 BENCH_SCHEMA = "netdesign.bench/1"
@@ -58,23 +57,16 @@ HISTORY_ACCURACY = 0.01  # of the steps
 _TIGHT, _OFFERED = 1e-4, 5e-3
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Effort:
-    """Amount of measurement: place of the finest level, repeats of each timing."""
-
-    finest: int = 3
-    repeats: int = 5
-
-
-FULL = Effort()
-QUICK = Effort(finest=2, repeats=3)
+QUICK = {"finest": 2, "repeats": 3}  # place of the finest level; of each timing
 
 
 Solve = Callable[[], Solution | FailedSolution]
 
 
-def measure_steady(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
-    """Rows of one scene: every pair of neighbouring levels, all paths.
+def measure_steady(
+    name: str, scene: Scene, finest: int = 3, repeats: int = 5
+) -> list[Row]:
+    """Rows of one scene: every pair of levels up to the finest, all paths, in turns.
 
     Raises
     ------
@@ -84,20 +76,20 @@ def measure_steady(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
     settings = SolverSettings(accuracy=_OFFERED)
     tight = replace(settings, accuracy=_TIGHT)
     # cut in four once: to cut it twice would take minutes a scene
-    truth = solve_truth(scene, MESH_LEVELS[effort.finest], tight, halvings=1)
+    truth = solve_truth(scene, MESH_LEVELS[finest], tight, halvings=1)
     rows = []
-    for pair in pairwise(MESH_LEVELS[: effort.finest + 1]):
+    for pair in pairwise(MESH_LEVELS[: finest + 1]):
         fast = replace(settings, levels=pair)
         plain = replace(fast, step=reference_path.advance)
         solves: dict[Path, Solve] = {
             "fast": partial(solve_steady, scene, fast),
             "reference": partial(solve_steady, scene, plain),
         }
-        rows += _measure(name, "steady", solves, truth, effort.repeats)
+        rows += _measure(name, "steady", solves, truth, repeats)
     return rows
 
 
-def measure_transient(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
+def measure_transient(name: str, scene: Scene, repeats: int = 5) -> list[Row]:
     """Rows of one scene's history up to its plateau; errors of its largest pulls.
 
     The truth is a history on twice the finest mesh with steps for a tenth of the
@@ -114,7 +106,7 @@ def measure_transient(name: str, scene: Scene, effort: Effort = FULL) -> list[Ro
     rows = []
     for pair in pairwise(TRANSIENT_LEVELS):
         solve = partial(solve_transient, scene, replace(settings, levels=pair))
-        rows += _measure(name, "transient", {"fast": solve}, truth, effort.repeats)
+        rows += _measure(name, "transient", {"fast": solve}, truth, repeats)
     return rows
 
 
@@ -268,50 +260,61 @@ def compare_paths(rows: Sequence[Row]) -> list[float]:
     ]
 
 
-_HEIGHT_IN = 3.6
-_COLOURS: dict[Path, str] = {"fast": ACCENT, "reference": INK}
+_TALL, _LEFT, _ABOVE, _BELOW = 200.0, 42.0, 28.0, 32.0  # of the panel, beside it [pt]
 
 
 def draw_work_precision(rows: Sequence[Row], words: Words = ENGLISH) -> str:
     """Run time against error: a dot a row, the median of each resolution joined."""
-    from matplotlib.figure import Figure
-
-    with use_style("work-precision"):
-        figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
-        axes = figure.add_subplot()
-        steady = [row for row in rows if row.method == "steady"]
-        for path, colour in _COLOURS.items():
-            of_path = [row for row in steady if row.path == path]
-            _draw_path(axes, of_path, colour, words(f"bench_plot.{path}"))
-        histories = [row for row in rows if row.method == "transient"]
-        _draw_histories(axes, histories, words("bench_plot.transient"))
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel(words("bench_plot.error"))
-        axes.set_ylabel(words("bench_plot.time"))
-        axes.invert_xaxis()
-        axes.grid(visible=True, which="major", color=GREY, alpha=0.25, linewidth=0.4)
-        figure.legend(frameon=False, loc="outside upper left", ncols=2)
-    return write_svg(figure, "work-precision", words("bench_plot.title"))
-
-
-def _draw_path(axes: Axes, rows: Sequence[Row], colour: str, label: str) -> None:
-    if not rows:
-        return
-    axes.plot(*_places(rows), ".", color=colour, alpha=0.35, markersize=4)
-    by_mesh = _group_by_resolution(rows)
-    errors = [100.0 * median(row.error for row in group) for group in by_mesh]
-    times = [1e3 * median(row.wall_s for row in group) for group in by_mesh]
-    axes.plot(errors, times, "-o", color=colour, markersize=4, label=label)
-
-
-def _draw_histories(axes: Axes, rows: Sequence[Row], label: str) -> None:
-    if rows:
-        axes.plot(*_places(rows), "x", color=ACCENT, markersize=5, label=label)
+    chart, points = Chart(language=words.language), [_place(row) for row in rows]
+    (left, right), (low, high) = (
+        bounds_of([axis]) for axis in zip(*points, strict=True)
+    )
+    frame = Frame(
+        left=_LEFT,
+        top=_ABOVE,
+        width=WIDTH - _LEFT - 8.0,
+        height=_TALL,
+        x_low=right + 0.1,  # falling: better is to the right
+        x_high=left - 0.1,
+        y_low=low - 0.1,
+        y_high=high + 0.1,
+    )
+    looks = {"fast": (ACCENT, ""), "reference": (INK, "5 1.6"), "transient": (GREY, "")}
+    for number, (name, (stroke, dash)) in enumerate(looks.items()):
+        found = [one for one in rows if name in (one.method, one.path)]
+        if name != "transient":
+            found = [one for one in found if one.method == "steady"]
+        if found:
+            _draw_rows(chart, frame, found, stroke, dash)
+            x = frame.left + 130.0 * number
+            chart.line(((x, 7.0), (x + 18.0, 7.0)), stroke=stroke, dash=dash)
+            chart.text(x + 22.0, 9.5, words(f"bench_plot.{name}"))
+    chart.axes(frame, x_ticks=False, y_ticks=False)
+    for across in (True, False):
+        chart.decades(frame, across=across)
+    chart.text(2.0, _ABOVE - 5.0, words("bench_plot.time"))
+    bottom = _ABOVE + _TALL + _BELOW
+    middle = frame.left + frame.width / 2.0
+    chart.text(middle, bottom - 6.0, words("bench_plot.error"), anchor="middle")
+    return chart.write(bottom, words("bench_plot.title"))
 
 
-def _places(rows: Sequence[Row]) -> tuple[list[float], list[float]]:
-    return [100.0 * row.error for row in rows], [1e3 * row.wall_s for row in rows]
+def _draw_rows(
+    chart: Chart, frame: Frame, rows: Sequence[Row], stroke: str, dash: str
+) -> None:
+    """Dots of all rows; steady ones have a line through the medians of their meshes."""
+    for x, y in map(_place, rows):
+        chart.dot((frame.x(x), frame.y(y)), 1.2, fill=stroke, stroke=stroke)
+    if rows[0].method == "steady":
+        groups = [list(map(_place, one)) for one in _group_by_resolution(rows)]
+        middles = [map(median, zip(*one, strict=True)) for one in groups]
+        line = [(frame.x(x), frame.y(y)) for x, y in middles]
+        chart.line(line, stroke=stroke, width=1.2, dash=dash)
+
+
+def _place(row: Row) -> tuple[float, float]:
+    """Logarithms of error [%] and run time [ms]."""
+    return math.log10(100.0 * row.error), math.log10(1e3 * row.wall_s)
 
 
 def _group_by_resolution(rows: Sequence[Row]) -> list[list[Row]]:

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from netdesign.evidence.paper.cases import (
+from netdesign.evidence.paper.runs import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,
     MIDDLE_FRICTION_DEG,
@@ -19,14 +19,17 @@ from netdesign.evidence.paper.cases import (
     PAPER_TIME,
     RELATIVE_DENSITY,
     PaperCase,
+    PaperRun,
+    PaperStudy,
+    Track,
     find_exchange,
     find_history,
     find_paper_time,
     find_steady,
     find_trend,
 )
-from netdesign.evidence.paper.runs import PaperRun, PaperStudy, Track
 from netdesign.numerics.arrays import Floats
+from netdesign.report.blocks import SMALL, Pair, Piece
 from netdesign.report.words import ENGLISH, Words
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.units import SECONDS_PER_DAY
@@ -399,33 +402,23 @@ def _decide_seconds(study: PaperStudy) -> Finding:
 _SYMBOLS: dict[Call, str] = {"agrees": "✓", "does not agree": "✗", "not decided": "?"}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Claim:
-    """One statement with its call, the numbers and the reason."""
-
-    said: str
-    call: str
-    symbol: str
-    differs: bool
-    found: str
-    reason: str
-
-
-def word_finding(finding: Finding, words: Words = ENGLISH) -> Claim:
-    """Sentences of a finding with its numbers put in."""
+def word_finding(finding: Finding, words: Words = ENGLISH) -> Pair:
+    """Statement with its call; what was found, its numbers put in, and the reason."""
     key, call = finding.key, finding.call
-    if call == "not decided":
-        found, reason = words("paper.no_run"), ""
-    else:
+    found, reason = words("paper.no_run"), ""
+    if call != "not decided":
         found = words(f"paper_found.{key}", **finding.numbers)
         reason = words(f"paper_reason.{key}", **finding.numbers)
-    return Claim(
-        said=words(f"paper_said.{key}"),
-        call=words(f"paper_call.{call.replace(' ', '_')}"),
-        symbol=_SYMBOLS[call],
-        differs=call != "agrees",
-        found=_write_minus(found),
-        reason=_write_minus(reason),
+    pieces = (
+        Piece(words(f"paper_said.{key}"), "said"),
+        Piece(_write_minus(found), "found"),
+        Piece(_write_minus(reason), SMALL),
+    )
+    called = words(f"paper_call.{call.replace(' ', '_')}")
+    return Pair(
+        name=f"{_SYMBOLS[call]} {called}",
+        text=tuple(one for one in pieces if one.text),
+        look="" if call == "agrees" else "differs",
     )
 
 

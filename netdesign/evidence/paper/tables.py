@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.coupling.history.settings import Start
-from netdesign.evidence.page_table import (
+from netdesign.evidence.paper.findings import judge_growth, last_swing
+from netdesign.evidence.paper.runs import (
+    DESIGN_NET_DEG,
+    FRICTIONS_DEG,
+    INCLINATIONS_DEG,
+    NORMAL_NET_DEG,
+    PaperCase,
+    PaperRun,
+    PaperStudy,
+    find_exchange,
+    find_history,
+    find_steady,
+    find_trend,
+)
+from netdesign.evidence.table import (
     CHANGES,
     ERRORS,
     FORCE,
@@ -17,24 +31,10 @@ from netdesign.evidence.page_table import (
     INCLINATIONS,
     TEXTS,
     TIMES,
-    Field,
     Kind,
     kilo,
     tabulate,
 )
-from netdesign.evidence.paper.cases import (
-    DESIGN_NET_DEG,
-    FRICTIONS_DEG,
-    INCLINATIONS_DEG,
-    NORMAL_NET_DEG,
-    PaperCase,
-    find_exchange,
-    find_history,
-    find_steady,
-    find_trend,
-)
-from netdesign.evidence.paper.findings import judge_growth, last_swing
-from netdesign.evidence.paper.runs import PaperRun, PaperStudy
 from netdesign.report.blocks import Table, text_cell, write_csv
 from netdesign.report.words import MISSING, Words
 from netdesign.units import day_from_second
@@ -63,10 +63,11 @@ class Listed:
         return write_csv(self.keys, rows)
 
 
+Columns = Mapping[str, tuple[str, Kind]]  # by their keys in a file: heading, kind
 _WORDS = Kind(
     show=lambda words, key: text_cell(words(f"paper_value.{key}")), is_number=False
 )
-_NET = Field("inclination_deg", "θ [°]", INCLINATIONS)
+_NET: Columns = {"inclination_deg": ("θ [°]", INCLINATIONS)}
 
 
 def list_tables(study: PaperStudy, words: Words) -> list[Listed]:
@@ -84,28 +85,26 @@ def list_tables(study: PaperStudy, words: Words) -> list[Listed]:
 def _list(
     name: str,
     caption: str,
-    fields: Sequence[Field],
+    columns: Columns,
     rows: Iterable[Sequence[object]],
     words: Words,
 ) -> Listed:
-    keys = tuple(field.key for field in fields)
-    return Listed(name=name, keys=keys, table=tabulate(caption, fields, rows, words))
+    table = tabulate(caption, list(columns.values()), rows, words)
+    return Listed(name=name, keys=tuple(columns), table=table)
 
 
 def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
-    fields = (
-        _NET,
-        Field("method", "paper_table.method", _WORDS),
-        Field("foot_kN_per_m", "paper_table.foot", FORCES),
-        Field("foot_error_kN_per_m", "± ", ERRORS),
-        Field("head_kN_per_m", "paper_table.head", FORCES),
-        Field("head_error_kN_per_m", "± ", ERRORS),
-        Field(
-            "foot_against_steady_percent", "paper_table.foot_against_steady", CHANGES
-        ),
-        Field("largest_foot_kN_per_m", "paper_table.largest_foot", FORCES),
-        Field("plateau_from_s", "paper_table.plateau_from", TIMES),
-    )
+    columns: Columns = {
+        **_NET,
+        "method": ("paper_table.method", _WORDS),
+        "foot_kN_per_m": ("paper_table.foot", FORCES),
+        "foot_error_kN_per_m": ("± ", ERRORS),
+        "head_kN_per_m": ("paper_table.head", FORCES),
+        "head_error_kN_per_m": ("± ", ERRORS),
+        "foot_against_steady_percent": ("paper_table.foot_against_steady", CHANGES),
+        "largest_foot_kN_per_m": ("paper_table.largest_foot", FORCES),
+        "plateau_from_s": ("paper_table.plateau_from", TIMES),
+    }
     rows = []
     for net in _NETS:
         straight = find_history(net)
@@ -129,21 +128,21 @@ def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
                     _plateau_begin(run),
                 )
             )
-    return _list("plateau", words("paper_table.plateau"), fields, rows, words)
+    return _list("plateau", words("paper_table.plateau"), columns, rows, words)
 
 
 def _tabulate_growth(study: PaperStudy, words: Words) -> Listed:
-    fields = (
-        Field("method", "paper_table.method", _WORDS),
-        _NET,
-        Field("quantity", "paper_table.force", _WORDS),
-        *(
-            Field(f"friction_{phi:.0f}_deg_kN_per_m", f"{phi:.0f}°", FORCES)
+    columns: Columns = {
+        "method": ("paper_table.method", _WORDS),
+        **_NET,
+        "quantity": ("paper_table.force", _WORDS),
+        **{
+            f"friction_{phi:.0f}_deg_kN_per_m": (f"{phi:.0f}°", FORCES)
             for phi in FRICTIONS_DEG
-        ),
-        Field("change_percent", "paper_table.change", CHANGES),
-        Field("trend", "paper_table.trend_heading", _WORDS),
-    )
+        },
+        "change_percent": ("paper_table.change", CHANGES),
+        "trend": ("paper_table.trend_heading", _WORDS),
+    }
     rows = [
         (
             *(one.method, one.inclination_deg, one.quantity),
@@ -152,18 +151,18 @@ def _tabulate_growth(study: PaperStudy, words: Words) -> Listed:
         )
         for one in judge_growth(study)
     ]
-    return _list("friction", words("paper_table.friction"), fields, rows, words)
+    return _list("friction", words("paper_table.friction"), columns, rows, words)
 
 
 def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
-    fields = (
-        _NET,
-        Field("gravity", "paper_table.gravity", _WORDS),
-        Field("history_foot_kN_per_m", "paper_table.history_foot", FORCES),
-        Field("history_head_kN_per_m", "paper_table.history_head", FORCES),
-        Field("steady_foot_kN_per_m", "paper_table.steady_foot", FORCES),
-        Field("steady_head_kN_per_m", "paper_table.steady_head", FORCES),
-    )
+    columns: Columns = {
+        **_NET,
+        "gravity": ("paper_table.gravity", _WORDS),
+        "history_foot_kN_per_m": ("paper_table.history_foot", FORCES),
+        "history_head_kN_per_m": ("paper_table.history_head", FORCES),
+        "steady_foot_kN_per_m": ("paper_table.steady_foot", FORCES),
+        "steady_head_kN_per_m": ("paper_table.steady_head", FORCES),
+    }
     cases = [find_history(net) for net in (NORMAL_NET_DEG, *INCLINATIONS_DEG)]
     cases += [replace(find_history(net), gravity="parallel") for net in _NETS]
     rows = []
@@ -172,17 +171,17 @@ def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
         ends = (history.foot, history.head, steady.foot, steady.head)
         rows.append((case.inclination_deg, case.gravity, *ends))
     caption = words("paper_table.parameters")
-    return _list("inclination-and-gravity", caption, fields, rows, words)
+    return _list("inclination-and-gravity", caption, columns, rows, words)
 
 
 def _tabulate_trend(study: PaperStudy, words: Words) -> Listed:
-    fields = (
-        Field("base_drag", "paper_table.base_drag", GIVEN),
-        Field("step_s", "paper_table.step", TIMES),
-        Field("foot_kN_per_m", "paper_table.foot", FORCES),
-        Field("against_implicit_percent", "paper_table.against_implicit", CHANGES),
-        Field("oscillates_until_s", "paper_table.oscillates", TIMES),
-    )
+    columns: Columns = {
+        "base_drag": ("paper_table.base_drag", GIVEN),
+        "step_s": ("paper_table.step", TIMES),
+        "foot_kN_per_m": ("paper_table.foot", FORCES),
+        "against_implicit_percent": ("paper_table.against_implicit", CHANGES),
+        "oscillates_until_s": ("paper_table.oscillates", TIMES),
+    }
     *staggered, history = (study[case] for case in find_trend(study.settings))
     end = study.settings.trend_time * history.case.scene.time_scale
     expected = _foot_at(history, end)
@@ -194,27 +193,27 @@ def _tabulate_trend(study: PaperStudy, words: Words) -> Listed:
         rows.append((run.case.drag, step, got, change, last_swing(run)))
     shown = words.show_number(FORCE, kilo(expected))
     caption = words("paper_table.trend", end=end, expected=shown)
-    return _list("staggered-trend", caption, fields, rows, words)
+    return _list("staggered-trend", caption, columns, rows, words)
 
 
 def _tabulate_drift(study: PaperStudy, words: Words) -> Listed:
-    fields = (
-        _NET,
-        Field("start", "paper_table.start", _WORDS),
-        Field("densification", "paper_table.densification", _WORDS),
-        Field("foot_at_plateau_kN_per_m", "paper_table.at_plateau", FORCES),
-        Field("plateau_from_s", "paper_table.from", TIMES),
-        Field("foot_at_end_kN_per_m", "paper_table.at_end", FORCES),
-        Field("end_d", "paper_table.after", TIMES),
-        Field("drift_percent_per_efold", "paper_table.drift_rate", CHANGES),
-    )
+    columns: Columns = {
+        **_NET,
+        "start": ("paper_table.start", _WORDS),
+        "densification": ("paper_table.densification", _WORDS),
+        "foot_at_plateau_kN_per_m": ("paper_table.at_plateau", FORCES),
+        "plateau_from_s": ("paper_table.from", TIMES),
+        "foot_at_end_kN_per_m": ("paper_table.at_end", FORCES),
+        "end_d": ("paper_table.after", TIMES),
+        "drift_percent_per_efold": ("paper_table.drift_rate", CHANGES),
+    }
     rows = [
         _list_drift(study[replace(find_history(net), start=start, densifies=densifies)])
         for net in _NETS
         for start in _STARTS
         for densifies in (True, False)
     ]
-    return _list("drift", words("paper_table.drift"), fields, rows, words)
+    return _list("drift", words("paper_table.drift"), columns, rows, words)
 
 
 def _list_drift(run: PaperRun) -> tuple[object, ...]:
@@ -233,16 +232,16 @@ def _list_drift(run: PaperRun) -> tuple[object, ...]:
 
 
 def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
-    fields = (
-        Field("method", "paper_table.method", TEXTS),
-        _NET,
-        Field("friction_deg", "φ [°]", FRICTIONS),
-        Field("gravity", "paper_table.gravity", _WORDS),
-        Field("start", "paper_table.start", TEXTS),
-        Field("densification", "paper_table.densification", _WORDS),
-        Field("steps", "paper_table.steps", GIVEN),
-        Field("result", "paper_table.result", TEXTS),
-    )
+    columns: Columns = {
+        "method": ("paper_table.method", TEXTS),
+        **_NET,
+        "friction_deg": ("φ [°]", FRICTIONS),
+        "gravity": ("paper_table.gravity", _WORDS),
+        "start": ("paper_table.start", TEXTS),
+        "densification": ("paper_table.densification", _WORDS),
+        "steps": ("paper_table.steps", GIVEN),
+        "result": ("paper_table.result", TEXTS),
+    }
     rows = []
     for run in study.runs.values():
         case, track = run.case, run.track
@@ -257,7 +256,7 @@ def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
                 _describe_result(run, words),
             )
         )
-    return _list("runs", words("paper_table.runs"), fields, rows, words)
+    return _list("runs", words("paper_table.runs"), columns, rows, words)
 
 
 def _plateau_begin(run: PaperRun) -> float | None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from netdesign import __version__
-from netdesign.evidence.page_table import (
+from netdesign.evidence.table import (
     NUMBER_TEXTS,
     PAIRS,
     RANGES,
@@ -16,26 +16,39 @@ from netdesign.evidence.page_table import (
     numbers,
     tabulate_items,
 )
-from netdesign.evidence.validation.band import MemberBand, Validation
 from netdesign.evidence.validation.pictures import (
     draw_bands,
     draw_compaction,
     draw_errors,
     name_validated,
 )
-from netdesign.evidence.validation.structure import Measurement, Span, Structure
+from netdesign.evidence.validation.structure import (
+    Measurement,
+    MemberBand,
+    Span,
+    Structure,
+    Validation,
+    validate_structure,
+)
 from netdesign.evidence.verification.case import MARKS, VerificationCase
 from netdesign.evidence.verification.compaction import (
     MODELS,
     PLACE,
     Contrast,
     Place,
+    compare_contrasts,
     compute_viscosity,
     find_middle,
     list_growth,
+    list_places,
 )
-from netdesign.evidence.verification.exported import load_results
-from netdesign.evidence.verification.pack import name_kind, write_pack
+from netdesign.evidence.verification.exported import (
+    list_files,
+    load_results,
+    solve_exported,
+    write_scenes,
+)
+from netdesign.evidence.verification.pack import GROUPS, name_kind, run_pack, write_pack
 from netdesign.report.blocks import (
     CODE,
     Block,
@@ -249,10 +262,10 @@ def _list_codes(words: Words) -> list[str]:
 def _tabulate_contrasts(contrasts: Sequence[Contrast], words: Words) -> Table:
     columns = {
         "validation.ground": (TEXTS, lambda one: words(_GROUNDS[one.ground])),
-        "validation.own_law": (PAIRS, lambda one: one.own),
-        "validation.other_law": (PAIRS, lambda one: one.other),
+        "validation.own_law": (PAIRS, lambda one: one.own_N_m),
+        "validation.other_law": (PAIRS, lambda one: one.other_N_m),
         "validation.change": (NUMBER_TEXTS, _show_change),
-        "validation.uniform": (PAIRS, lambda one: one.uniform),
+        "validation.uniform": (PAIRS, lambda one: one.uniform_N_m),
     }
     return tabulate_items(
         words("validation.contrast_caption"), columns, contrasts, words
@@ -260,7 +273,7 @@ def _tabulate_contrasts(contrasts: Sequence[Contrast], words: Words) -> Table:
 
 
 def _show_change(one: Contrast) -> str:
-    pairs = zip(one.own, one.other, strict=True)
+    pairs = zip(one.own_N_m, one.other_N_m, strict=True)
     return " / ".join(f"{100 * (other / own - 1):+.0f}" for own, other in pairs)
 
 
@@ -355,26 +368,8 @@ def write_evidence(evidence: Evidence) -> dict[str, Any]:
         "schema": "netdesign.validation/1",
         "version": __version__,
         "verification": write_pack(list(evidence.cases))["cases"],
-        "compaction": [
-            {
-                "density_kg_m3": place.density,
-                "stress_Pa": place.stress,
-                "laws_Pa_s": place.laws,
-                "models_Pa_s": {
-                    name: list(ends) for name, ends in place.models.items()
-                },
-            }
-            for place in evidence.places
-        ],
-        "contrasts": [
-            {
-                "ground": one.ground,
-                "own_N_m": list(one.own),
-                "other_N_m": list(one.other),
-                "uniform_N_m": list(one.uniform),
-            }
-            for one in evidence.contrasts
-        ],
+        "compaction": [asdict(one) for one in evidence.places],
+        "contrasts": [asdict(one) for one in evidence.contrasts],
         "structures": [_write_structure(one) for one in evidence.validations],
     }
 
@@ -396,3 +391,48 @@ def _write_structure(one: Validation) -> dict[str, Any]:
             for comparison in one.comparisons
         ],
     }
+
+
+def list_pages() -> list[str]:
+    """Names of the page's files, the page first; then those of the scenes."""
+    return [PAGE_FILE, DOCUMENT_FILE, *list_files()]
+
+
+def render_pages(evidence: Evidence, language: Language = "en") -> dict[str, bytes]:
+    """Page, its document and the exported scenes, by the names of their files."""
+    return render_validation(evidence, language) | write_scenes(solve_exported())
+
+
+def count_parts(structures: Sequence[Structure]) -> int:
+    """Parts that ``gather`` tells of."""
+    return len(GROUPS) + len(structures)
+
+
+def gather(
+    structures: Sequence[Structure],
+    advance: Callable[[int], None] | None = None,
+    cases: Sequence[VerificationCase] | None = None,
+) -> Evidence:
+    """Run the pack, the settling of snow, and every structure.
+
+    Parameters
+    ----------
+    structures : sequence of Structure
+        As read.
+    advance : callable, optional
+        Told how many parts are done.
+    cases : sequence of VerificationCase, optional
+        Of the pack, where it has been run already.
+    """
+    cases = run_pack(advance) if cases is None else cases
+    validations = []
+    for done, structure in enumerate(structures, start=len(GROUPS) + 1):
+        validations.append(validate_structure(structure))
+        if advance:
+            advance(done)
+    return Evidence(
+        cases=cases,
+        places=list_places(),
+        contrasts=compare_contrasts(),
+        validations=validations,
+    )

@@ -37,15 +37,14 @@ class CompactionModel:
 
     Attributes
     ----------
-    name, source, mark : str
-        What it is, where its constants come from, and whether that was read.
+    name, source : str
+        What it is, and where its constants were read.
     compute : callable
         Viscosity [Pa s] of density [kg/m3] and degrees below freezing [K].
     """
 
     name: str
     source: str
-    mark: str
     compute: Callable[[float, float], float]
 
 
@@ -59,7 +58,6 @@ MODELS = (
     CompactionModel(
         name="Crocus",
         source="Vionnet et al. 2012, constants as in a public snow solver",
-        mark="read in a source",
         compute=lambda rho, cold: (
             7.62237e6 * rho / 250.0 * math.exp(0.1 * cold + 0.023 * rho)
         ),
@@ -67,19 +65,16 @@ MODELS = (
     CompactionModel(
         name="ISBA",
         source="Boone 2002 by Essery et al. 2013, constants as in a public program",
-        mark="read in a source",
         compute=lambda rho, cold: 3.7e7 * math.exp(0.081 * cold + 0.018 * rho),
     ),
     CompactionModel(
         name="HS2SWE",
         source="Magnusson et al. 2025, constants as in its public code",
-        mark="read in a source",
         compute=_settle_as_hs2swe,
     ),
     CompactionModel(
         name="SNTHRM",
         source="SNTHRM.89, constants as in the public code of VIC",
-        mark="read in a source",
         compute=lambda rho, cold: 3.6e6 * math.exp(0.08 * cold + 0.021 * rho),
     ),
 )
@@ -118,10 +113,10 @@ def find_middle(density: float) -> float:
 class Place:
     """One density and stress, with the viscosity of each law and model [Pa s]."""
 
-    density: float
-    stress: float
-    laws: dict[str, float]
-    models: dict[str, tuple[float, float]]  # at freezing, and `_COLD` below
+    density_kg_m3: float
+    stress_Pa: float
+    laws_Pa_s: dict[str, float]
+    models_Pa_s: dict[str, tuple[float, float]]  # at freezing, and `_COLD` below
 
 
 def list_places() -> list[Place]:
@@ -131,13 +126,13 @@ def list_places() -> list[Place]:
 
 def _compare(density: float, stress: float) -> Place:
     return Place(
-        density=density,
-        stress=stress,
-        laws={
+        density_kg_m3=density,
+        stress_Pa=stress,
+        laws_Pa_s={
             name: compute_viscosity(law, density, stress)
             for name, law in CREEP_LAWS.items()
         },
-        models={
+        models_Pa_s={
             model.name: (model.compute(density, 0.0), model.compute(density, _COLD))
             for model in MODELS
         },
@@ -149,9 +144,9 @@ class Contrast:
     """Tensions of a layered scene by two contrasts of the layers [N/m]."""
 
     ground: GroundKind
-    own: tuple[float, float]  # foot, head, by the default law
-    other: tuple[float, float]  # by a law with the contrast of the models
-    uniform: tuple[float, float]  # of uniform snow of the same mass
+    own_N_m: tuple[float, float]  # foot, head, by the default law
+    other_N_m: tuple[float, float]  # by a law with the contrast of the models
+    uniform_N_m: tuple[float, float]  # of uniform snow of the same mass
 
 
 # Layered scene of the verification (FACTS.md, section 7): height [m], density [kg/m3].
@@ -199,9 +194,9 @@ def compare_contrasts() -> list[Contrast]:
     return [
         Contrast(
             ground=ground,
-            own=_find_tensions(BOUTILLIER_2004, ground),
-            other=_find_tensions(other, ground),
-            uniform=_find_tensions(BOUTILLIER_2004, ground, is_uniform=True),
+            own_N_m=_find_tensions(BOUTILLIER_2004, ground),
+            other_N_m=_find_tensions(other, ground),
+            uniform_N_m=_find_tensions(BOUTILLIER_2004, ground, is_uniform=True),
         )
         for ground in ("no-slip", "free")
     ]

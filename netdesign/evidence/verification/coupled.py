@@ -1,4 +1,4 @@
-"""Snow and net together: two codes, invariants, limits, orders."""
+"""Snow on a net or a wall: other codes, invariants, limits, orders, couplings."""
 
 from __future__ import annotations
 
@@ -7,7 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from netdesign.coupling.history.run import Run
+from netdesign.coupling.history.settings import (
+    TRANSIENT_LEVELS,
+    StaggeredSettings,
+    TransientSettings,
+)
+from netdesign.coupling.history.staggered import run_exchange
+from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.interface import compute_support_forces
+from netdesign.coupling.moments import HistoryPoint
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.evidence.scene import build_scene, solve, solve_wall
@@ -18,12 +27,17 @@ from netdesign.evidence.verification.case import (
     largest_difference,
     observe_order,
 )
+from netdesign.haefeli.pressure import compute_slab_force
+from netdesign.haefeli.slab import Slab, scale_slip_length
+from netdesign.numerics.arrays import Floats
+from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.ground import GroundKind, GroundLaw
 from netdesign.snow.kernel import assemble_stress
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
+from netdesign.snow.snowpack import GRAVITY
 
 # Tight, without the coarsest level: verification looks at what the default
 # leaves out for speed.
@@ -238,3 +252,171 @@ def _floor_forces(floor: float) -> float:
 def _mixed_over_velocity() -> float:
     law = build_paper_scene(ground="no-slip").flow_problem
     return _flow_resultant(replace(law, element="mixed")) / _flow_resultant(law)
+
+
+_HORIZON = 0.06  # creep time
+_DRAGS = (0.1, 0.05)
+_SETTLED = 1e-4  # creep time after which pulls must be smooth; 3 s in these scenes
+
+
+def list_histories() -> list[VerificationCase]:
+    """Steady state met, balance of all steps, smooth pulls, staggered trend."""
+    found: dict[str, float | Found] = {}
+    for inclination in (0, 30):
+        scene, name = (
+            build_paper_scene(inclination=inclination),
+            f"history-{inclination}",
+        )
+        run = _run(scene, start="sagged", densifies=False, level=1)
+        found |= _compare_with_steady(scene, run, name)
+        found |= _check_steps(run, name)
+        straight = _run(scene, start="straight", densifies=True, level=1)
+        found |= _check_steps(straight, f"{name}-straight")
+    return judge({**found, "staggered-tends-to-transient": _compare_staggered()})
+
+
+def _check_steps(run: Run, name: str) -> dict[str, float]:
+    residual = max(moment.residual for moment in run.moments)
+    return {f"{name}-balance": residual, f"{name}-smooth": _largest_return(run)}
+
+
+def _run(scene: Scene, *, start: str, densifies: bool, level: int) -> Run:
+    settings = TransientSettings(
+        start="straight" if start == "straight" else "sagged",
+        densifies=densifies,
+        stops_at_plateau=densifies is False,
+    )
+    return run_history(scene, TRANSIENT_LEVELS[level], settings, _HORIZON)
+
+
+def _compare_with_steady(scene: Scene, run: Run, name: str) -> dict[str, Found]:
+    """Pulls [kN/m] when the net has come to rest, densification off."""
+    steady = solve(scene, SolverSettings())
+    if run.plateau.end is None:
+        return {f"{name}-{end}": Found(math.nan, math.nan) for end in ("foot", "head")}
+    moment = run.moments[run.plateau.end]
+    pulls = {"foot": (moment.foot, steady.foot), "head": (moment.head, steady.head)}
+    return {
+        f"{name}-{end}": Found(_size(got, scene), expected.size / 1e3)
+        for end, (got, expected) in pulls.items()
+    }
+
+
+def _size(pull: Floats, scene: Scene) -> float:
+    """Pull of a history [kN/m]."""
+    return float(np.hypot(*pull)) * scene.force_scale / 1e3
+
+
+def _largest_return(run: Run) -> float:
+    """Largest part of a step's change of a pull that the next step takes back."""
+    moments = [moment for moment in run.moments if moment.time > _SETTLED]
+    worst = 0.0
+    for sizes in (_sizes(moments, "foot"), _sizes(moments, "head")):
+        change = np.diff(np.log(sizes))
+        back = change[1:] * change[:-1] < 0.0
+        returned = np.minimum(np.abs(change[1:]), np.abs(change[:-1]))
+        worst = max(worst, float(returned[back].max(initial=0.0)))
+    return worst
+
+
+def _sizes(moments: list[HistoryPoint], end: str) -> Floats:
+    return np.array([float(np.hypot(*getattr(moment, end))) for moment in moments])
+
+
+def _compare_staggered() -> Found:
+    """Foot pull of the exchange at one creep time, drag and step shrinking."""
+    scene = build_paper_scene(inclination=0.0)
+    history = _run(scene, start="straight", densifies=True, level=0)
+    expected = _size(history.moments[-1].foot, scene)
+    settings = StaggeredSettings(horizon=_HORIZON)
+    runs = [run_exchange(scene, replace(settings, base_drag=drag)) for drag in _DRAGS]
+    got = [_size(run.moments[-1].foot, scene) for run in runs]
+    order = observe_order(_DRAGS, [abs(value - expected) for value in got])
+    return Found(got[-1], expected, order)
+
+
+_THICKNESS = 3.0  # [m]
+_ROUGH = GroundLaw(kind="no-slip")
+# Recalled, not read, from the guideline: density -> K / sin(2 psi).
+_CREEP_FACTORS = {200.0: 0.70, 300.0: 0.76, 400.0: 0.83, 500.0: 0.92, 600.0: 1.05}
+# Slip length and upslope length over d, friction of the wall.
+_SLABS = (
+    (0.0, 40.0, 0.0),
+    (0.0, 40.0, None),
+    (1.0, 3.0, 0.0),
+    (4.0, 190.0, None),
+    (16.0, 8.0, 0.0),
+    (64.0, 190.0, None),
+)
+
+
+def list_walls() -> list[VerificationCase]:
+    """Force along X on a wall normal to the slope, snow adhering, rough ground."""
+    ratios = {
+        f"wall-n{exponent}-{slope}": wall_force(slope, 300.0, exponent=exponent)
+        / guideline_force(slope, 300.0)
+        for exponent in (3, 1)
+        for slope in (35, 45)
+    }
+    forces = {
+        f"guideline-{density:.0f}-{slope}": Found(
+            wall_force(slope, density) / 1e3, guideline_force(slope, density) / 1e3
+        )
+        for density in _CREEP_FACTORS
+        for slope in (35, 40, 45)
+    }
+    return judge({**ratios, **forces})
+
+
+def list_depth_averaged() -> list[VerificationCase]:
+    """Linear creep against the closed form: long and short snow, rough to slippery."""
+    found: dict[str, float | Found] = {}
+    for ratio, aspect, friction in _SLABS:
+        slab = Slab(thickness=_THICKNESS, slope_angle=math.radians(40), density=300.0)
+        slip, length = ratio * _THICKNESS, aspect * _THICKNESS
+        force = compute_slab_force(slab, slip_length=slip, upslope_length=length)
+        got = wall_force(
+            40,
+            300.0,
+            exponent=1,
+            ground=GroundLaw(kind="sliding", slip_length=slip) if slip else _ROUGH,
+            length=length,
+            friction_angle=friction,
+        )
+        wall = "adhering" if friction is None else "smooth"
+        name = f"haefeli-{ratio:g}-{aspect:g}-{wall}"
+        found[name] = Found(got / 1e3, force.total / 1e3)
+    # stagnation depth that halves the force on smooth ground, as published
+    slab = Slab(thickness=2.0, slope_angle=math.radians(30), density=350.0)
+    found["haefeli-half-the-force"] = scale_slip_length(slab, 10.0, 0.5)
+    return judge(found)
+
+
+def wall_force(
+    slope: float,
+    density: float,
+    *,
+    exponent: float = 3,
+    ground: GroundLaw = _ROUGH,
+    length: float = 40.0,
+    friction_angle: float | None = None,
+) -> float:
+    """Force along X [N/m] on a wall, adhering unless told; slope in degrees."""
+    scene = build_scene(
+        (_THICKNESS, density), slope=slope, length=length, ground=ground, lean=0.0
+    )
+    law = replace(BOUTILLIER_2004, exponent=float(exponent))
+    solution = solve_wall(
+        replace(scene, creep_law=law),
+        SolverSettings(accuracy=0.005),
+        friction_angle=friction_angle,
+    )
+    return solution.force.x
+
+
+def guideline_force(slope: float, density: float) -> float:
+    """S'_N = rho g H^2 / 2 K with N = 1 [N/m]; H is the vertical height."""
+    angle = math.radians(slope)
+    height = _THICKNESS / math.cos(angle)
+    creep_factor = _CREEP_FACTORS[density] * math.sin(2.0 * angle)
+    return density * GRAVITY * height**2 / 2.0 * creep_factor

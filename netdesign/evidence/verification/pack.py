@@ -15,19 +15,20 @@ from netdesign.evidence.verification.closed_forms import (
 )
 from netdesign.evidence.verification.compaction import list_compaction
 from netdesign.evidence.verification.coupled import (
+    list_depth_averaged,
+    list_histories,
     list_invariants,
     list_layered,
     list_limits,
     list_numerics,
     list_orders,
     list_reference,
+    list_walls,
 )
 from netdesign.evidence.verification.exported import list_another_code
-from netdesign.evidence.verification.histories import list_histories
 from netdesign.evidence.verification.manufactured import list_manufactured
 from netdesign.evidence.verification.panels import list_panels
 from netdesign.evidence.verification.plan_view import list_plan_view
-from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
 from netdesign.evidence.verification.winters import list_snow_heights, list_winters
 from netdesign.report.words import Words
 from netdesign.words.catalogue import load_texts

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import datetime, time, timedelta
 
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import (
@@ -14,7 +15,7 @@ from netdesign.report.drawing.plain_svg import (
     bounds_of,
     drop_straight,
 )
-from netdesign.report.drawing.style import ACCENT, GREY, INK, SOFT, TEXT_PT
+from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, SOFT, TEXT_PT
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.records import MonitoringRecord
 from netdesign.words.catalogue import Language
@@ -34,15 +35,19 @@ _MARGIN = 0.1  # of the values, above and below them
 _APART = 1.15 * TEXT_PT  # names of two lines [pt]
 _REACH = 20.0  # names beginning that close may overlap [pt]
 _TICK = 3.0
-_DOT, _MOST_DOTS = 1.2, 60  # half the width of a dot [pt]; more of them are a band
+_DOT, _MOST_DOTS = 1.2, 150  # half the width of a dot [pt]; more of them are a band
+_SAMPLE = 12.0  # of a line, before its name at the side [pt]
+_MONTHS_FROM = 45.0  # days from which on months are named, not days
+_BANDS = (PALE, "#eef0f2", "#dfe2e6")  # by the style of a line without a value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """One line of a chart.
+    """One line of a chart, broken where a value is NaN.
 
     ``label`` stands at its end; ``style`` is a number in ``SHADES``; an accented line
-    is the one that the reader should look at.
+    is the one that the reader should look at. ``low`` and ``high`` are a band about it,
+    or without it where ``y`` is empty; ``has_rings`` shows its points alone.
     """
 
     label: str
@@ -52,6 +57,9 @@ class Line:
     is_accent: bool = False
     is_thin: bool = False
     has_dots: bool = False  # at its points, which are measured
+    has_rings: bool = False
+    low: Sequence[float] = ()
+    high: Sequence[float] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,16 +68,35 @@ class Mark:
 
     x: float
     label: str
+    is_accent: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Panel:
-    """One chart; ``title`` names the quantity and its unit."""
+    """One chart; ``title`` names the quantity and its unit.
+
+    ``tiles`` are rectangles: start and end on both axes, and fill; ``key`` names fills.
+    """
 
     title: str
-    lines: Sequence[Line]
+    lines: Sequence[Line] = ()
     marks: Sequence[Mark] = ()
     from_zero: bool = False
+    height_pt: float = 0.0  # that of all unless it has its own
+    tiles: Sequence[tuple[float, float, float, float, str]] = ()
+    key: Sequence[tuple[str, str]] = ()
+
+    @property
+    def words(self) -> list[str]:
+        """What stands at its right."""
+        return [*(line.label for line in self.lines), *(text for _, text in self.key)]
+
+    @property
+    def values(self) -> list[float]:
+        """All values up its axis."""
+        found = [v for one in self.lines for v in (*one.y, *one.low, *one.high)]
+        found += [end for tile in self.tiles for end in tile[2:4]]
+        return [value for value in found if not math.isnan(value)]
 
 
 def draw_panels(
@@ -79,7 +106,8 @@ def draw_panels(
     across: int = 1,
     panel_pt: float = 120.0,
     is_log: bool = True,
-    time_label: str,
+    time_label: str = "",
+    span: tuple[datetime, datetime] | None = None,
     language: Language = "en",
 ) -> str:
     """SVG of charts against time in days, side by side or one below the other.
@@ -98,34 +126,54 @@ def draw_panels(
         Time on a logarithmic scale, ticks in seconds to days.
     time_label : str
         Below each column.
+    span : (datetime, datetime), optional
+        Ends of the time on calendar; days then count from the first, dates stand below
+        the last panel and names at the right, in the order of the largest values.
     language : Language
         Of the numbers beside the axes.
     """
     sketch = Chart(language=language)
-    lines = [line for panel in panels for line in panel.lines if len(line.x)]
-    times = bounds_of([line.x for line in lines])
-    room = max(measure_words(line.label, TEXT_PT) for line in lines) + _GAP
-    pitch, step = (WIDTH + _GAP) / across, _ABOVE + panel_pt + _BELOW
-    height = math.ceil(len(panels) / across) * step + TEXT_PT
+    times = _find_times(panels, span)
+    words = [word for panel in panels for word in panel.words]
+    room = max(measure_words(word, TEXT_PT) for word in words) + _GAP
+    room += _SAMPLE if span else 0.0
+    pitch, top = (WIDTH + _GAP) / across, 0.0
     for place, panel in enumerate(panels):
+        height = panel.height_pt or panel_pt
         frame = _place_frame(
             panel,
-            [math.log(end) for end in times] if is_log else times,
+            times if span or not is_log else [math.log(end) for end in times],
             left=place % across * pitch + _LEFT,
-            top=place // across * step + _ABOVE,
+            top=top + _ABOVE,
             width=pitch - _GAP - _LEFT - room,
-            height=panel_pt,
+            height=height,
         )
-        _Painter(sketch, frame, is_log).draw(panel, times)
-        if place < across:
-            middle = frame.left + frame.width / 2
-            sketch.text(middle, height - 3.0, time_label, anchor="middle")
-    return sketch.write(height, title)
+        _Painter(sketch, frame, is_log and span is None, span is not None).draw(
+            panel, times
+        )
+        if place % across == across - 1 or panel is panels[-1]:
+            top += _ABOVE + height + (_TICK if span else _BELOW)
+        if panel is panels[-1] and span:
+            _draw_dates(sketch, frame, *span)
+            top += _BELOW - TEXT_PT
+    for place in range(min(across, len(panels)) if time_label else 0):
+        middle = place * pitch + _LEFT + frame.width / 2
+        sketch.text(middle, top + TEXT_PT - 3.0, time_label, anchor="middle")
+    return sketch.write(top + TEXT_PT, title)
+
+
+def _find_times(
+    panels: Sequence[Panel], span: tuple[datetime, datetime] | None
+) -> tuple[float, float]:
+    """First and last time [d]."""
+    if span:
+        return 0.0, max((span[1] - span[0]) / timedelta(days=1), 1.0)
+    return bounds_of([line.x for panel in panels for line in panel.lines])
 
 
 def _place_frame(panel: Panel, times: Sequence[float], **place: float) -> Frame:
     """Frame of a panel; all lines and a margin above and below them."""
-    low, high = bounds_of([line.y for line in panel.lines])
+    low, high = bounds_of([panel.values or [0.0]])
     low = 0.0 if panel.from_zero else low
     margin = _MARGIN * ((high - low) or abs(high) or 1.0)
     return Frame(
@@ -137,6 +185,25 @@ def _place_frame(panel: Panel, times: Sequence[float], **place: float) -> Frame:
     )
 
 
+def _draw_dates(sketch: Chart, frame: Frame, begin: datetime, end: datetime) -> None:
+    """First day of each month, or single days of a short span; words stand apart."""
+    bottom, free = frame.top + frame.height, -math.inf
+    days = (end - begin) / timedelta(days=1)
+    step = max(1, round(days / 10.0))
+    first = datetime.combine(begin.date(), time())
+    first += timedelta(days=1) if first < begin else timedelta()
+    for count in range(int((end - first) / timedelta(days=1)) + 1):
+        moment = first + timedelta(days=count)
+        if moment.day != 1 if days > _MONTHS_FROM else count % step:
+            continue
+        x = frame.x((moment - begin) / timedelta(days=1))
+        sketch.line(((x, bottom), (x, bottom + _TICK)), stroke=GREY)
+        word = f"{moment:%m/%Y}" if days > _MONTHS_FROM else f"{moment:%d/%m}"
+        if x > free:
+            sketch.text(x + 2.0, bottom + TEXT_PT + 4.0, word)
+            free = x + 4.0 + measure_words(word, TEXT_PT)
+
+
 @dataclass(frozen=True, slots=True)
 class _Painter:
     """Paints one panel into its frame."""
@@ -144,38 +211,101 @@ class _Painter:
     sketch: Chart
     frame: Frame
     is_log: bool
+    is_dated: bool
 
     def draw(self, panel: Panel, times: Sequence[float]) -> None:
         sketch, frame = self.sketch, self.frame
         sketch.text(frame.left, frame.top - 6.0, panel.title, bold=True)
-        sketch.axes(frame, x_ticks=not self.is_log)
+        if panel.tiles:
+            self._draw_tiles(panel)
+        for line in panel.lines:
+            self._fill_band(line)
+        sketch.axes(frame, x_ticks=not (self.is_log or self.is_dated))
         if self.is_log:
             self._draw_clock(times)
-        for mark in panel.marks:
-            x = self._at(mark.x)
-            ends = [(x, frame.top), (x, frame.top + frame.height)]
-            sketch.line(ends, stroke=GREY, width=0.5, dash="1 2")
-            at = (x - 2.5, frame.top + TEXT_PT)
-            sketch.text(*at, mark.label, anchor="end", fill=SOFT)
+        if self.is_dated and frame.y_low < 0.0 < frame.y_high:
+            ends = [(x, frame.y(0.0)) for x in (frame.left, frame.left + frame.width)]
+            sketch.line(ends, stroke=GREY, width=0.5, dash="2 2")
+        for place, mark in enumerate(panel.marks, 1):
+            self._draw_mark(mark, place)
         for line in panel.lines:
             self._draw_line(line)
-        self._name_lines([one for one in panel.lines if one.label and len(one.x)])
+        named = [one for one in panel.lines if one.label and len(one.x)]
+        (self._list_names if self.is_dated else self._name_lines)(named)
 
     def _at(self, time: float) -> float:
         return self.frame.x(math.log(time) if self.is_log else time)
 
-    def _draw_line(self, line: Line) -> None:
-        shade, dash = SHADES[line.style % len(SHADES)]
-        stroke = ACCENT if line.is_accent else shade
-        points = [
-            (self._at(x), self.frame.y(y)) for x, y in zip(line.x, line.y, strict=True)
+    def _draw_mark(self, mark: Mark, place: int) -> None:
+        """Line at a time; its word on a line of its own, on the side with room."""
+        x, top = self._at(mark.x), self.frame.top
+        stroke = ACCENT if mark.is_accent else GREY
+        ends = [(x, top), (x, top + self.frame.height)]
+        self.sketch.line(ends, stroke=stroke, width=0.5, dash="1 2")
+        is_right = x - measure_words(mark.label, TEXT_PT) < self.frame.left
+        at = (x + 2.5 if is_right else x - 2.5, top + place * (TEXT_PT + 1.0) - 1.0)
+        anchor = "start" if is_right else "end"
+        self.sketch.text(*at, mark.label, anchor=anchor, fill=SOFT)
+
+    def _draw_tiles(self, panel: Panel) -> None:
+        """Rectangles, and what their fills mean at the right."""
+        frame = self.frame
+        placed = [
+            (frame.x(x0), frame.y(y1), frame.x(x1) - frame.x(x0), y1 - y0, fill)
+            for x0, x1, y0, y1, fill in panel.tiles
+            if y1 > y0
         ]
-        width = 0.6 if line.is_thin or line.has_dots else 1.2
-        kept = drop_straight(points)
-        self.sketch.line(kept, stroke=stroke, width=width, dash=dash)
-        if line.has_dots and len(points) <= _MOST_DOTS:
-            for x, y in points:
-                self.sketch.rectangle(x - _DOT, y - _DOT, 2 * _DOT, 2 * _DOT, GREY)
+        scale = frame.height / (frame.y_high - frame.y_low)
+        self.sketch.tiles((x, y, w, h * scale, fill) for x, y, w, h, fill in placed)
+        x = frame.left + frame.width + 4.0
+        for place, (fill, text) in enumerate(panel.key, 1):
+            y = frame.top + frame.height - place * _SAMPLE
+            self.sketch.rectangle(x, y, _SAMPLE, _SAMPLE, fill)
+            self.sketch.text(x + _SAMPLE + 3.0, y + 9.0, text)
+
+    def _fill_band(self, line: Line) -> None:
+        ends = [
+            [(self._at(x), self.frame.y(y)) for x, y in zip(line.x, side, strict=True)]
+            for side in (line.low, line.high)
+            if len(side) > 1
+        ]
+        if ends:
+            fill = PALE if line.y else _BANDS[line.style]
+            self.sketch.area([*ends[1], *reversed(ends[0])], fill)
+
+    def _draw_line(self, line: Line) -> None:
+        stroke, dash = _look_of(line)
+        for run in _split(line) if line.y else ():
+            if len(run) == 1 and self.is_dated:  # as wide as its day, or nobody sees it
+                ((x, y),) = run
+                run = [(x - 0.5, y), (x + 0.5, y)]
+            points = [(self._at(x), self.frame.y(y)) for x, y in run]
+            width = 0.6 if line.is_thin or line.has_dots else 1.2
+            if line.has_rings:
+                for x, y in points:
+                    self.sketch.ring(x, y, stroke)
+                continue
+            kept = drop_straight(points)
+            self.sketch.line(kept, stroke=stroke, width=width, dash=dash)
+            if line.has_dots and len(points) <= _MOST_DOTS:
+                for x, y in points:
+                    self.sketch.rectangle(x - _DOT, y - _DOT, 2 * _DOT, 2 * _DOT, GREY)
+
+    def _list_names(self, lines: Sequence[Line]) -> None:
+        """Names at the right beside a piece of each line, the largest value first."""
+        tops = [(max(Panel(title="", lines=[one]).values), one) for one in lines]
+        left, free = self.frame.left + self.frame.width + 4.0, self.frame.top - _APART
+        for value, line in sorted(tops, key=lambda one: -one[0]):
+            y = free = max(self.frame.y(value) + TEXT_PT / 3, free + _APART + 1.0)
+            stroke, dash = _look_of(line)
+            ends = ((left, y - 2.5), (left + _SAMPLE - 3.0, y - 2.5))
+            if line.has_rings:
+                self.sketch.ring(left + 4.0, y - 2.5, stroke)
+            elif line.y:
+                self.sketch.line(ends, stroke=stroke, width=1.2, dash=dash)
+            else:
+                self.sketch.line(ends, stroke=_BANDS[line.style], width=6.0)
+            self.sketch.text(left + _SAMPLE, y, line.label)
 
     def _draw_clock(self, times: Sequence[float]) -> None:
         """Ticks of logarithmic time that a reader can picture, none too close."""
@@ -201,10 +331,27 @@ class _Painter:
             group.sort(key=lambda end: end[1])
             heights = spread([y for _, y, _ in group], _APART)
             for (x, _, line), y in zip(group, heights, strict=True):
-                shade, _ = SHADES[line.style % len(SHADES)]
-                fill = ACCENT if line.is_accent else INK if shade == INK else SOFT
+                stroke, _ = _look_of(line)
+                fill = stroke if stroke in (ACCENT, INK) else SOFT
                 at = (x + 3.0, y + TEXT_PT / 3 + drop)
                 self.sketch.text(*at, line.label, fill=fill)
+
+
+def _look_of(line: Line) -> tuple[str, str]:
+    """Stroke and dashes."""
+    shade, dash = SHADES[line.style % len(SHADES)]
+    return ACCENT if line.is_accent else shade, dash
+
+
+def _split(line: Line) -> list[list[tuple[float, float]]]:
+    """Runs of known values."""
+    runs: list[list[tuple[float, float]]] = [[]]
+    for x, y in zip(line.x, line.y, strict=True):
+        if math.isnan(y):
+            runs.append([])
+        else:
+            runs[-1].append((x, y))
+    return [run for run in runs if run]
 
 
 def spread(heights: Sequence[float], gap: float) -> list[float]:

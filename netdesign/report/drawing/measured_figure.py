@@ -4,45 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import date, datetime, time, timedelta
 from typing import Any
 
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame
-from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.charts import Line, Panel, draw_panels
 from netdesign.report.words import Words, show_member
 
-_LEFT, _RIGHT = 36.0, 116.0  # beside the panels [pt]
-_HEAD, _GAP, _FOOT = 16.0, 24.0, 18.0  # above, between, below the panels [pt]
-_FORCES, _AIR = 150.0, 64.0  # heights of the panels [pt]
-_MONTHS_FROM = 45.0  # days from which on months are named, not days
-_DETAIL = 10.0  # days of a detail
-_DETAIL_READINGS = 3.0  # a day, at least
-_DOTTED = 150  # most readings that are dots
-_NOON = 0.5
+_FORCES, _AIR, _RESIDUALS = 150.0, 64.0, 110.0  # heights of the panels [pt]
+_DETAIL = timedelta(days=10)
+_DETAIL_READINGS = 30  # at least
+_DAY, _NOON = timedelta(days=1), timedelta(hours=12)
+_DEVIATIONS = (2, 1)  # whose bands are drawn about no residual
 
 Points = list[tuple[datetime, float]]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Span:
-    """Time shown by a figure, from its first to its last moment."""
-
-    first: datetime
-    last: datetime
-
-    @property
-    def days(self) -> float:
-        """Length [d]."""
-        return (self.last - self.first).total_seconds() / 86400.0
-
-    def place(self, moment: datetime) -> float:
-        """Days since the first moment."""
-        return (moment - self.first).total_seconds() / 86400.0
-
-    def cut(self, points: Points) -> Points:
-        """Points within the span."""
-        return [one for one in points if self.first <= one[0] <= self.last]
+Span = tuple[datetime, datetime]
 
 
 def draw_measured(
@@ -61,27 +36,41 @@ def draw_measured(
         Air temperature of the station by date [C]; may be empty.
     words : Words
         Language.
-    span : Span, optional
+    span : (datetime, datetime), optional
         What is shown; all readings and the days beside them unless told.
     """
     span = span or find_span(entry)
-    chart = Chart(language=words.language)
+    value, low, high = (
+        _cut(_list_computed(entry, key), span)
+        for key in ("force_kN", "low_kN", "high_kN")
+    )
+    x, band = [at for at, _ in value], [[y for _, y in one] for one in (low, high)]
     member = show_member(words, entry["member"])
+    computed, measured, swing = (
+        words(key)
+        for key in (
+            "winter_measured.computed",
+            "winter_measured.measured",
+            "winter_measured.band",
+        )
+    )
+    readings = _cut(_list_readings(entry), span)
+    lines = [
+        Line(label=swing, x=x, y=(), low=band[0], high=band[1]),
+        Line(label=computed, x=x, y=[y for _, y in value], is_accent=True),
+        _trace(readings, measured, has_dots=True),
+    ]
     title = words("winter_measured.force", member=member)
-    _draw_forces(chart, entry, span, title, words)
-    top = _HEAD + _FORCES
-    warmth = span.cut(_list_air(entry, air))
-    if warmth:
-        top += _GAP
-        _draw_air(chart, warmth, span, top, words)
-        top += _AIR
-    _label_time(chart, span, top)
+    panels = [Panel(title=title, lines=lines, from_zero=True, height_pt=_FORCES)]
+    if warmth := _cut(_list_air(entry, air), span):
+        line, title = _trace(warmth, "", is_thin=True), words("winter_measured.air")
+        panels.append(Panel(title=title, lines=[line], height_pt=_AIR))
     figure = words("winter_measured.figure", member=member, winter=entry["winter"])
-    return chart.write(top + _FOOT, figure)
+    return draw_panels(panels, figure, span=span, language=words.language)
 
 
 def find_span(entry: Mapping[str, Any]) -> Span:
-    """Span of all readings with a day beside them.
+    """Time of all readings with a day beside them.
 
     Parameters
     ----------
@@ -89,8 +78,7 @@ def find_span(entry: Mapping[str, Any]) -> Span:
         Of ``measured`` in the winter document, with at least one reading.
     """
     moments = [moment for moment, _ in _list_readings(entry)]
-    day = timedelta(days=1)
-    return Span(first=min(moments) - day, last=max(moments) + day)
+    return min(moments) - _DAY, max(moments) + _DAY
 
 
 def find_detail(entry: Mapping[str, Any]) -> Span | None:
@@ -102,13 +90,14 @@ def find_detail(entry: Mapping[str, Any]) -> Span | None:
         Of ``measured`` in the winter document.
     """
     readings = _list_readings(entry)
-    if find_span(entry).days < 2.0 * _DETAIL:
+    first, last = find_span(entry)
+    if last - first < 2 * _DETAIL:
         return None
     best: tuple[float, Span] | None = None
     for begin in sorted({datetime.combine(m.date(), time()) for m, _ in readings}):
-        span = Span(first=begin, last=begin + timedelta(days=_DETAIL))
-        forces = [force for _, force in span.cut(readings)]
-        if len(forces) < _DETAIL_READINGS * _DETAIL:
+        span = begin, begin + _DETAIL
+        forces = [force for _, force in _cut(readings, span)]
+        if len(forces) < _DETAIL_READINGS:
             continue
         reach = max(forces) - min(forces)
         if best is None or reach > best[0]:
@@ -116,89 +105,21 @@ def find_detail(entry: Mapping[str, Any]) -> Span | None:
     return best[1] if best else None
 
 
-def _draw_forces(
-    chart: Chart, entry: Mapping[str, Any], span: Span, title: str, words: Words
-) -> None:
-    computed, low, high = (
-        span.cut(_list_computed(entry, key))
-        for key in ("force_kN", "low_kN", "high_kN")
-    )
-    readings = span.cut(_list_readings(entry))
-    top = max([value for _, value in (*readings, *high)], default=1.0)
-    frame = _place(span, _HEAD, _FORCES, 0.0, 1.06 * top or 1.0)
-    chart.text(_LEFT, _HEAD - 5.0, title, bold=True)
-    if computed:
-        edge = [_point(frame, span, one) for one in (*high, *reversed(low))]
-        chart.area(edge, PALE)
-        chart.line(
-            [_point(frame, span, one) for one in computed], stroke=ACCENT, width=1.4
-        )
-    places = [_point(frame, span, one) for one in readings]
-    chart.line(places, stroke=INK, width=0.6)
-    if len(places) <= _DOTTED:
-        for x, y in places:
-            chart.rectangle(x - 1.2, y - 1.2, 2.4, 2.4, INK)
-    chart.axes(frame, x_ticks=False)
-    names = (
-        ("winter_measured.measured", INK, 0.6),
-        ("winter_measured.computed", ACCENT, 1.4),
-        ("winter_measured.band", PALE, 6.0),
-    )
-    for place, (key, stroke, width) in enumerate(names):
-        x, y = frame.left + frame.width + 4.0, frame.top + 10.0 + 12.0 * place
-        chart.line(((x, y - 2.5), (x + 9.0, y - 2.5)), stroke=stroke, width=width)
-        chart.text(x + 12.0, y, words(key))
+def _trace(
+    points: list[tuple[float, float]],
+    label: str,
+    *,
+    has_dots: bool = False,
+    is_thin: bool = False,
+) -> Line:
+    x, y = [x for x, _ in points], [y for _, y in points]
+    return Line(label=label, x=x, y=y, has_dots=has_dots, is_thin=is_thin)
 
 
-def _draw_air(
-    chart: Chart, warmth: Points, span: Span, top: float, words: Words
-) -> None:
-    values = [value for _, value in warmth]
-    low, high = min(values), max(values)
-    frame = _place(span, top, _AIR, low, max(high, low + 1.0))
-    chart.text(_LEFT, top - 5.0, words("winter_measured.air"), bold=True)
-    chart.line([_point(frame, span, one) for one in warmth], width=0.7)
-    if low < 0.0 < high:
-        ends = ((frame.left, frame.y(0.0)), (frame.left + frame.width, frame.y(0.0)))
-        chart.line(ends, stroke=GREY, width=0.5, dash="2 2")
-    chart.axes(frame, x_ticks=False)
-
-
-def _label_time(chart: Chart, span: Span, bottom: float) -> None:
-    """First day of each month, or single days of a short span."""
-    frame = _place(span, 0.0, bottom, 0.0, 1.0)
-    is_long = span.days > _MONTHS_FROM
-    step = max(1, round(span.days / 10.0))
-    day = span.first.date() + timedelta(days=1)
-    count = 0
-    while datetime.combine(day, time()) <= span.last:
-        if day.day == 1 if is_long else count % step == 0:
-            x = frame.x(span.place(datetime.combine(day, time())))
-            chart.line(((x, bottom), (x, bottom + 3.0)), stroke=GREY)
-            label = f"{day:%m/%Y}" if is_long else f"{day:%d/%m}"
-            if x < frame.left + frame.width - 2.0:
-                chart.text(x + 2.0, bottom + TEXT_PT + 4.0, label)
-        day += timedelta(days=1)
-        count += 1
-
-
-def _place(span: Span, top: float, height: float, low: float, high: float) -> Frame:
-    return Frame(
-        left=_LEFT,
-        top=top,
-        width=WIDTH - _LEFT - _RIGHT,
-        height=height,
-        x_low=0.0,
-        x_high=max(span.days, 1.0),
-        y_low=low,
-        y_high=high,
-    )
-
-
-def _point(
-    frame: Frame, span: Span, point: tuple[datetime, float]
-) -> tuple[float, float]:
-    return frame.x(span.place(point[0])), frame.y(point[1])
+def _cut(points: Points, span: Span) -> list[tuple[float, float]]:
+    """Points within the span, by the days since it began."""
+    first, last = span
+    return [((at - first) / _DAY, y) for at, y in points if first <= at <= last]
 
 
 def _list_readings(entry: Mapping[str, Any]) -> Points:
@@ -222,17 +143,10 @@ def _list_air(entry: Mapping[str, Any], air: Mapping[str, float]) -> Points:
 
 
 def _noon(day: str) -> datetime:
-    return datetime.combine(date.fromisoformat(day), time()) + timedelta(days=_NOON)
+    return datetime.combine(date.fromisoformat(day), time()) + _NOON
 
 
-_HEIGHT, _BELOW = 110.0, 22.0  # of and below the panel of residuals [pt]
-_BANDS = ((2.0, "#eef0f2"), (1.0, "#dfe2e6"))  # deviations and their greys
-_STROKES = (ACCENT, INK, GREY, "#555b63")
-
-Residual = Mapping[str, Any]
-
-
-def draw_residuals(residuals: Sequence[Residual], words: Words) -> str:
+def draw_residuals(residuals: Sequence[Mapping[str, Any]], words: Words) -> str:
     """SVG of the residuals of a fit; "" without any.
 
     Parameters
@@ -244,82 +158,39 @@ def draw_residuals(residuals: Sequence[Residual], words: Words) -> str:
     """
     if not residuals:
         return ""
-    chart = Chart(language=words.language)
-    first = min(date.fromisoformat(one["date"]) for one in residuals)
-    days = [(date.fromisoformat(one["date"]) - first).days for one in residuals]
-    shares = [100.0 * math.expm1(one["residual"]) for one in residuals]
-    frame = _place_residuals(days, shares, residuals)
-    chart.text(_LEFT, _HEAD - 5.0, words("fit_page.figure_title"), bold=True)
-    _draw_bands(chart, frame, days, residuals)
-    zero = frame.y(0.0)
-    chart.line(((frame.left, zero), (frame.left + frame.width, zero)), stroke=GREY)
-    chart.axes(frame, x_ticks=False)
-    members = list(dict.fromkeys(one["member"] for one in residuals))
-    for member, stroke in zip(members, _STROKES, strict=False):
-        for day, share, one in zip(days, shares, residuals, strict=True):
-            if one["member"] == member:
-                chart.ring(frame.x(day), frame.y(share), stroke)
-    _name_members(chart, frame, members, words)
-    _label_days(chart, frame, days, residuals)
-    height = _HEAD + _HEIGHT + _BELOW
-    return chart.write(height, words("fit_page.figure"))
-
-
-def _place_residuals(
-    days: Sequence[int], shares: Sequence[float], residuals: Sequence[Residual]
-) -> Frame:
-    """Frame that holds all residuals and two deviations of most of them."""
-    usual = sorted(one["deviation"] for one in residuals)[len(residuals) // 2]
-    reach = 1.1 * max(*(abs(share) for share in shares), 200.0 * usual)
-    return Frame(
-        left=_LEFT,
-        top=_HEAD,
-        width=WIDTH - _LEFT - _RIGHT,
-        height=_HEIGHT,
-        x_low=-2.0,
-        x_high=max(days) + 2.0,
-        y_low=-reach,
-        y_high=reach,
+    moments = [_noon(one["date"]) for one in residuals]
+    span = min(moments) - 2 * _DAY, max(moments) + 2 * _DAY
+    shares: dict[str, Points] = {}
+    widest: dict[datetime, float] = {}  # deviation of several members of a day
+    for at, one in zip(moments, residuals, strict=True):
+        share = 100.0 * math.expm1(one["residual"])
+        shares.setdefault(one["member"], []).append((at, share))
+        widest[at] = max(one["deviation"], widest.get(at, 0.0))
+    bands = [_show_band(widest, count, span) for count in _DEVIATIONS]
+    points = [
+        Line(
+            label=show_member(words, member),
+            x=[x for x, _ in _cut(found, span)],
+            y=[y for _, y in found],
+            style=number,
+            is_accent=number == 0,
+            has_rings=True,
+        )
+        for number, (member, found) in enumerate(shares.items())
+    ]
+    panel = Panel(title=words("fit_page.figure_title"), lines=[*bands, *points])
+    return draw_panels(
+        [panel],
+        words("fit_page.figure"),
+        panel_pt=_RESIDUALS,
+        span=span,
+        language=words.language,
     )
 
 
-def _draw_bands(
-    chart: Chart, frame: Frame, days: Sequence[int], residuals: Sequence[Residual]
-) -> None:
-    """Greys of one and two deviations; of several members the widest of a day."""
-    widest: dict[int, float] = {}
-    for day, one in zip(days, residuals, strict=True):
-        widest[day] = max(one["deviation"], widest.get(day, 0.0))
-    for count, fill in _BANDS:
-        ends = [
-            (frame.x(day), min(100.0 * math.expm1(count * wide), frame.y_high))
-            for day, wide in widest.items()
-        ]
-        above = [(x, frame.y(end)) for x, end in ends]
-        below = [(x, frame.y(-end)) for x, end in ends]
-        if len(ends) > 1:
-            chart.area([*above, *below[::-1]], fill)
-
-
-def _name_members(
-    chart: Chart, frame: Frame, members: Sequence[str], words: Words
-) -> None:
-    x = frame.left + frame.width + 8.0
-    for place, (member, stroke) in enumerate(zip(members, _STROKES, strict=False)):
-        y = frame.top + 8.0 + place * (TEXT_PT + 5.0)
-        chart.ring(x, y - 2.5, stroke)
-        chart.text(x + 8.0, y, show_member(words, member))
-
-
-def _label_days(
-    chart: Chart, frame: Frame, days: Sequence[int], residuals: Sequence[Residual]
-) -> None:
-    """Dates of the first and the last reading, and ticks of all."""
-    bottom = frame.top + frame.height
-    for day in sorted(set(days)):
-        x = frame.x(day)
-        chart.line(((x, bottom), (x, bottom + 3.0)), stroke=GREY)
-    dated = dict(zip(days, (one["date"] for one in residuals), strict=True))
-    for day, anchor in ((min(days), "start"), (max(days), "end")):
-        y = bottom + TEXT_PT + 5.0
-        chart.text(frame.x(day), y, dated[day], anchor=anchor)
+def _show_band(widest: Mapping[datetime, float], count: int, span: Span) -> Line:
+    """So many deviations about no residual [%]."""
+    reach = [100.0 * math.expm1(count * one) for _, one in sorted(widest.items())]
+    x = [(at - span[0]) / _DAY for at in sorted(widest)]
+    low = [-one for one in reach]
+    return Line(label="", x=x, y=(), low=low, high=reach, style=3 - count)

@@ -23,6 +23,8 @@ _SHORTEST = 0.4  # of loose lines [pt]
 _HEAD_LENGTH, _HEAD_HALF = 6.5, 2.3  # of an arrow [pt]
 _TICK = 2.5  # length of a tick [pt]
 _APART = 3.0  # least space between the numbers of two ticks [pt]
+_RAISED = str.maketrans("-0123456789", "\u207b⁰¹²³⁴⁵⁶⁷⁸⁹")
+_PLAIN = 3  # powers of ten up to which a number is written out
 SHADES = 16  # greys from white to the darkest: as many as a print tells apart
 _GREYS = tuple(f"#{250 - 11 * level:02x}" + 2 * f"{250 - 11 * level:02x}"
                for level in range(SHADES))  # fmt: skip
@@ -237,6 +239,27 @@ class Chart:
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
         )
 
+    def decades(self, frame: Frame, *, across: bool) -> None:
+        """Ticks across the page or up it, where the frame has logarithms to base 10."""
+        ends = (frame.x_low, frame.x_high) if across else (frame.y_low, frame.y_high)
+        bottom, path = frame.top + frame.height, ""
+        for power, factor in list_decades(min(ends), max(ends)):
+            place, word = power + math.log10(factor), self._write_power(power, factor)
+            if across:
+                x, y = frame.x(place), bottom + _TICK + TEXT_PT + 1.5
+                path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
+                self.text(x, y, word, anchor="middle")
+            else:
+                x, y = frame.left - _TICK - 3.5, frame.y(place)
+                path += f"M{show_place(frame.left)} {show_place(y)}h-{_TICK}"
+                self.text(x, y + TEXT_PT / 3, word, anchor="end")
+        self.shapes.append(f'<path d="{path}" stroke="{GREY}" stroke-width="0.5"/>')
+
+    def _write_power(self, power: int, factor: int) -> str:
+        if abs(power) <= _PLAIN or factor > 1:
+            return self.write_tick(factor * 10.0**power)
+        return f"10{str(power).translate(_RAISED)}"
+
     def write(self, height: float, title: str, width: float = WIDTH) -> str:
         """SVG element of the chart, the same bytes each time."""
         words = (
@@ -318,6 +341,28 @@ def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
     first = math.ceil(low / step - 1e-9)
     last = math.floor(high / step + 1e-9)
     return [round(k * step, 12) for k in range(first, last + 1)]
+
+
+def list_decades(low: float, high: float) -> list[tuple[int, int]]:
+    """Powers of ten between two logarithms, each with a factor: 2 and 5 of few.
+
+    Examples
+    --------
+    >>> list_decades(-0.1, 1.1)
+    [(0, 1), (0, 2), (0, 5), (1, 1)]
+    >>> list_decades(0.0, 14.0)[:3]
+    [(0, 1), (2, 1), (4, 1)]
+    """
+    first, last = math.floor(low), math.ceil(high)
+    factors = (1, 2, 5) if high - low < 2.0 else (1,)
+    step = max(1, (last - first) // 6)
+    powers = [power for power in range(first, last + 1) if power % step == 0]
+    every = [(power, factor) for power in powers for factor in factors]
+    return [
+        (power, factor)
+        for power, factor in every
+        if low - 1e-9 <= power + math.log10(factor) <= high + 1e-9
+    ]
 
 
 def list_loose_ticks(frame: Frame) -> list[float]:

@@ -162,7 +162,7 @@ def _show_measured(
     detail = find_detail(one)
     if detail is None:
         return
-    first, last = detail.first.date().isoformat(), detail.last.date().isoformat()
+    first, last = (moment.date().isoformat() for moment in detail)
     caption = words("winter_measured.detail", first=first, last=last)
     svg = draw_measured(one, air, words, detail)
     yield Figure(svg=svg, caption=caption, look="plate")

@@ -10,8 +10,8 @@ from netdesign.evidence.benchmark import attempts
 from netdesign.evidence.benchmark.attempts import (
     Attempt,
     attempt_scene,
+    attempt_scenes,
     list_accepted,
-    study_errors,
     write_errors,
 )
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
@@ -60,7 +60,7 @@ def test_a_truth_that_fails_is_told(monkeypatch):
         raise SolveError(Outcome.DIVERGED, "too fine")
 
     monkeypatch.setattr(attempts, "solve_truth", fail)
-    (attempt,) = study_errors(1, 1, accuracy=0.05)
+    (attempt,) = attempt_scenes(1, 1, accuracy=0.05, is_compared=True)
     assert "too fine" in str(attempt.reason)
 
 

@@ -8,7 +8,6 @@ import pytest
 from netdesign.coupling.solution import FailedSolution
 from netdesign.evidence.benchmark import precision
 from netdesign.evidence.benchmark.precision import (
-    Effort,
     Row,
     measure_steady,
     summarise,
@@ -18,7 +17,7 @@ from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, SCENES, load_sce
 from netdesign.evidence.runner import fit_order, share, summarise_times
 from netdesign.outcome import ModelError, Outcome, SolveError
 
-LEAST = Effort(finest=2, repeats=1)
+LEAST = {"finest": 2, "repeats": 1}
 # Keys that scripts rely on.
 KEYS = {
     *("scene", "method", "path", "elements", "degrees_of_freedom", "wall_s", "error"),
@@ -29,7 +28,7 @@ KEYS = {
 @pytest.fixture(scope="module")
 def rows():
     scenes = load_scenes(("rough-ground",))
-    return measure_steady("rough-ground", scenes["rough-ground"], LEAST)
+    return measure_steady("rough-ground", scenes["rough-ground"], **LEAST)
 
 
 def test_both_paths_on_every_mesh(rows):
@@ -63,7 +62,7 @@ def test_a_failed_solve_is_no_row(monkeypatch):
     failed = FailedSolution(outcome=Outcome.DIVERGED, reason="why")
     monkeypatch.setattr(precision, "solve_steady", lambda *_, **__: failed)
     with pytest.raises(SolveError, match="why"):
-        measure_steady("x", load_scenes(("paper-0",))["paper-0"], LEAST)
+        measure_steady("x", load_scenes(("paper-0",))["paper-0"], **LEAST)
 
 
 def a_row(**changed) -> Row:

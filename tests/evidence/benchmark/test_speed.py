@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.evidence.benchmark.precision import Effort, measure_steady, summarise
+from netdesign.evidence.benchmark.precision import measure_steady, summarise
 from netdesign.evidence.benchmark.scenes import load_scenes
 
 pytestmark = pytest.mark.benchmark
@@ -14,7 +14,7 @@ NAMES = ("paper-30", "rough-ground", "long-slope")  # small, small, large
 def summary():
     rows = []
     for name, scene in load_scenes(NAMES).items():
-        rows += measure_steady(name, scene, Effort(finest=4, repeats=3))
+        rows += measure_steady(name, scene, finest=4, repeats=3)
     return summarise(rows)
 
 

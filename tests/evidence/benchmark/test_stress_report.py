@@ -10,9 +10,9 @@ from netdesign.evidence.benchmark import attempts
 from netdesign.evidence.benchmark.attempts import (
     Attempt,
     attempt_scene,
+    attempt_scenes,
     generalise,
     list_accepted,
-    run_stress,
     write_stress,
 )
 from netdesign.outcome import Outcome
@@ -88,8 +88,8 @@ def test_refused_before_solving(monkeypatch):
 
 
 def test_processes_give_what_one_gives():
-    alone = run_stress(4, SEED, accuracy=0.05)
-    shared = run_stress(4, SEED, accuracy=0.05, jobs=2)
+    alone = attempt_scenes(4, SEED, accuracy=0.05)
+    shared = attempt_scenes(4, SEED, accuracy=0.05, jobs=2)
     assert [describe(one) for one in shared] == [describe(one) for one in alone]
     assert [one.number for one in shared] == [0, 1, 2, 3]
 

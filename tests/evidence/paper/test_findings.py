@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.evidence.paper.cases import find_history, find_paper_time
 from netdesign.evidence.paper.findings import (
     Growth,
     count_swings,
@@ -13,6 +12,7 @@ from netdesign.evidence.paper.findings import (
     last_swing,
     list_findings,
 )
+from netdesign.evidence.paper.runs import find_history, find_paper_time
 from tests.build_paper import build_study
 
 

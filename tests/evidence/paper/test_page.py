@@ -9,9 +9,9 @@ from xml.etree import ElementTree
 import pytest
 
 from netdesign import __version__
-from netdesign.evidence.paper.cases import find_history
 from netdesign.evidence.paper.findings import list_findings, word_finding
 from netdesign.evidence.paper.page import PAGE_FILE, name_history, render_paper
+from netdesign.evidence.paper.runs import find_history
 from netdesign.evidence.paper.tables import list_tables
 from netdesign.report.words import Words
 from netdesign.words.message import say
@@ -51,8 +51,8 @@ def test_page_has_every_statement_with_its_call(study, files):
     assert len(findings) == 7
     for finding in findings:
         claim = word_finding(finding)
-        assert claim.said in text
-        assert claim.found in text
+        assert claim.text[0].text in text
+        assert claim.text[1].text in text
     agreed = sum(finding.call == "agrees" for finding in findings)
     assert f"Of 7 statements of the paper, the runs agree with {agreed}." in text
 
@@ -107,9 +107,9 @@ def test_failed_runs_are_named_and_their_statements_open():
 def test_signs_are_minus_signs_and_no_zero_has_one():
     study = build_study(lambda case: 3e5 * (0.9 if case.gravity != "full" else 1.0))
     claim = word_finding(next(f for f in list_findings(study) if f.key == "settlement"))
-    assert "foot −10.0%" in claim.found
+    assert "foot −10.0%" in claim.text[1].text
     flat = next(f for f in list_findings(build_study()) if f.key == "settlement")
-    assert "foot 0.0%" in word_finding(flat).found
+    assert "foot 0.0%" in word_finding(flat).text[1].text
 
 
 @pytest.fixture(scope="module", params=["fr", "de"])
@@ -124,7 +124,9 @@ def tell_open(words):
     reason = say("staggered.no_increment", time=0.37)
     track = replace(study[case].track, ended=reason)
     study = replace(study, runs={**study.runs, case: replace(study[case], track=track)})
-    told = [word_finding(finding, words).found for finding in list_findings(study)]
+    told = [
+        word_finding(finding, words).text[1].text for finding in list_findings(study)
+    ]
     tables = [listed.table for listed in list_tables(study, words)]
     told += [cell.text for table in tables for row in table.rows for cell in row]
     assert words.show(reason) in " ".join(told)
@@ -154,8 +156,8 @@ def test_statements_are_told_in_the_language(study, told):
     text = " ".join(read_page(files[PAGE_FILE].decode()).split())
     for finding in list_findings(study):
         claim = word_finding(finding, words)
-        assert " ".join(claim.found.split()) in text
-        assert claim.call in text
+        assert " ".join(claim.text[1].text.split()) in text
+        assert claim.name in text
 
 
 def test_tables_for_programs_are_the_same_in_every_language(files, told):
@@ -173,7 +175,7 @@ def test_signs_are_those_of_the_language(language):
     pages = {}
     for name, one in (("change", study), ("none", build_study())):
         finding = next(f for f in list_findings(one) if f.key == "settlement")
-        pages[name] = word_finding(finding, Words(language)).found
+        pages[name] = word_finding(finding, Words(language)).text[1].text
     assert " −10,0\u00a0%" in pages["change"]
     assert " 0,0\u00a0%" in pages["none"]
     assert not re.search(r"[+-]\d", pages["change"] + pages["none"])

@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
-from netdesign.evidence.paper.cases import (
+from netdesign.evidence.paper.runs import (
     PaperSettings,
+    Shape,
     find_exchange,
     find_history,
     find_steady,
     list_cases,
+    run_case,
+    run_study,
 )
-from netdesign.evidence.paper.runs import Shape, run_case, run_study
 from netdesign.snow.mesh import MeshSize
 from netdesign.words.message import say
 from tests.build_paper import CURVE, TRIANGLE

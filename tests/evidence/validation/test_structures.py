@@ -8,15 +8,19 @@ from importlib.resources import files
 import pytest
 
 from netdesign.cli import main
-from netdesign.evidence.validation.band import SAMPLES, validate_structure
-from netdesign.evidence.validation.gather import read_all
 from netdesign.evidence.validation.page import (
     DOCUMENT_FILE,
     PAGE_FILE,
     Evidence,
     render_validation,
 )
-from netdesign.evidence.validation.structure import Span, read_structures
+from netdesign.evidence.validation.structure import (
+    SAMPLES,
+    Span,
+    read_all,
+    read_structures,
+    validate_structure,
+)
 from netdesign.evidence.verification.case import load_cases
 from netdesign.evidence.verification.compaction import MODELS, Contrast, list_places
 from netdesign.evidence.verification.exported import load_results
@@ -203,7 +207,10 @@ def build_evidence(*validations):
         places=list_places(),
         contrasts=[
             Contrast(
-                ground="free", own=(9.1, 8.2), other=(9.3, 8.1), uniform=(9.4, 8.3)
+                ground="free",
+                own_N_m=(9.1, 8.2),
+                other_N_m=(9.3, 8.1),
+                uniform_N_m=(9.4, 8.3),
             )
         ],
         validations=validations,
@@ -229,7 +236,7 @@ def test_page_without_structures_has_two_pictures():
 
 
 def test_command_writes_the_page_and_leaves_with_its_verdict(tmp_path, monkeypatch):
-    from netdesign.evidence.validation import gather as module
+    from netdesign.evidence.validation import page as module
 
     known = validate_structure(known_net())
     outside = replace(

@@ -1,4 +1,4 @@
-"""``netdesign verify``: the program against truth, or a stored study against itself."""
+"""``netdesign verify``, ``validate``, ``paper``: the program against what is known."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from netdesign.commands.options import (
     json_option,
     language_option,
     origin_options,
+    out_option,
+    quiet_option,
     refuse_without,
 )
 from netdesign.commands.running import (
@@ -39,6 +41,7 @@ from netdesign.words.message import Message, say
 if TYPE_CHECKING:
     from netdesign.study.records import Study
     from netdesign.study.values import Difference
+
 
 _FAIL, _NOT_PROVEN = 1, 4
 _SHOWN = 20  # differences; more help nobody
@@ -102,7 +105,7 @@ def _run_pack(
     *, as_json: bool, out: Path | None, force: bool, language: Language
 ) -> int:
     from netdesign.edge.progress import show_progress
-    from netdesign.evidence.validation.gather import gather, list_pages, render_pages
+    from netdesign.evidence.validation.page import gather, list_pages, render_pages
     from netdesign.evidence.verification.pack import GROUPS, run_pack, write_pack
 
     place_outputs(out, list_pages(), overwrite=force)
@@ -274,3 +277,95 @@ class _Shown:
         )
         unknown = (others, ties, not study.digest, made.command == NO_COMMAND)
         return any(map(bool, unknown))
+
+
+@click.command()
+@click.argument(
+    "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
+)
+@out_option("Folder of the page and its document.", required=True)
+@json_option("validation")
+@force_option
+@quiet_option
+@language_option("Of page and messages.")
+def validate(
+    structures: Path | None,
+    out: Path,
+    *,
+    as_json: bool,
+    force: bool,
+    quiet: bool,
+    language: Language,
+) -> None:
+    """Write one page: verification, settling of snow, measured structures.
+
+    With a file, its structures stand first: one whose inputs are all values gets a
+    misfit, others a band. The form is that of the program's own,
+    netdesign/evidence/validation/measured.toml. Exit code 1 if a case of the
+    verification fails, 4 if a measured force lies outside its band.
+
+    \b
+    netdesign validate --out validation
+    netdesign validate my-net.toml --out validation
+    netdesign validate --out validation --json > validation.json
+    """
+    import sys
+
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.validation.page import (
+        count_parts,
+        gather,
+        list_pages,
+        render_pages,
+        write_evidence,
+    )
+    from netdesign.evidence.validation.structure import read_all
+
+    places = place_outputs(out, list_pages(), overwrite=force)
+    known = read_all(structures)
+    parts = count_parts(known)
+    with show_progress(parts, "parts", quiet=quiet, language=language) as advance:
+        evidence = gather(known, advance)
+    write_outputs(out, render_pages(evidence, language), overwrite=force)
+    if as_json:
+        print_document(write_evidence(evidence))
+    if not quiet:
+        tell(say("cli.wrote", path=str(places[0])), language, err=True)
+    if not all(case.passes for case in evidence.cases):
+        sys.exit(_FAIL)
+    bands = [one for one in evidence.validations if not one.structure.is_known]
+    if not all(c.is_inside for one in bands for c in one.comparisons):
+        sys.exit(_NOT_PROVEN)
+
+
+@click.command()
+@out_option("Folder of the page, drawings and tables.", required=True)
+@force_option
+@jobs_option()
+@quiet_option
+@language_option("Of page and messages.")
+def paper(
+    out: Path, *, force: bool, jobs: int | None, quiet: bool, language: Language
+) -> None:
+    """Reproduce the source paper's study: histories, meshes, plateaus.
+
+    \b
+    netdesign paper --out paper
+    """
+    import sys
+
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.paper.page import PAGE_FILE, render_paper
+    from netdesign.evidence.paper.runs import PaperSettings, list_cases, run_study
+
+    settings = PaperSettings()
+    (page,) = place_outputs(out, [PAGE_FILE], overwrite=force)
+    count = len(list_cases(settings))
+    with show_progress(count, "runs", quiet=quiet, language=language) as on_done:
+        study = run_study(settings, jobs=jobs or os.cpu_count() or 1, on_done=on_done)
+    files = write_outputs(out, render_paper(study, language), overwrite=force)
+    if not quiet:
+        told = say("paper.wrote", path=str(page), count=len(files) - 1)
+        tell(told, language, err=True)
+    if any(run.failure for run in study.runs.values()):
+        sys.exit(_NOT_PROVEN)
