@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 Show = Callable[[dict[str, Any], "Console", "Words"], None]
 
 _EXIT_FAIL = 1
-_RANDOM = ("--stress", "--errors")  # over random scenes
+_RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +70,12 @@ class _Output:
     help="Compare N random scenes with finer meshes instead: are errors honest?",
 )
 @click.option(
+    "--lines",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Follow N lines of 200 scenes instead: does a force jump beyond its error?",
+)
+@click.option(
     "--against",
     type=click.Path(path_type=Path),
     metavar="WHEEL_OR_VENV",
@@ -98,6 +104,7 @@ def bench(
     *,
     stress: int | None,
     errors: int | None,
+    lines: int | None,
     against: Path | None,
     seed: int,
     accuracy: float,
@@ -115,9 +122,10 @@ def bench(
     netdesign bench --plot bench.svg
     netdesign bench --stress 2000 --seed 1 --jobs 2
     netdesign bench --errors 200 --seed 1 --jobs 2
+    netdesign bench --lines 60 --jobs 2
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
-    counts = {"--stress": stress, "--errors": errors}
+    counts = {"--stress": stress, "--errors": errors, "--lines": lines}
     wanted = {**counts, "--against": against}
     given = [name for name, value in wanted.items() if value is not None]
     _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
@@ -154,14 +162,20 @@ def _run_random(
         write_errors,
         write_stress,
     )
+    from netdesign.evidence.benchmark.lines import study_lines, write_lines
 
-    shown, is_compared = output.language, option == "--errors"
-    write = write_errors if is_compared else write_stress
-    with show_progress(count, "scenes", quiet=False, language=shown) as on_done:
-        found = attempt_scenes(
-            count, seed, **asked, is_compared=is_compared, on_done=on_done
-        )
-    document = write(found, seed, asked["accuracy"], "en" if output.as_json else shown)
+    shown = output.language
+    ends = (seed, asked["accuracy"], "en" if output.as_json else shown)
+    what = "lines" if option == "--lines" else "scenes"
+    with show_progress(count, what, quiet=False, language=shown) as on_done:
+        asked |= {"on_done": on_done}
+        if option == "--lines":
+            document = write_lines(study_lines(count, seed, **asked), *ends)
+        else:
+            is_compared = option == "--errors"
+            write = write_errors if is_compared else write_stress
+            found = attempt_scenes(count, seed, **asked, is_compared=is_compared)
+            document = write(found, *ends)
     output.write(document)
     return 0 if document["pass"] else _EXIT_FAIL
 

@@ -115,7 +115,7 @@ class ErrorModel(NamedTuple):
 
 
 # Of nets and walls at rest; measured on random scenes and along lines of scenes
-# (netdesign bench --errors, tests/evidence/benchmark/lines.py).
+# (netdesign bench --errors, --lines).
 STEADY_ERROR = ErrorModel(
     share=0.9,
     floor=2.5e-3,

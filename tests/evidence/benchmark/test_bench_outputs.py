@@ -7,6 +7,7 @@ import pytest
 from rich.console import Console
 
 from netdesign.evidence.benchmark.attempts import Attempt, write_errors, write_stress
+from netdesign.evidence.benchmark.lines import write_lines
 from netdesign.evidence.benchmark.precision import (
     Row,
     draw_work_precision,
@@ -98,6 +99,23 @@ def test_honesty_on_a_terminal():
     assert ["2", "finer mesh: diverged"] in lines
 
 
+LINES = write_lines(
+    [
+        {
+            "number": 0,
+            "parameter": "slack",
+            "solved": 8,
+            "jumps": [{"place": 3, "end": "foot", "over_stated": 1.25}],
+            "largest_jump": 1.25,
+            "ratios": [0.25, 0.97],
+            "missing": 1,
+        }
+    ],
+    1,
+    0.005,
+)
+
+
 # Of use to programs alone: what made a document, a scene's file.
 FOR_PROGRAMS = {"schema", "tables"}
 
@@ -117,6 +135,7 @@ def test_every_key_of_a_document_has_a_name():
     documents = [
         write_stress(ATTEMPTS, 4),
         write_errors(FINDINGS, 1, 0.005),
+        {key: one for key, one in LINES.items() if key != "of_lines"},
         *write_bench(ROWS)["rows"],
         write_bench(ROWS)["summary"],
     ]
@@ -158,6 +177,7 @@ def test_every_table_in_a_language(language):
         (print_bench, write_bench(ROWS)),
         (show_document, write_stress(ATTEMPTS, 4, 0.005, language)),
         (show_document, write_errors(FINDINGS, 1, 0.005, language)),
+        (show_document, LINES),
     )
     told = [
         "\n".join(map(" ".join, printed(show, one, language)))

@@ -4,16 +4,11 @@ A line is a random scene in which one quantity goes through its whole range. Two
 meshes that agree by accident state an error that is too small; on a line that shows
 as a jump between neighbours, wherever on the line it happens. A jump stays as large
 where it is closed in on; a bend, as where the creep law changes its branch, does not.
-
-``python -m tests.evidence.benchmark.lines COUNT JOBS`` follows lines of seed 1 at the
-accuracy 0.005 and prints what they say.
 """
 
 from __future__ import annotations
 
 import copy
-import json
-import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -306,9 +301,3 @@ def compare(scene: Scene, settings: SolverSettings) -> float:
     true = solve_fine(scene, fine).compare_ends(solution)
     ends = (solution.foot, solution.head)
     return max(t * p.size / p.error for t, p in zip(true, ends, strict=True))
-
-
-if __name__ == "__main__":
-    asked, processes = map(int, sys.argv[1:])
-    found = study_lines(asked, 1, accuracy=0.005, jobs=processes)
-    sys.stdout.write(json.dumps(write_lines(found, 1, 0.005), indent=1) + "\n")
