@@ -10,15 +10,18 @@ from typing import NamedTuple
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number, read_grade
-from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
+from netdesign.site.columns.fields import (
+    KNOWN_UNITS,
+    UNCLEAR_UNITS,
+    Field,
+    SheetPlan,
+    normalise,
+    split_heading,
+)
 from netdesign.site.columns.lexicon import (
     Lexicon,
     Meaning,
     says_sag,
-)
-from netdesign.site.columns.unit_names import (
-    KNOWN_UNITS,
-    UNCLEAR_UNITS,
 )
 from netdesign.site.readings import refuse_stored
 from netdesign.site.titles import (

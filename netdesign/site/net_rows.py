@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.outcome import ModelError
+from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
-from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
     Lines,
@@ -26,7 +26,7 @@ from netdesign.site.model import (
 )
 from netdesign.site.ranges import fill_in_ranges
 from netdesign.site.readings import Reading, Row, choose_given, refuse
-from netdesign.site.snow_layers import (
+from netdesign.site.snow_sheets import (
     build_layers,
     echo_layers,
     measure_normal,

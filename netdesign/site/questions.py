@@ -27,14 +27,13 @@ from netdesign.site.columns.all_tables import (
     ROPES,
     SHEETS,
 )
-from netdesign.site.columns.fields import normalise
+from netdesign.site.columns.fields import KNOWN_UNITS, normalise, normalise_unit
 from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, Lexicon, has_no_part
-from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
 from netdesign.site.headings import Table, count_known
-from netdesign.site.mapping import MARKS, SCHEMA, find_plan, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
 from netdesign.site.tables import find_tables
+from netdesign.site.titles import MARKS, SCHEMA, find_plan, is_meant
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 

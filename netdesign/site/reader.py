@@ -35,20 +35,18 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.columns.lexicon import UNANSWERED
-from netdesign.site.declared_sheet import read_declared
+from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
     TYPE_SHEETS,
     Lines,
+    SiteWide,
+    fill_in_site_wide,
     index_lines,
+    read_above,
+    read_once,
     refuse_unknown_ids,
     spread_over_rows,
-)
-from netdesign.site.mapping import (
-    give_answers,
-    is_meant,
-    judge_answers,
-    read_answers,
 )
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.net_rows import build_net_rows
@@ -62,14 +60,12 @@ from netdesign.site.ranges import (
     refuse_large_grid,
 )
 from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
-from netdesign.site.replaced import mark_replaced, replace_cells
-from netdesign.site.site_wide import (
-    SiteWide,
-    fill_in_site_wide,
-    read_above,
-    read_once,
+from netdesign.site.snow_sheets import (
+    check_layers,
+    read_layers,
+    read_monitoring,
+    read_winter,
 )
-from netdesign.site.snow_layers import check_layers, read_layers
 from netdesign.site.statements import list_missing
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.tables import (
@@ -80,6 +76,12 @@ from netdesign.site.tables import (
     is_near,
     match_item,
     read_rows,
+)
+from netdesign.site.titles import (
+    give_answers,
+    is_meant,
+    judge_answers,
+    read_answers,
 )
 from netdesign.site.type_lines import (
     count_in_tests,
@@ -93,7 +95,6 @@ from netdesign.site.type_resistances import (
     fill_in_resistances,
     fill_in_section,
 )
-from netdesign.site.winter_sheet import read_monitoring, read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 

@@ -24,7 +24,6 @@ from netdesign.site.columns.lexicon import (
     Meaning,
 )
 from netdesign.site.headings import Table, find_cover, find_headings
-from netdesign.site.mapping import is_meant
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -34,7 +33,7 @@ from netdesign.site.readings import (
     refuse,
 )
 from netdesign.site.table_lines import find_data_rows
-from netdesign.site.titles import Title, explain, find_near, understand
+from netdesign.site.titles import Title, explain, find_near, is_meant, understand
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import Message, say
 

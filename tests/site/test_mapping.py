@@ -5,9 +5,9 @@ import tomllib
 
 import pytest
 
-from netdesign.site.mapping import name_map
 from netdesign.site.questions import write_questions
 from netdesign.site.reader import read_site
+from netdesign.site.titles import name_map
 
 HEADINGS = 0
 
