@@ -33,11 +33,13 @@ from netdesign.site.snow_sheets import (
     resolve_thickness,
 )
 from netdesign.site.statements import (
+    build_panels,
     check_statements,
     echo_ends,
+    explain_panel_lack,
     has_same_types,
+    list_assumed,
     list_unsaid,
-    read_panel,
     replace_types,
 )
 from netdesign.site.support_types import (
@@ -172,7 +174,6 @@ def _compose_net_row(
 ) -> NetRow:
     """Net row of a line without a fault; ``snow`` is thickness, layers, ground."""
     thickness, layers, ground = snow
-    panel, panel_lack = read_panel(row, types["Ropes"])
     gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
     has_end = gap is None or gap > 0.0
     has_ropes = row["panel_system"].word != "none"
@@ -210,10 +211,11 @@ def _compose_net_row(
         axes=read_axes(row),
         drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=read_anchor_types(row, types),
-        panel=panel,
+        panels=build_panels(row, types["Ropes"]),
+        panel_assumed=list_assumed(row, types["Ropes"]),
         row_end=build_row_end(end, types) if has_end and has_ropes else None,
         net_parts=find_net_parts(row, types),
-        panel_lack=panel_lack,
+        panel_lack=explain_panel_lack(row),
         unsaid=list_unsaid(row),
     )
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
-from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import (
     Field,
@@ -33,7 +33,14 @@ from netdesign.site.readings import (
     refuse,
 )
 from netdesign.site.table_lines import find_data_rows
-from netdesign.site.titles import Title, explain, find_near, is_meant, understand
+from netdesign.site.titles import (
+    Title,
+    explain,
+    find_near,
+    is_meant,
+    quote_title,
+    understand,
+)
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import Message, say
 
@@ -350,8 +357,8 @@ def match_item(
 def _explain(
     text: str, table: Table, what: str, meaning: Meaning
 ) -> tuple[Message, Message | str]:
-    """Rule and what is accepted, with names in the language of the table's headings."""
-    start, language = _MARKS.split(text)[0], table.language
+    """Rule and what is accepted."""
+    start = _MARKS.split(text)[0]
     lexicon = Lexicon.of(table.plan.items, table.plan)
     for one in (meaning, lexicon.match(start)):
         if refusal := explain(one, table.sheet):
@@ -360,9 +367,9 @@ def _explain(
     if both and start != text:
         is_item = what == "item"
         rule = say("item.in_one_cell" if is_item else "item.quantity_in_one_cell")
-        return rule, say("item.alone", name=quote(both.heading_for(language)))
+        return rule, say("item.alone", name=quote_title(both))
     rule = say("item.unknown" if what == "item" else "item.unknown_quantity")
-    names = tuple(field.heading_for(language) for field in table.plan.items)
+    names = tuple(field.title for field in table.plan.items)
     known = [name for field in table.plan.items for name in field.raw_names]
     accepted = say("item.accepted", names=names)
     return rule, add_nearest(accepted, start.strip(), dict.fromkeys(known, ""))

@@ -30,7 +30,7 @@ from netdesign.units import (
     second_from_day,
     square_meter_from_square_centimeter,
 )
-from netdesign.words.catalogue import LANGUAGES, Language, load_texts
+from netdesign.words.catalogue import Language, load_texts
 from netdesign.words.message import Message, say
 
 # Spellings that are used for two units: never guessed.
@@ -130,7 +130,6 @@ _STRUCTURE = re.compile(
     r"|(?i:north|south|east|west|nord|sud|süd|est|ouest|ost)"
 )
 _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
-_NAME_COUNTS = 2  # headings, as which the name of a sheet tells its language
 
 
 @dataclass(frozen=True, slots=True)
@@ -350,25 +349,6 @@ class SheetPlan:
     def name_in(self, language: Language) -> str:
         """Name of the sheet in a language."""
         return self.names[language][0]
-
-    def find_language(self, names: Iterable[str], sheet_name: str) -> Language:
-        """Language with the most of these normalised headings; English in a tie.
-
-        A sheet's own name counts as much as some headings, which languages share.
-        """
-        headings = set(names)
-
-        def count(language: Language) -> int:
-            is_named = is_one_of(sheet_name, self.names[language])
-            return len(self._names_in(language) & headings) + _NAME_COUNTS * is_named
-
-        return max(LANGUAGES, key=count)
-
-    def _names_in(self, language: Language) -> set[str]:
-        # other English ones, such as min or max, are those of every language
-        most = 1 if language == "en" else None
-        names = (name for one in self.fields for name in one.headings[language][:most])
-        return set(map(normalise, names))
 
     def free(self, keys: Container[str]) -> SheetPlan:
         """Plan without the need for some columns, which are given elsewhere."""
