@@ -162,10 +162,8 @@ def _check_sum(
 ) -> None:
     """Refuse layers whose thickness lies outside its range."""
     total = sum(layer.thickness for layer in row.layers)
-    for name, factor in (
-        ("thickness", 1.0),
-        ("snow_height", math.cos(row.slope_angle)),
-    ):
+    factors = {"thickness": 1.0, "snow_height": math.cos(row.slope_angle)}
+    for name, factor in factors.items():
         if name not in ranges.further:
             continue
         low, high = ranges[name].low * factor, ranges[name].high * factor
@@ -221,6 +219,7 @@ def _check_temperatures(lines: list[Row], findings: list[Finding]) -> None:
     refuse(empty["temperature"], rule, say("layer.all_or_none"), findings)
 
 
+_EPOCH = datetime(1970, 1, 1)
 _MOST_LISTED = 8  # days in one remark
 
 
@@ -244,11 +243,7 @@ def read_winter(
     faults = len(findings)
     lines = read_rows(table, findings)
     days = _read_days(lines, findings)
-    heights = {
-        day: line["snow_height"].si
-        for day, line in days.items()
-        if line["snow_height"].state == "given"
-    }
+    heights = _list_given(days, "snow_height")
     if not heights:
         if lines and len(findings) == faults:
             rule = say("winter_sheet.no_height")
@@ -256,12 +251,7 @@ def read_winter(
         return None
     _check_gaps(heights, days, findings)
     factor, row_factors = _read_factors(lines, places, findings)
-    warm = {
-        day: line["temperature"].si
-        for day, line in days.items()
-        if line["temperature"].state == "given"
-    }
-    series = build_series(heights, warm)
+    series = build_series(heights, _list_given(days, "temperature"))
     notes = _note_oddities(series, heights, days, findings)
     return StationWinter(
         series=series,
@@ -370,6 +360,12 @@ def _read_days(lines: list[Row], findings: list[Finding]) -> dict[date, Row]:
     return days
 
 
+def _list_given(days: Mapping[date, Row], key: str) -> dict[date, float]:
+    """Numbers of a column by day, where one is given [SI]."""
+    found = {day: line[key].given_si for day, line in days.items()}
+    return {day: number for day, number in found.items() if number is not None}
+
+
 def _check_gaps(
     heights: Mapping[date, float], days: Mapping[date, Row], findings: list[Finding]
 ) -> None:
@@ -435,9 +431,6 @@ def _read_factors(
             rule = say("winter_sheet.factor_of_none")
             refuse(factor, rule, say("winter_sheet.factor_place"), findings)
     return general, {row: one for row, one in factors.items() if one is not None}
-
-
-_EPOCH = datetime(1970, 1, 1)
 
 
 def read_monitoring(

@@ -59,7 +59,7 @@ from netdesign.site.columns.lexicon import (
 from netdesign.site.readings import IN_CELLS, explain_unit
 from netdesign.words.message import Message, say
 
-# How alike a heading must be to a missing one to count as that, misspelt.
+# How alike a heading or the name of a sheet must be to a missing one, misspelt.
 _MISSPELT = 0.8
 _COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
 
@@ -357,6 +357,26 @@ def is_meant(name: str, plan: SheetPlan, answers: Answers) -> bool:
     if answer != IGNORE and find_plan(answer) is None:  # open, or a finding already
         return _is_named(name, plan)
     return answer != IGNORE and _is_named(answer, plan)
+
+
+def is_near(name: str, plan: SheetPlan) -> bool:
+    """A name is that of a planned sheet, perhaps misspelt."""
+    known = [normalise(one) for one in plan.raw_names]
+    stem = name.removesuffix(".csv")  # of a file: "site - Nets.csv"
+    words = {normalise(stem), normalise(re.split("[-_]", stem)[-1])}
+    return any(
+        difflib.get_close_matches(word, known, n=1, cutoff=_MISSPELT) for word in words
+    )
+
+
+def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
+    """A workbook has no sheet of the plan's name, nor of a name near to it."""
+    answers = workbook.answers
+    return not any(
+        is_meant(sheet.name, plan, answers) for sheet in workbook.sheets
+    ) and not any(
+        is_near(name, plan) for name in workbook.unread if name not in answers.sheets
+    )
 
 
 def give_answers(workbook: Workbook, answers: Answers) -> Workbook:
