@@ -198,14 +198,6 @@ def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
         raise SceneFileError(list_faults(lines)) from None
 
 
-def build_scene(
-    file: SceneFile, method: Method | None = None
-) -> tuple[Scene, Settings]:
-    """Scene and settings in SI units; ``method`` overrules the file's."""
-    given = build_given(file, method)
-    return given.scene, given.settings
-
-
 def build_given(file: SceneFile, method: Method | None = None) -> GivenScene:
     """Scene, settings and support in SI units; ``method`` overrules the file's."""
     snowpack = _snowpack(file)
