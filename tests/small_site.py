@@ -121,7 +121,7 @@ def build_row(name, **changes):
         "design_life": 50,
         "edge_distance": 15.0,
         "resistances": resist(),
-        "net_parts": list_net_parts(has_ropes=changes.get("panel") is not None),
+        "net_parts": list_net_parts(has_ropes=bool(changes.get("panels"))),
         "ground_type": "till",
         "anchors": tuple((anchor, TURNS) for anchor in ANCHORS),
         "drills_along_pull": True,

@@ -21,7 +21,7 @@ from netdesign.commands.running import EXIT_CODES
 from netdesign.edge.given_files import find_resource
 from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
 from netdesign.envelope.ranges import MOST_GRID_CASES
-from netdesign.site.cells.limits import MAX_NET_ROWS
+from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
 from netdesign.study.document import read_document, write_document

@@ -107,7 +107,7 @@ THIRD_PARTY = {
         "evidence.verification.plan_view",
     ),
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
-    "defusedxml": ("site.cells.xlsx", "site.cells.ods", "site.cells.limits"),
+    "defusedxml": ("site.cells.xlsx", "site.cells.ods", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
         "evidence.validation.structure",
@@ -121,7 +121,7 @@ THIRD_PARTY = {
     "docx": ("report.document.*",),
     "rasterio": ("terrain.geotiff", "terrain.crs"),
     "pyogrio": ("terrain.layers",),
-    "ezdxf": ("files.verdict_drawing",),
+    "ezdxf": ("files.verdict_map",),
     "PIL": ("report.drawing.raster",),  # matplotlib writes PNG by it
     "matplotlib": (
         *("report.drawing.*", "examples.*"),

@@ -297,7 +297,7 @@ def _size(
 
 def write_command(command: str, instead: Mapping[str, str]) -> str:
     """Command that makes a what-if study again, from the one that sized it."""
-    from netdesign.site.replaced import write_replacement
+    from netdesign.site.declared_sheet import write_replacement
 
     words = [word for word in shlex.split(command) if word != _SIZE]
     for cell, text in instead.items():

@@ -229,7 +229,7 @@ def _sample(
 ) -> dict[str, Any]:
     """Document of a grid."""
     from netdesign.envelope.search import run_grid
-    from netdesign.files.envelope import write_grid_document
+    from netdesign.files.cases import write_grid_document
 
     grid = run_grid(task, counts, runner)
     elapsed = time.perf_counter() - start
@@ -245,7 +245,7 @@ def _search(
 ) -> tuple[dict[str, Any], EnvelopeRecord]:
     """Document of a bounded search, and its model to draw."""
     from netdesign.envelope.search import search_rows
-    from netdesign.files.envelope import write_envelope_document
+    from netdesign.files.cases import write_envelope_document
 
     (found,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start

@@ -64,7 +64,7 @@ def read_instead(
     ValueRefusal
         If one has another form, or a cell comes twice.
     """
-    from netdesign.site.replaced import split_replacement
+    from netdesign.site.declared_sheet import split_replacement
 
     instead: dict[str, str] = {}
     for text in texts:

@@ -306,8 +306,8 @@ def map_headings(
     its unit, or "ignore". Later runs read the file beside the workbook by themselves.
     """
     from netdesign.edge.output import require_free, write_files
-    from netdesign.site.mapping import name_map
     from netdesign.site.questions import write_questions
+    from netdesign.site.titles import name_map
 
     refuse_delimiter(site_file, language=language)
     place = name_map(site_file)

@@ -56,7 +56,7 @@ def snowpack(
 
     The file has the columns of sheet Winter: date, snow height with its unit.
     """
-    from netdesign.site.winter_sheet import read_height_file
+    from netdesign.site.snow_sheets import read_height_file
     from netdesign.snowpack.follow import MODELS as KNOWN
     from netdesign.snowpack.follow import follow_heights
     from netdesign.snowpack.series import smooth

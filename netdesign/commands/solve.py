@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.steady.solve import PullBound
+    from netdesign.files.cases import SolvedSupport
     from netdesign.files.scene import GivenScene
-    from netdesign.files.solved_support import SolvedSupport
     from netdesign.report.page.solution_page import Solved
     from netdesign.solving.solve import Settings
     from netdesign.words.catalogue import Language
@@ -116,7 +116,7 @@ def _resolve_support(solution: Solved, given: GivenScene) -> SolvedSupport | Non
     if given.support is None:
         return None
     from netdesign.coupling.solution import Solution
-    from netdesign.files.solved_support import resolve_support
+    from netdesign.files.cases import resolve_support
 
     if not isinstance(solution, Solution):
         return None

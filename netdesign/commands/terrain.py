@@ -125,9 +125,9 @@ def _map_study(
     """Verdicts and anchors of a stored study on the map."""
     from netdesign.commands.stored_study import read_own_site, require_sound
     from netdesign.edge.output import require_free, write_files
+    from netdesign.files.rows_map import read_places
     from netdesign.files.verdict_map import (
         map_verdicts,
-        read_places,
         require_format,
         write_verdicts,
     )

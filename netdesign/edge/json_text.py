@@ -16,7 +16,7 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
     from pydantic import TypeAdapter
     from pydantic_core import SchemaValidator
 
-# A study of as many net rows and cases as a site may have (``site/cells/limits.py``,
+# A study of as many net rows and cases as a site may have (``site/cells/cells.py``,
 # ``envelope/ranges.py``), with some room: a row has up to 450 kB, 17,000 values and
 # 2,900 objects, a case 520 bytes, 13 values and 2 objects.
 MAX_JSON_BYTES = 640 * 2**20

@@ -3,18 +3,74 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from netdesign.files.verdict_map import MeasuredPlace, read_places
 from netdesign.outcome import StudyError, TerrainError
 from netdesign.site.model import Site
+from netdesign.terrain.crs import read_member
+from netdesign.terrain.geojson import Feature
 from netdesign.terrain.plan import ZONE, read_text
 from netdesign.words.message import say
 
 _FAR = 1e8  # beyond it nothing lies on a map in metres [m]
 Ring = Sequence[tuple[float, float]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasuredPlace:
+    """A row as ``netdesign terrain`` wrote it.
+
+    Attributes
+    ----------
+    feature : mapping
+        Its GeoJSON.
+    aspect, slope : float
+        Direction in which the ground falls, and its angle [rad].
+    posts : list of tuple of float
+        East, north, height [m].
+    """
+
+    feature: Feature
+    aspect: float
+    slope: float
+    posts: list[tuple[float, float, float]]
+
+
+def read_places(text: str, file: str) -> tuple[dict[str, MeasuredPlace], str]:
+    """Rows of ``rows.geojson`` by name, and their reference system.
+
+    Raises
+    ------
+    TerrainError
+        If the file is not one that ``netdesign terrain`` wrote.
+    """
+    try:
+        document = json.loads(text)
+        rows = document["features"]
+        rows = [one for one in rows if one["properties"]["kind"] == "net row"]
+        found = {str(one["properties"]["id"]): _read_place(one) for one in rows}
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise TerrainError(say("terrain.no_places", file=file)) from None
+    if not found:
+        raise TerrainError(say("terrain.no_places", file=file))
+    return found, read_member(document)
+
+
+def _read_place(feature: Feature) -> MeasuredPlace:
+    properties, points = feature["properties"], feature["geometry"]["coordinates"]
+    posts = [(float(x), float(y), float(z)) for x, y, z in points]
+    aspect, slope = properties["aspect_deg"], properties["slope_mean_deg"]
+    if not all(math.isfinite(one) for post in posts for one in post):
+        raise ValueError(feature)
+    return MeasuredPlace(
+        feature=feature,
+        aspect=math.radians(float(aspect)),
+        slope=math.radians(float(slope)),
+        posts=posts,
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from netdesign.cable.net import Net
 from netdesign.coupling.history.settings import (
@@ -22,7 +22,9 @@ from netdesign.edge.given_files import list_faults, read_toml
 from netdesign.files.support_tables import (
     GivenSupport,
     PanelTable,
+    Positive,
     SupportTable,
+    Table,
     build_support,
 )
 from netdesign.outcome import ModelError, SceneFileError
@@ -54,23 +56,18 @@ from netdesign.units import (
 from netdesign.words.message import Message, say
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Pair = Annotated[list[Finite], Field(min_length=2, max_length=2)]
 Density = Annotated[float, Field(gt=0, le=DENSEST_SNOW * ICE_DENSITY)]
 Temperature = Annotated[float, Field(ge=-60, le=0)]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-
-class SlopeTable(_Table):
+class SlopeTable(Table):
     """``[slope]``."""
 
     angle_deg: Annotated[float, Field(ge=0, le=80)]
 
 
-class LayerTable(_Table):
+class LayerTable(Table):
     """One entry of ``snow.layers``, from the ground up."""
 
     thickness_m: Positive
@@ -78,7 +75,7 @@ class LayerTable(_Table):
     temperature_C: Temperature | None = None
 
 
-class CreepLawTable(_Table):
+class CreepLawTable(Table):
     """A set of the user's own for ``snow.creep_law``."""
 
     name: str
@@ -90,7 +87,7 @@ class CreepLawTable(_Table):
     calibrated: Pair
 
 
-class SnowTable(_Table):
+class SnowTable(Table):
     """``[snow]``; one of thickness and vertical height, one of density and layers."""
 
     thickness_m: Positive | None = None
@@ -104,7 +101,7 @@ class SnowTable(_Table):
     temperature_C: Temperature | None = None
 
 
-class GroundTable(_Table):
+class GroundTable(Table):
     """``[ground]``."""
 
     law: GroundKind = "free"
@@ -113,7 +110,7 @@ class GroundTable(_Table):
     contact: Sides = "two-sided"
 
 
-class NetTable(_Table):
+class NetTable(Table):
     """``[net]``; a rigid wall has no stiffness and slack, and may adhere."""
 
     kind: Literal["cable", "rigid"] = "cable"
@@ -125,13 +122,13 @@ class NetTable(_Table):
     contact: Sides = "two-sided"
 
 
-class GravityTable(_Table):
+class GravityTable(Table):
     """``[gravity]``."""
 
     mode: GravityMode = "full"
 
 
-class SolveTable(_Table):
+class SolveTable(Table):
     """``[solve]``; start and horizon matter for histories only."""
 
     method: Method = "steady"
@@ -141,7 +138,7 @@ class SolveTable(_Table):
     densification: bool = True
 
 
-class SceneFile(_Table):
+class SceneFile(Table):
     """A whole scene file."""
 
     slope: SlopeTable
@@ -199,14 +196,6 @@ def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
         several = given if isinstance(given, tuple) else (told,)
         lines = [say("text.at_place", place=str(path), text=one) for one in several]
         raise SceneFileError(list_faults(lines)) from None
-
-
-def build_scene(
-    file: SceneFile, method: Method | None = None
-) -> tuple[Scene, Settings]:
-    """Scene and settings in SI units; ``method`` overrules the file's."""
-    given = build_given(file, method)
-    return given.scene, given.settings
 
 
 def build_given(file: SceneFile, method: Method | None = None) -> GivenScene:

@@ -34,7 +34,7 @@ from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.coupling.steady.solve import PullBound
-    from netdesign.files.solved_support import SolvedSupport
+    from netdesign.files.cases import SolvedSupport
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
 _NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
@@ -90,7 +90,7 @@ def write_solution_document(
 def _write_support(support: SolvedSupport | None, language: Language) -> dict[str, Any]:
     if support is None:
         return {}
-    from netdesign.files.solved_support import write_support
+    from netdesign.files.cases import write_support
 
     return {"support": write_support(support, language)}
 

@@ -22,31 +22,33 @@ from netdesign.structure.layout import (
 from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message, say
 
-_Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 _Distance = Annotated[float, Field(ge=0, le=100)]
 _Sag = Annotated[float, Field(ge=0, le=LARGEST_SAG)]
 
 
-class _Table(BaseModel):
+class Table(BaseModel):
+    """Table of a scene file: no key that it does not have."""
+
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class SupportTable(_Table):
+class SupportTable(Table):
     """``[support]``; distances along the slope."""
 
-    post_spacing_m: _Positive
+    post_spacing_m: Positive
     post_tilt_deg: Annotated[float, Field(ge=-30, le=45)] | None = None
     post_base_distance_m: Annotated[float, Field(ge=-50, le=50)] | None = None
     uphill_anchor_distance_m: _Distance | None = None
     downhill_anchor_distance_m: _Distance | None = None
 
 
-class PanelTable(_Table):
+class PanelTable(Table):
     """``[panel]``; of stiffness and sag one value for both ropes, or one for each."""
 
-    rope_stiffness_kN: _Positive | None = None
-    lower_rope_stiffness_kN: _Positive | None = None
-    upper_rope_stiffness_kN: _Positive | None = None
+    rope_stiffness_kN: Positive | None = None
+    lower_rope_stiffness_kN: Positive | None = None
+    upper_rope_stiffness_kN: Positive | None = None
     rope_sag: _Sag | None = None
     lower_rope_sag: _Sag | None = None
     upper_rope_sag: _Sag | None = None

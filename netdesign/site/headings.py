@@ -10,15 +10,17 @@ from typing import NamedTuple
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number, read_grade
-from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
+from netdesign.site.columns.fields import (
+    KNOWN_UNITS,
+    UNCLEAR_UNITS,
+    Field,
+    SheetPlan,
+    normalise,
+)
 from netdesign.site.columns.lexicon import (
     Lexicon,
     Meaning,
     says_sag,
-)
-from netdesign.site.columns.unit_names import (
-    KNOWN_UNITS,
-    UNCLEAR_UNITS,
 )
 from netdesign.site.readings import refuse_stored
 from netdesign.site.titles import (
@@ -35,7 +37,6 @@ from netdesign.site.titles import (
     refuse_unit,
     understand,
 )
-from netdesign.words.catalogue import LANGUAGES, Language
 from netdesign.words.message import say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
@@ -82,8 +83,6 @@ class Table:
         A row of units below the headings.
     group_rows : frozenset of int
         Rows above that hold merged groups of headings, or headings merged downwards.
-    language : str
-        That of most of the headings.
     columns : mapping of str to Column
         By field key; absent headings are absent.
     rows : tuple of int
@@ -94,7 +93,6 @@ class Table:
 
     sheet: Sheet
     plan: SheetPlan
-    language: Language
     columns: Mapping[str, Column]
     titles: Titles = ()
     heading_row: int = 0
@@ -162,7 +160,6 @@ def find_headings(
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     first_data_row += _is_numbering(sheet.row(first_data_row))
-    names = {split_heading(title.text)[0] for title, _ in titles}
     above = tuple(_find_pairs_above(sheet, row, plan))
     table = Table(
         sheet=sheet,
@@ -172,7 +169,6 @@ def find_headings(
         heading_row=row,
         units_row=units_row,
         first_data_row=first_data_row,
-        language=plan.find_language(names, sheet.name),
         columns={},
         group_rows=frozenset(
             above
@@ -189,24 +185,13 @@ def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
     starts = [cells[0].column for row in sheet.rows if len(cells := sheet.row(row)) > 1]
     first = max(set(starts), key=starts.count, default=1)
     keys = [field.key for field in plan.fields]
-    names = {normalise(sheet.cell(row, first).text) for row in sheet.rows}
     return Table(
         sheet=sheet,
         plan=plan,
-        language=_find_language(names, plan.items),
         columns={
             key: Column(number=first + n, unit="") for n, key in enumerate(keys[:2])
         },
     )
-
-
-def _find_language(names: set[str], items: Iterable[Field]) -> Language:
-    """Language in which most of some names are those of items; English in a tie."""
-    known = {
-        language: {normalise(x) for one in items for x in one.headings[language]}
-        for language in LANGUAGES
-    }
-    return max(LANGUAGES, key=lambda one: len(known[one] & names))
 
 
 def _find_pairs_above(sheet: Sheet, row: int, plan: SheetPlan) -> Iterator[Pair]:

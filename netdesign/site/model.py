@@ -175,22 +175,6 @@ def _name_column(key: str) -> Message:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RowPanel:
-    """The panel between two posts of a row.
-
-    Attributes
-    ----------
-    panels : tuple of Panel
-        One; several where something of it is assumed: the worst of them counts.
-    assumed : tuple of Message
-        Names of the columns that are empty.
-    """
-
-    panels: tuple[Panel, ...]
-    assumed: tuple[Message, ...] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class RowEnd:
     """Members that hold a row of panels along itself, at its end.
 
@@ -281,7 +265,10 @@ class NetRow:
     end_anchors: tuple[tuple[Member, AnchorType], ...] | None = field(
         default=None, hash=False
     )
-    panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
+    # Between two posts: one, or several of which the worst counts, where something of
+    # it is assumed; none of a row without ropes: a metre of net times the spacing.
+    panels: tuple[Panel, ...] = ()
+    panel_assumed: tuple[Message, ...] = ()  # names of its columns that are empty
     row_end: RowEnd | None = None  # of a row with panel and end
     # mesh, and border ropes where there are some
     net_parts: tuple[Resistance, ...] = field(default=(), hash=False)
@@ -369,11 +356,6 @@ class NetRow:
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""
         return next(one for one in self.net_parts if one.member == part)
-
-    @property
-    def panels(self) -> tuple[Panel, ...]:
-        """Panels between two posts of which the worst counts; none without ropes."""
-        return self.panel.panels if self.panel else ()
 
     @property
     def has_end(self) -> bool:

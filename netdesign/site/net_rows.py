@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.outcome import ModelError
+from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
-from netdesign.site.cells.limits import MAX_NET_ROWS
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
     Lines,
@@ -26,18 +26,20 @@ from netdesign.site.model import (
 )
 from netdesign.site.ranges import fill_in_ranges
 from netdesign.site.readings import Reading, Row, choose_given, refuse
-from netdesign.site.snow_layers import (
+from netdesign.site.snow_sheets import (
     build_layers,
     echo_layers,
     measure_normal,
     resolve_thickness,
 )
 from netdesign.site.statements import (
+    build_panels,
     check_statements,
     echo_ends,
+    explain_panel_lack,
     has_same_types,
+    list_assumed,
     list_unsaid,
-    read_panel,
     replace_types,
 )
 from netdesign.site.support_types import (
@@ -172,7 +174,6 @@ def _compose_net_row(
 ) -> NetRow:
     """Net row of a line without a fault; ``snow`` is thickness, layers, ground."""
     thickness, layers, ground = snow
-    panel, panel_lack = read_panel(row, types["Ropes"])
     gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
     has_end = gap is None or gap > 0.0
     has_ropes = row["panel_system"].word != "none"
@@ -210,10 +211,11 @@ def _compose_net_row(
         axes=read_axes(row),
         drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=read_anchor_types(row, types),
-        panel=panel,
+        panels=build_panels(row, types["Ropes"]),
+        panel_assumed=list_assumed(row, types["Ropes"]),
         row_end=build_row_end(end, types) if has_end and has_ropes else None,
         net_parts=find_net_parts(row, types),
-        panel_lack=panel_lack,
+        panel_lack=explain_panel_lack(row),
         unsaid=list_unsaid(row),
     )
 

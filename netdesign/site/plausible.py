@@ -15,7 +15,7 @@ from typing import TypeAlias
 from netdesign.resistance.products import find_product
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, quote
-from netdesign.site.columns.unit_names import from_si
+from netdesign.site.columns.fields import from_si
 from netdesign.site.declared_sheet import show_value
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse

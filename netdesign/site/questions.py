@@ -27,14 +27,13 @@ from netdesign.site.columns.all_tables import (
     ROPES,
     SHEETS,
 )
-from netdesign.site.columns.fields import normalise
+from netdesign.site.columns.fields import KNOWN_UNITS, normalise, normalise_unit
 from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, Lexicon, has_no_part
-from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
 from netdesign.site.headings import Table, count_known
-from netdesign.site.mapping import MARKS, SCHEMA, find_plan, is_meant
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
 from netdesign.site.tables import find_tables
+from netdesign.site.titles import MARKS, SCHEMA, find_plan, is_meant
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -112,7 +111,7 @@ def write_questions(
     findings = _collect(path, text_format)
     found = [table for plan in SHEETS for table in find_tables(workbook, plan, [])]
     questions = [*_ask_sheets(path, text_format, workbook, findings)]
-    questions += _ask_names(found, findings)
+    questions += _ask_names(found, findings, language)
     mark = Question("", _MARK, UNANSWERED, (say("map.mark"),))
     asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
     if asks_mark:
@@ -188,7 +187,9 @@ def _ask_sheets(
             yield Question("", sheet.name, UNANSWERED, hints)
 
 
-def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Question]:
+def _ask_names(
+    tables: Sequence[Table], findings: list[Finding], language: Language
+) -> list[Question]:
     by_sheet = {table.sheet.name: table for table in tables}
     lacking = {one.sheet for one in findings if one.rule.key in _LACKING}
     asked: dict[tuple[str, str], Question] = {}
@@ -197,7 +198,7 @@ def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Questio
         is_sought = finding.rule.key == _UNREAD and finding.sheet in lacking
         is_sought = is_sought and not has_no_part(finding.text)
         if table and finding.cell and (finding.severity == "error" or is_sought):
-            question = _ask_word(finding) or _ask(table, finding)
+            question = _ask_word(finding) or _ask(table, finding, language)
             if question:
                 asked[question.sheet, question.asked] = question
     return list(asked.values())
@@ -211,7 +212,7 @@ def _ask_word(finding: Finding) -> Question | None:
     return Question(finding.sheet, finding.text, UNANSWERED, hints, is_word=True)
 
 
-def _ask(table: Table, finding: Finding) -> Question | None:
+def _ask(table: Table, finding: Finding, language: Language) -> Question | None:
     column, row = split_address(finding.cell)
     key = finding.rule.key
     if key not in (*_OF_UNITS, *_OF_NAMES, _UNREAD, _LEFT_OPEN):
@@ -225,7 +226,7 @@ def _ask(table: Table, finding: Finding) -> Question | None:
     if key == _LEFT_OPEN:
         answer = table.sheet.answers.get(asked, UNANSWERED)
     if key in _OF_UNITS:
-        name = _name_field(table, column) if is_heading else asked
+        name = _name_field(table, column, language) if is_heading else asked
         answer = f"{name} [{UNANSWERED}]"
     return Question(table.sheet.name, asked, answer, hints)
 
@@ -248,11 +249,11 @@ def _name_item(table: Table, row: int) -> str:
     return " ".join(str(cell.value).split()) if cell and not cell.is_blank else ""
 
 
-def _name_field(table: Table, column: int) -> str:
-    """Label of the field that a column was taken for, in the sheet's language."""
+def _name_field(table: Table, column: int, language: Language) -> str:
+    """Label of the field that a column was taken for."""
     keys = {place.number: key for key, place in table.columns.items()}
     known = (one for one in table.plan.fields if one.key == keys.get(column))
-    return next((one.label_in(table.language) for one in known), UNANSWERED)
+    return next((one.label_in(language) for one in known), UNANSWERED)
 
 
 def _begin(

@@ -13,9 +13,14 @@ from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.cells.numbers import split_range
 from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, NETS, USUAL_QUANTITIES
-from netdesign.site.columns.fields import Field, SheetPlan, split_heading
+from netdesign.site.columns.fields import (
+    UNCLEAR_UNITS,
+    Field,
+    SheetPlan,
+    normalise_unit,
+    split_heading,
+)
 from netdesign.site.columns.lexicon import Meaning, find_unit
-from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
 from netdesign.site.headings import Table, refuse_unused_answers
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, explain_unit, read_cell, refuse

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -35,20 +35,18 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.columns.lexicon import UNANSWERED
-from netdesign.site.declared_sheet import read_declared
+from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
     TYPE_SHEETS,
     Lines,
+    SiteWide,
+    fill_in_site_wide,
     index_lines,
+    read_above,
+    read_once,
     refuse_unknown_ids,
     spread_over_rows,
-)
-from netdesign.site.mapping import (
-    give_answers,
-    is_meant,
-    judge_answers,
-    read_answers,
 )
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.net_rows import build_net_rows
@@ -62,24 +60,28 @@ from netdesign.site.ranges import (
     refuse_large_grid,
 )
 from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
-from netdesign.site.replaced import mark_replaced, replace_cells
-from netdesign.site.site_wide import (
-    SiteWide,
-    fill_in_site_wide,
-    read_above,
-    read_once,
+from netdesign.site.snow_sheets import (
+    check_layers,
+    read_layers,
+    read_monitoring,
+    read_winter,
 )
-from netdesign.site.snow_layers import check_layers, read_layers
 from netdesign.site.statements import list_missing
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.tables import (
     find_table,
     find_tables,
     is_about,
-    is_absent,
-    is_near,
     match_item,
     read_rows,
+)
+from netdesign.site.titles import (
+    give_answers,
+    is_absent,
+    is_meant,
+    is_near,
+    judge_answers,
+    read_answers,
 )
 from netdesign.site.type_lines import (
     count_in_tests,
@@ -93,7 +95,6 @@ from netdesign.site.type_resistances import (
     fill_in_resistances,
     fill_in_section,
 )
-from netdesign.site.winter_sheet import read_monitoring, read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 
@@ -134,28 +135,27 @@ def read_site(
     workbook, replaced = replace_cells(read_cells(Path(path), text_format), instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
-    on_cover = _read_project(find_table(workbook, PROJECT, findings), findings)
-    tables, nets, ranges = _find_tables(workbook, on_cover.site_wide, findings)
-    typed = _read_net_rows(nets, on_cover.site_wide, findings)
+    cover = find_table(workbook, PROJECT, findings)
+    project, of_project, site_wide = _read_project(cover, findings)
+    tables, nets, ranges = _find_tables(workbook, site_wide, findings)
+    typed = _read_net_rows(nets, site_wide, findings)
     lines = _read_lines(workbook, tables, typed, ranges, findings)
     net_rows = _build_rows(tables[RANGES.name], nets, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
     winter = read_winter(tables[WINTER.name], lines.places, findings)
     links = read_links(lines.links, lines.types, findings)
-    said = tables[DECLARED.name]
-    declared, confirmed = read_declared(said, workbook, lines.places, findings)
+    declared, confirmed = read_declared(
+        tables[DECLARED.name], workbook, lines.places, findings
+    )
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
-        findings.extend(_list_unknown_profiles(workbook, on_cover))
+        findings.extend(_list_unknown_profiles(workbook, project, of_project))
         raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(list(map(_shorten, findings)))
     asked = ask(lines, confirmed, findings)
-    rows = (
-        replace(row, unsaid=_name_unsaid(row, ranges, links), questions=asked[row.id])
-        for row in net_rows
-    )
+    rows = (_complete(row, ranges, links, asked[row.id]) for row in net_rows)
     return Site(
-        project=on_cover.project,
+        project=project,
         ranges=ranges.ranges,
         rows=tuple(mark_replaced(row, replaced) for row in rows),
         file_name=workbook.file,
@@ -163,7 +163,7 @@ def read_site(
         notes=(*notes, *confirmed.values()),
         findings=tuple(findings),
         range_inputs=ranges.inputs,
-        project_cells=on_cover.cells,
+        project_cells=of_project,
         monitoring=monitoring,
         winter=winter,
         declared=declared,
@@ -206,15 +206,17 @@ def _ask_for_rows_elsewhere(
             yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
 
 
-def _list_unknown_profiles(workbook: Workbook, cover: _Cover) -> Iterator[Finding]:
+def _list_unknown_profiles(
+    workbook: Workbook, project: Project, cells: Mapping[str, str]
+) -> Iterator[Finding]:
     """Profile that does not exist, beside other faults.
 
     Without them it is no fault of the workbook: a command may name another profile.
     """
-    named = cover.project.standard
+    named = project.standard
     if not named or named in list_standards() or is_there(Path(named)):
         return
-    sheet, _, cell = cover.cells["standard"].rpartition("!")
+    sheet, _, cell = cells["standard"].rpartition("!")
     yield Finding(
         file=workbook.file,
         sheet=sheet,
@@ -225,16 +227,20 @@ def _list_unknown_profiles(workbook: Workbook, cover: _Cover) -> Iterator[Findin
     )
 
 
-def _name_unsaid(
-    row: NetRow, ranges: RangesSheet, links: Mapping[str, tuple[Link, ...]]
-) -> tuple[Message, ...]:
-    """Lacks of every force of a row, with all that its checks lack besides.
+def _complete(
+    row: NetRow,
+    ranges: RangesSheet,
+    links: Mapping[str, tuple[Link, ...]],
+    questions: tuple[Message, ...],
+) -> NetRow:
+    """Net row with its questions and lacks; a row is completed in one go.
 
-    What the forces lack would hide the rest: a row is completed in one go.
+    What every force of it lacks would hide what its checks lack besides.
     """
     unsaid = row.unsaid + ranges.unsaid
     missing = list_missing(row, links) if unsaid else ()
-    return tuple(dict.fromkeys((*unsaid, *missing)))
+    every = tuple(dict.fromkeys((*unsaid, *missing)))
+    return replace(row, unsaid=every, questions=questions)
 
 
 def _find_tables(
@@ -386,21 +392,15 @@ def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
     ]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Cover:
-    """Sheet Project: the project, the cells of its values, what holds for all rows."""
-
-    project: Project = field(default_factory=Project)
-    cells: Mapping[str, str] = field(default_factory=dict)
-    site_wide: SiteWide = field(default_factory=dict)
-
-
-def _read_project(table: Table | None, findings: list[Finding]) -> _Cover:
+def _read_project(
+    table: Table | None, findings: list[Finding]
+) -> tuple[Project, Mapping[str, str], SiteWide]:
+    """Project of the cover sheet, cells of its items, and what holds for all rows."""
     values: dict[str, str] = {}
     cells: dict[str, str] = {}
     site_wide: dict[str, Reading] = {}
     if table is None:
-        return _Cover()
+        return Project(), {}, {}
     for row in read_rows(table, findings):
         item, value = row["item"], row["value"]
         if not item.word or _is_strange(item, value, table, findings):
@@ -426,7 +426,7 @@ def _read_project(table: Table | None, findings: list[Finding]) -> _Cover:
             values[field.key], cells[field.key] = value.word, value.place
     refuse_unused_answers(table, table.list_named("item"), findings)
     of_project = {key: place for key, place in cells.items() if key in values}
-    return _Cover(project=Project(**values), cells=of_project, site_wide=site_wide)
+    return Project(**values), of_project, site_wide
 
 
 def _is_strange(

@@ -19,11 +19,12 @@ from netdesign.site.cells.numbers import (
     read_moment,
     split_unit,
 )
-from netdesign.site.columns.fields import Field, normalise
-from netdesign.site.columns.unit_names import (
+from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
+    Field,
     convert_unit,
+    normalise,
     normalise_unit,
     to_si,
 )

@@ -13,7 +13,7 @@ from dataclasses import replace
 from itertools import chain
 
 from netdesign.panel.assumed import Ends, find_stiffness, list_panels
-from netdesign.panel.inputs import CUTS
+from netdesign.panel.inputs import CUTS, Panel
 from netdesign.resistance.connection import Link
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
@@ -26,7 +26,6 @@ from netdesign.site.model import (
     InputEcho,
     NetRow,
     Resistance,
-    RowPanel,
 )
 from netdesign.site.readings import (
     Reading,
@@ -130,12 +129,16 @@ def _list_contradictions(
         yield gap, said
 
 
-def read_panel(
-    row: Row, ropes: Mapping[str, Row]
-) -> tuple[RowPanel | None, Message | None]:
-    """Panel of a net row without a fault, and why its forces may be other ones.
+def explain_panel_lack(row: Row) -> Message | None:
+    """Reason why the pull of a row's ropes is not known; None also without ropes."""
+    system = row["panel_system"].word
+    if system == "triangular":
+        return say("panel.triangular")
+    return None if system else say("panel.no_system")
 
-    What is not given of a panel is assumed.
+
+def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
+    """Panels that a net row without a fault may have; what is not given is assumed.
 
     Parameters
     ----------
@@ -146,42 +149,37 @@ def read_panel(
 
     Returns
     -------
-    RowPanel or None, Message or None
-        Both None of a row without ropes between its posts.
+    tuple of Panel
+        None of a row without ropes between its posts.
     """
-    system = row["panel_system"].word
-    if system == "none":
-        return None, None
-    if system == "triangular":
-        return None, say("panel.triangular")
-    lack = None if system else say("panel.no_system")
-    return _build_panel(row, ropes), lack
-
-
-def _build_panel(row: Row, ropes: Mapping[str, Row]) -> RowPanel:
+    if not _has_panel(row):
+        return ()
     ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
     mid = row["mid_anchors"].word
-    return RowPanel(
-        panels=list_panels(
-            row["post_spacing"].si,
-            cut=next((cut for cut in CUTS if cut == row["net_cut"].word), None),
-            sags=(row["ridge_sag"].given_si, row["lower_sag"].given_si),
-            stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
-            has_mid_anchors=mid == "yes" if mid else None,
-        ),
-        assumed=tuple(_list_assumed(row, ropes)),
+    return list_panels(
+        row["post_spacing"].si,
+        cut=next((cut for cut in CUTS if cut == row["net_cut"].word), None),
+        sags=(row["ridge_sag"].given_si, row["lower_sag"].given_si),
+        stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
+        has_mid_anchors=mid == "yes" if mid else None,
     )
 
 
-def _list_assumed(row: Row, ropes: Mapping[str, Row]) -> list[Message]:
+def _has_panel(row: Row) -> bool:
+    return row["panel_system"].word not in ("none", "triangular")
+
+
+def list_assumed(row: Row, ropes: Mapping[str, Row]) -> tuple[Message, ...]:
+    """Names of what is assumed of the panel of a net row."""
+    if not _has_panel(row):
+        return ()
     keys = ("panel_system", *_OF_PANEL)
     lacking = [row[key].field.name for key in keys if row[key].state != "given"]
     named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
-    return lacking + [
-        say("panel.stiffness_of", id=one)
-        for one in named
-        if ropes[one]["axial_stiffness"].state != "given"
-    ]
+    open_ropes = (
+        one for one in named if ropes[one]["axial_stiffness"].state != "given"
+    )
+    return (*lacking, *(say("panel.stiffness_of", id=one) for one in open_ropes))
 
 
 def _find_stiffness(line: Row | None) -> Ends:
@@ -248,8 +246,7 @@ def list_missing(
 
 
 def _list_of_row(row: NetRow) -> Iterator[Message]:
-    if row.panel is not None:
-        yield from row.panel.assumed
+    yield from row.panel_assumed
     if not row.drills_along_pull and any(
         row.find_axis(anchor) is None for anchor, _ in row.anchors
     ):

@@ -1,14 +1,14 @@
-"""From a sheet to lines of readings: finds the data rows, reads them field by field."""
+"""From a sheet to lines of readings: which lines hold data, what their cells say."""
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
-from netdesign.site.cells.findings import Finding, add_nearest, quote
+from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import (
     Field,
@@ -24,7 +24,6 @@ from netdesign.site.columns.lexicon import (
     Meaning,
 )
 from netdesign.site.headings import Table, find_cover, find_headings
-from netdesign.site.mapping import is_meant
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -33,13 +32,17 @@ from netdesign.site.readings import (
     read_without_unit,
     refuse,
 )
-from netdesign.site.table_lines import find_data_rows
-from netdesign.site.titles import Title, explain, find_near, understand
+from netdesign.site.titles import (
+    Title,
+    explain,
+    find_near,
+    is_meant,
+    is_near,
+    quote_title,
+    understand,
+)
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import Message, say
-
-# How alike the name of a sheet must be to a missing one to count as that, misspelt.
-_MISSPELT = 0.8
 
 
 def find_table(
@@ -76,17 +79,14 @@ def find_tables(
         rule = say("table.second_sheet", name=plan.title, first=plain[0].name)
         findings.append(double.finding(rule))
     read = [sheet for sheet in sheets if sheet not in plain[1:]]
-    found = (_take_table(sheet, plan, findings) for sheet in read)
-    return tuple(table for table in found if table is not None)
-
-
-def _take_table(sheet: Sheet, plan: SheetPlan, findings: list[Finding]) -> Table | None:
-    table = find_headings(sheet, plan, findings)
-    if table is None:
-        return None
-    table = replace(table, rows=find_data_rows(table, findings))
-    _inspect_layout(table, findings)
-    return table
+    tables = []
+    for sheet in read:
+        table = find_headings(sheet, plan, findings)
+        if table is not None:
+            table = replace(table, rows=find_data_rows(table, findings))
+            _inspect_layout(table, findings)
+            tables.append(table)
+    return tuple(tables)
 
 
 def read_rows(table: Table | None, findings: list[Finding]) -> list[Row]:
@@ -196,26 +196,6 @@ def is_about(name: Cell, table: Table) -> bool:
     return is_known or any(near)
 
 
-def is_near(name: str, plan: SheetPlan) -> bool:
-    """A name is that of a planned sheet, perhaps misspelt."""
-    known = [normalise(one) for one in plan.raw_names]
-    stem = name.removesuffix(".csv")  # of a file: "site - Nets.csv"
-    words = {normalise(stem), normalise(re.split("[-_]", stem)[-1])}
-    return any(
-        difflib.get_close_matches(word, known, n=1, cutoff=_MISSPELT) for word in words
-    )
-
-
-def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
-    """A workbook has no sheet of the plan's name, nor of a name near to it."""
-    answers = workbook.answers
-    return not any(
-        is_meant(sheet.name, plan, answers) for sheet in workbook.sheets
-    ) and not any(
-        is_near(name, plan) for name in workbook.unread if name not in answers.sheets
-    )
-
-
 def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     """Refuse a sheet that seems the missing one, misspelt; or the lack of it."""
     unread = (name for name in workbook.unread if name not in workbook.answers.sheets)
@@ -307,9 +287,6 @@ def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> Non
                 )
 
 
-_MARKS = re.compile(r"[;,|:=\t]")  # what may stand between an item and its value
-
-
 def match_item(
     name: Reading, table: Table, what: str, findings: list[Finding]
 ) -> Meaning:
@@ -351,8 +328,8 @@ def match_item(
 def _explain(
     text: str, table: Table, what: str, meaning: Meaning
 ) -> tuple[Message, Message | str]:
-    """Rule and what is accepted, with names in the language of the table's headings."""
-    start, language = _MARKS.split(text)[0], table.language
+    """Rule and what is accepted."""
+    start = _MARKS.split(text)[0]
     lexicon = Lexicon.of(table.plan.items, table.plan)
     for one in (meaning, lexicon.match(start)):
         if refusal := explain(one, table.sheet):
@@ -361,9 +338,161 @@ def _explain(
     if both and start != text:
         is_item = what == "item"
         rule = say("item.in_one_cell" if is_item else "item.quantity_in_one_cell")
-        return rule, say("item.alone", name=quote(both.heading_for(language)))
+        return rule, say("item.alone", name=quote_title(both))
     rule = say("item.unknown" if what == "item" else "item.unknown_quantity")
-    names = tuple(field.heading_for(language) for field in table.plan.items)
+    names = tuple(field.title for field in table.plan.items)
     known = [name for field in table.plan.items for name in field.raw_names]
     accepted = say("item.accepted", names=names)
     return rule, add_nearest(accepted, start.strip(), dict.fromkeys(known, ""))
+
+
+# What makes a single text below a table a note and not the start of another line.
+_NOTE_WORD = (
+    r"(notes?|nota|nb|n\.b|remarks?|remarques?|sources?|anm|anmerkung|bemerkung|hinweis"
+    r"|quelle|osservazion[ei])\b"
+)
+_NOTE = re.compile(_NOTE_WORD, re.IGNORECASE)
+_MARKED_NOTE = re.compile(rf"\*|{_NOTE_WORD}\s*[.:]", re.IGNORECASE)
+_NOTE_WORDS = 4
+_CUTS = (";", ",", "\t", "|")  # one of them may be the delimiter of a line
+_TOTAL = re.compile(
+    r"(sous-?\s?)?(total|totaux|somme)\b|sub-?total|(zwischen)?summe\b|gesamt"
+    r"|(sub)?total[ei]\b|somma\b|sums?\b",
+    re.IGNORECASE,
+)
+_SECTION = re.compile(
+    r"(secteur|zone|lot|tronçon|versant|couloir|sector|section|area|abschnitt|sektor"
+    r"|zone|los|hang|settore|zona|lotto|tratto|versante)\b",
+    re.IGNORECASE,
+)
+_LINE_OVER_SUM = 4  # numbers of a line, at least, for each of a sum
+_MARKS = re.compile(r"[;,|:=\t]")  # what may stand between an item and its value
+_WIDE = 3  # columns of a merged cell that heads a part of a table
+
+
+def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
+    """Rows of a table that hold data.
+
+    Parameters
+    ----------
+    table : Table
+        The sheet with its headings.
+    findings : list of Finding
+        Appended to: every filled line that is not read, and gaps in the table.
+
+    Returns
+    -------
+    tuple of int
+        Ascending numbers of rows.
+    """
+    sheet, plan, first_row = table.sheet, table.plan, table.first_data_row
+    # no line of a table of items may be taken for a note: its value would be lost
+    width = 0 if plan.items else len(table.columns)
+    filled = sorted(row for row in sheet.rows if row >= first_row and sheet.row(row))
+    while filled and _is_note(sheet.row(filled[-1]), width):
+        cell = sheet.row(filled.pop())[0]
+        findings.append(cell.finding(say("table.note_below"), severity="note"))
+    passed = {row: rule for row in filled if (rule := _find_other(table, row, filled))}
+    for row, rule in passed.items():
+        cell = sheet.row(row)[0]
+        findings.append(cell.finding(rule, severity="note"))
+    for above, row in pairwise((first_row - 1, *filled)):
+        is_at_part = above in passed or row in passed
+        is_whole = not plan.items and _is_whole(table, row)
+        if row == above + 1 or is_at_part or not table.titles:
+            continue
+        empty = sheet.cell(above + 1, 1)
+        if is_whole:
+            findings.append(empty.finding(say("table.gap"), severity="note"))
+        else:
+            findings.append(
+                empty.finding(say("table.empty_row"), say("table.without_gaps"))
+            )
+    return tuple(row for row in filled if row not in passed)
+
+
+def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
+    """A row holds a note: a single text of so many words that it begins no line.
+
+    A text that another delimiter would cut into a line of the table of ``width``
+    columns is that line; without a width only a text marked as a note is one.
+    """
+    if len(cells) != 1 or not isinstance(cells[0].value, str) or cells[0].formula:
+        return False
+    text = cells[0].value.strip()
+    if _MARKED_NOTE.match(text):
+        return True
+    parts = 1 + max(text.count(mark) for mark in _CUTS)
+    if not width or (parts > 1 and 2 * parts >= width):
+        return False
+    return bool(_NOTE.match(text)) or len(text.split()) >= _NOTE_WORDS
+
+
+def _find_other(table: Table, row: int, rows: list[int]) -> Message | None:
+    """Rule of a line that holds no data; None of a line of the table."""
+    cells = table.sheet.row(row)
+    if _repeats_headings(table, cells):
+        return say("table.headings_again")
+    if _is_part(table.sheet, table.plan, cells, rows):
+        return say("table.part")
+    if _is_total(table, row):
+        return say("table.total")
+    return None
+
+
+def _repeats_headings(table: Table, cells: tuple[Cell, ...]) -> bool:
+    above = table.sheet.rows.get(table.heading_row, {})
+    return len(cells) > 1 and all(
+        cell.column in above
+        and normalise(cell.text) == normalise(above[cell.column].text)
+        for cell in cells
+    )
+
+
+def _is_part(
+    sheet: Sheet, plan: SheetPlan, cells: tuple[Cell, ...], rows: list[int]
+) -> bool:
+    """A line heads a part of the table: one text, merged wide or named as a part."""
+    if len(cells) != 1 or not isinstance(cells[0].value, str) or cells[0].formula:
+        return False
+    cell, text = cells[0], cells[0].value.strip()
+    if find_item(text, plan.items):
+        return False
+    is_merged = any(
+        merged.covers(cell.row, cell.column)
+        and merged.row == merged.last_row
+        and merged.last_column - merged.column + 1 >= _WIDE
+        for merged in sheet.merged
+    )
+    if is_merged or plan.items:
+        return is_merged
+    named = _SECTION.match(text)
+    if named is None:
+        return False
+    word = named[0].casefold()  # perhaps that of the ids of this table
+    others = (sheet.row(row) for row in rows)
+    return not any(
+        len(one) > 1 and str(one[0].value).casefold().startswith(word) for one in others
+    )
+
+
+def _is_total(table: Table, row: int) -> bool:
+    """A line sums up others: named so, with a quarter of what a line holds at most."""
+    first = table.sheet.row(row)[0]
+    if not isinstance(first.value, str) or not _TOTAL.match(first.value.strip()):
+        return False
+    columns = [column.number for column in table.columns.values()]
+    filled = sum(not table.sheet.cell(row, column).is_blank for column in columns)
+    return _LINE_OVER_SUM * (filled - 1) <= len(columns)
+
+
+def _is_whole(table: Table, row: int) -> bool:
+    """A line has all that a line of the table needs."""
+    needed = [
+        table.columns[field.key].number
+        for field in table.plan.fields
+        if field.required and not field.instead and field.key in table.columns
+    ]
+    return len(needed) > 1 and not any(
+        table.sheet.cell(row, column).is_blank for column in needed
+    )

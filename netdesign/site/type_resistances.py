@@ -24,7 +24,7 @@ from netdesign.resistance.products import find_product
 from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.unit_names import from_si
+from netdesign.site.columns.fields import from_si
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say

@@ -361,6 +361,6 @@ def _record_force(extreme: Extreme) -> ForceRecord:
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
     """Reason why an assumed panel fails, so that nothing is known of the row."""
     failed = [one for one in results if isinstance(one.panel, FailedPanel)]
-    if not failed or row.panel is None or not row.panel.assumed:
+    if not failed or not row.panel_assumed:
         return None
     return say("panel.assumed_fails", reason=failed[0].lack or "")

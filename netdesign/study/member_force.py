@@ -390,10 +390,10 @@ def name_unsaid(row: NetRow) -> Message:
 def find_lack(row: NetRow, given: Resistance) -> Message | None:
     """Lack of the workbook that leaves a rope, an end member, or the end post, open."""
     if given.member in _ROPES:
-        return row.panel_lack if row.panel is None else None
+        return None if row.panels else row.panel_lack
     if row.row_end is None or given.member not in (*EndMember, *PUSHED):
         return None
-    if row.panel is None:
+    if not row.panels:
         return row.panel_lack
     if row.row_end.guy_angle is not None or given.member == EndMember.LATERAL_ANCHOR:
         return None

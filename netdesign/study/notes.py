@@ -163,8 +163,8 @@ def list_row_notes(
     notes += list_assumed(row)
     if row.panel_lack is not None:
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
-    if row.panel is not None and row.panel.assumed:
-        notes.append(say("panel.assumed", names=row.panel.assumed))
+    if row.panel_assumed:
+        notes.append(say("panel.assumed", names=row.panel_assumed))
     return [*notes, *_list_pull_notes(pulls)]
 
 

@@ -137,7 +137,7 @@ def _list_along(row: NetRow, inclination: Interval) -> Iterator[PartRecord]:
         count=None if length is None else 1,
         size=None if length is None else length * built,
     )
-    if row.panel is None:
+    if not row.panels:
         return
     for part in (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE):
         yield PartRecord(

@@ -50,9 +50,9 @@ def record_panel(
 
     None of a row without a panel. ``drawn`` is the case that is shown.
     """
-    if row.panel is None:
+    if not row.panels:
         return None
-    panel = row.panel.panels[0]
+    panel = row.panels[0]
     solved = [
         variant.solution
         for one in results
@@ -65,9 +65,9 @@ def record_panel(
     return PanelRecord(
         cut=panel.cut,
         has_mid_anchors=panel.has_mid_anchors,
-        assumed=list(row.panel.assumed),
+        assumed=list(row.panel_assumed),
         ropes=[]
-        if row.panel.assumed
+        if row.panel_assumed
         else [
             _record_rope(
                 *("lower", panel.lower, row.find_net_part(NetPart.LOWER_ROPE)),
@@ -86,7 +86,7 @@ def record_panel(
         ),
         lift_m=max((one.lower.mid_displacement[1] for one in solved), default=None),
         end_guy_deg=degree_if_known(row.row_end.guy_angle if row.row_end else None),
-        drawing=_draw(drawn) if drawn and not row.panel.assumed else None,
+        drawing=_draw(drawn) if drawn and not row.panel_assumed else None,
     )
 
 

@@ -57,7 +57,7 @@ def list_remedies(
     used = one.result.find("μ")
     if used is None or used.high is None:
         return _complete(task, one, changes, None)
-    if task.basis.row.panel is None:  # its forces are in no proportion to the spacing
+    if not task.basis.row.panels:  # its forces are in no proportion to the spacing
         spacing = task.basis.row.layout.post_spacing
         changes.append(find_spacing_remedy(spacing, one.width, used.high))
     return _complete(task, one, changes, check)

@@ -142,7 +142,7 @@ def _find_least_tension(row: NetRow, solved: float, floor: HeadSpan | None) -> f
     one side can give way to that of the other. None where the guideline's load is that
     of an altitude that is not known: a lower row has less.
     """
-    is_assumed = row.panel is not None and bool(row.panel.assumed)
+    is_assumed = bool(row.panel_assumed)
     if is_assumed or (floor is not None and row.altitude is None):
         return 0.0
     return min(max(0.0, solved), floor.least_tension if floor else math.inf)

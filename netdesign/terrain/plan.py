@@ -16,9 +16,8 @@ from netdesign.edge.given_files import decode_utf8, list_faults, read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 from netdesign.site.columns.all_tables import NETS
-from netdesign.site.columns.fields import split_heading
+from netdesign.site.columns.fields import convert_unit, normalise_unit, split_heading
 from netdesign.site.columns.lexicon import Lexicon
-from netdesign.site.columns.unit_names import convert_unit, normalise_unit
 from netdesign.terrain.crs import read_member
 from netdesign.terrain.layers import GEOPACKAGE, SHAPEFILE, Feature, read_layers
 from netdesign.words.message import Message, say

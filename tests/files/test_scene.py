@@ -12,7 +12,7 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.files.scene import SceneFile, build_scene, read_scene
+from netdesign.files.scene import SceneFile, build_given, read_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import ModelError, Outcome, SceneFileError
 from netdesign.snow.creep_law import PAPER_FLUIDITY, compute_fluidity
@@ -48,7 +48,7 @@ def read(tmp_path):
 
 
 def build(tables):
-    return build_scene(SceneFile.model_validate(tables))[0]
+    return build_given(SceneFile.model_validate(tables)).scene
 
 
 def test_units_of_the_edge_become_si(read):
@@ -255,7 +255,7 @@ def test_unreadable_files_are_refused(tmp_path):
 
 @pytest.fixture(scope="module")
 def solved():
-    scene, _ = build_scene(SceneFile.model_validate(tomllib.loads(FULL_SCENE)))
+    scene = build_given(SceneFile.model_validate(tomllib.loads(FULL_SCENE))).scene
     settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
     solution = solve_steady(scene, settings)
     return solution, write_solution_document(solution, settings, wall_s=1.5)

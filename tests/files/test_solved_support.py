@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import SolverSettings
+from netdesign.files.cases import resolve_support
 from netdesign.files.solution import write_solution_document
-from netdesign.files.solved_support import resolve_support
 from netdesign.files.support_tables import GivenSupport
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.row_forces import compute_end_forces

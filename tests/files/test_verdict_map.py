@@ -9,7 +9,8 @@ import ezdxf
 import pyogrio
 import pytest
 
-from netdesign.files.verdict_map import MeasuredPlace, turn_to_map
+from netdesign.files.rows_map import MeasuredPlace
+from netdesign.files.verdict_map import turn_to_map
 from netdesign.structure.anchor_distance import Bore
 
 SLOPE = math.radians(37.0)

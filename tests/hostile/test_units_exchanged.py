@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.columns.unit_names import convert_unit
+from netdesign.site.columns.fields import convert_unit
 from netdesign.site.reader import read_site
 from tests.fuzz.targets import example_tables, write_delimited
 

@@ -9,9 +9,8 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.numbers import parse_number
 from netdesign.site.columns.all_tables import NETS
-from netdesign.site.columns.fields import split_heading
+from netdesign.site.columns.fields import convert_unit, split_heading
 from netdesign.site.columns.lexicon import Lexicon
-from netdesign.site.columns.unit_names import convert_unit
 from netdesign.site.reader import read_site
 from tests.site.offices import austrian, french, norwegian
 from tests.site.offices.write import write_folder, write_xlsx

@@ -5,9 +5,9 @@ import tomllib
 
 import pytest
 
-from netdesign.site.mapping import name_map
 from netdesign.site.questions import write_questions
 from netdesign.site.reader import read_site
+from netdesign.site.titles import name_map
 
 HEADINGS = 0
 
@@ -119,7 +119,7 @@ def test_what_is_asked_stands_in_the_file_with_what_is_understood(sheets, save):
     text, missing = write_questions(save(sheets), language="de")
     assert missing == 3
     answers = tomllib.loads(text)["headings"]
-    assert answers["Nets"] == {"Neigung [°]": "?", "Netzhöhe": "net height [?]"}
+    assert answers["Nets"] == {"Neigung [°]": "?", "Netzhöhe": "Netzhöhe [?]"}
     assert answers["Ranges"] == {"Raumgewicht Schnee": "?"}
     assert '# "post spacing [m]" = "Stützenabstand [m]"' in text
 

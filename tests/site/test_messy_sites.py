@@ -8,9 +8,9 @@ import pytest
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.fields import normalise
-from netdesign.site.mapping import name_map
 from netdesign.site.questions import write_questions
 from netdesign.site.reader import read_site
+from netdesign.site.titles import name_map
 from tests.site.messy import french, german, swiss
 
 OFFICES = {"french": french, "german": german, "swiss": swiss}

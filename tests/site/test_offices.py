@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.mapping import name_map
 from netdesign.site.questions import write_questions
 from netdesign.site.reader import read_site
+from netdesign.site.titles import name_map
 from tests.site.offices import austrian, french, norwegian
 from tests.site.offices.write import write_folder, write_ods_list, write_xlsx
 

@@ -58,7 +58,7 @@ def lack(row):
 
 def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
     row, other = read_site(save(with_panel)).rows
-    (panel,) = row.panel.panels
+    (panel,) = row.panels
     assert panel.post_spacing == row.layout.post_spacing
     assert (panel.upper.stiffness, panel.lower.stiffness) == (17.3e6, 18.7e6)
     assert panel.upper.sag == pytest.approx(0.053, rel=1e-12)
@@ -69,15 +69,15 @@ def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
     assert (ridge.type_id, below.type_id) == ("B1", "B2")
     assert (ridge.mode, below.mode) == ("rope", "rope")
     assert row.panel_lack is None
-    assert other.panel.assumed
+    assert other.panel_assumed
     assert "panel system" in lack(other)
 
 
 def test_a_workbook_without_the_columns_takes_the_panels_that_are_built(sheets, save):
     for row in read_site(save(sheets)).rows:
-        assert {one.cut for one in row.panel.panels} == set(CUTS)
+        assert {one.cut for one in row.panels} == set(CUTS)
         for side in ("lower", "upper"):
-            ropes = [getattr(one, side) for one in row.panel.panels]
+            ropes = [getattr(one, side) for one in row.panels]
             sags = {one.sag for one in ropes}
             assert (min(sags), max(sags)) == (0.03, 0.10)
             stiffnesses = {one.stiffness for one in ropes}
@@ -90,10 +90,10 @@ def test_a_workbook_without_the_columns_takes_the_panels_that_are_built(sheets, 
 )
 def test_what_is_missing_is_named_and_assumed(with_panel, save, heading):
     """What is given stays as it is, in every panel that is tried."""
-    (whole,) = read_site(save(with_panel)).rows[0].panel.panels
+    (whole,) = read_site(save(with_panel)).rows[0].panels
     put(with_panel, heading, None)
-    panel = read_site(save(with_panel)).rows[0].panel
-    told = [render(one, "en") for one in panel.assumed]
+    row = read_site(save(with_panel)).rows[0]
+    told = [render(one, "en") for one in row.panel_assumed]
     assert told == [heading.split(" [")[0]]
     given = {
         "cut of the net": lambda one: one.cut,
@@ -103,30 +103,32 @@ def test_what_is_missing_is_named_and_assumed(with_panel, save, heading):
         "lower rope": lambda one: one.lower.stiffness,
     }
     for key, find in given.items():
-        found = {find(one) for one in panel.panels}
+        found = {find(one) for one in row.panels}
         assert (found == {find(whole)}) is (key != heading), key
 
 
 def test_a_rope_without_stiffness_is_named(with_panel, save):
     with_panel["Ropes"][-1][2] = None
-    panel = read_site(save(with_panel)).rows[0].panel
-    (told,) = panel.assumed
+    row = read_site(save(with_panel)).rows[0]
+    (told,) = row.panel_assumed
     assert "axial stiffness of rope B2" in render(told, "en")
-    assert len({one.lower.stiffness for one in panel.panels}) > 1
-    assert {one.upper.stiffness for one in panel.panels} == {17.3e6}
+    assert len({one.lower.stiffness for one in row.panels}) > 1
+    assert {one.upper.stiffness for one in row.panels} == {17.3e6}
 
 
 def test_mid_anchors_that_nobody_states_may_be_there_or_not(with_panel, save):
     put(with_panel, "foot anchors in mid-panel", None)
-    panel = read_site(save(with_panel)).rows[0].panel
-    assert {one.has_mid_anchors for one in panel.panels} == {False, True}
-    assert [render(one, "en") for one in panel.assumed] == ["foot anchors in mid-panel"]
+    row = read_site(save(with_panel)).rows[0]
+    assert {one.has_mid_anchors for one in row.panels} == {False, True}
+    assert [render(one, "en") for one in row.panel_assumed] == [
+        "foot anchors in mid-panel"
+    ]
 
 
 def test_triangular_nets_are_named_as_not_covered(with_panel, save):
     put(with_panel, "panel system", "triangular")
     row = read_site(save(with_panel)).rows[0]
-    assert row.panel is None
+    assert row.panels == ()
     words = {"en": "triangular", "fr": "triangulaires", "de": "dreieckige "}
     for language in LANGUAGES:
         assert words[language] in render(row.panel_lack, language)
@@ -136,7 +138,8 @@ def test_a_net_without_ropes_has_nothing_to_say(sheets, save):
     sheets["Nets"][0].append("panel system")
     sheets["Nets"][1].append("none")
     row = read_site(save(sheets)).rows[0]
-    assert row.panel is row.panel_lack is None
+    assert row.panels == ()
+    assert row.panel_lack is None
     assert [one.member for one in row.net_parts] == [NetPart.MESH]
 
 
@@ -183,7 +186,7 @@ def test_columns_in_other_languages(with_panel, save, language):
         place = with_panel["Nets"][0].index(old)
         with_panel["Nets"][0][place] = new
         with_panel["Nets"][1][place] = value
-    (panel,) = read_site(save(with_panel)).rows[0].panel.panels
+    (panel,) = read_site(save(with_panel)).rows[0].panels
     assert (panel.cut, panel.upper.stiffness) == ("upper", 17.3e6)
 
 

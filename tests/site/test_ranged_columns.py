@@ -7,7 +7,7 @@ import pytest
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import USUAL, Case
 from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
-from netdesign.site.columns.unit_names import convert_unit
+from netdesign.site.columns.fields import convert_unit
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.small_site import build_row

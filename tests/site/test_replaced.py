@@ -3,8 +3,8 @@
 import pytest
 
 from netdesign.outcome import SiteDataError
+from netdesign.site.declared_sheet import split_replacement, write_replacement
 from netdesign.site.reader import read_site
-from netdesign.site.replaced import split_replacement, write_replacement
 from tests.short_example import write_short_example
 from tests.tiny_site import SHEETS
 

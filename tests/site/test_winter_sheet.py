@@ -7,7 +7,7 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import TextFormat
 from netdesign.site.reader import read_site
-from netdesign.site.winter_sheet import read_height_file
+from netdesign.site.snow_sheets import read_height_file
 
 HEADINGS = ["date", "snow height of the station [cm]", "air temperature [°C]"]
 

@@ -17,7 +17,6 @@ from netdesign.site.model import (
     Project,
     Resistance,
     RowEnd,
-    RowPanel,
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
@@ -51,7 +50,7 @@ def a_panel(spacing=3.5, **changes):
         "upper": Rope(stiffness=19.1e6, sag=0.057),
         "cut": "upper",
     }
-    return RowPanel(panels=(Panel(**(values | changes)),))
+    return (Panel(**(values | changes)),)
 
 
 def an_end(angle=40.0, value=1e7):
@@ -80,7 +79,7 @@ def an_end(angle=40.0, value=1e7):
 def with_panel(panel, *, end=None, **changes):
     """Row with this panel, held along the row unless told otherwise; or without one."""
     end = (end or an_end()) if panel else None
-    return build_row("R1", panel=panel, row_end=end, **changes)
+    return build_row("R1", panels=panel, row_end=end, **changes)
 
 
 def judge(row, *, standard=PROFILE, solver=None, ranges=RANGES):
@@ -96,7 +95,7 @@ def checks_of(study):
 @pytest.fixture(scope="module")
 def pair():
     """The same row without and with a panel."""
-    return [judge(with_panel(one))[1] for one in (None, a_panel())]
+    return [judge(with_panel(one))[1] for one in ((), a_panel())]
 
 
 def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
@@ -205,12 +204,12 @@ def test_no_demand_falls_below_that_without_a_panel(seed):
         judge(
             replace(
                 row,
-                panel=one,
+                panels=one,
                 row_end=end,
-                net_parts=list_net_parts(has_ropes=one is not None),
+                net_parts=list_net_parts(has_ropes=bool(one)),
             )
         )[1]
-        for one, end in ((None, None), (panel, an_end()))
+        for one, end in (((), None), (panel, an_end()))
     )
     before, after = checks_of(plain), checks_of(both)
     assert [name for name in after if name in before] == list(before)
@@ -265,7 +264,7 @@ def test_the_panel_alone_can_fail_a_guy():
     resistances = resist(uphill_guy__rope=middle)
     verdicts = [
         checks_of(judge(with_panel(one, resistances=resistances))[1])
-        for one in (None, a_panel())
+        for one in ((), a_panel())
     ]
     assert verdicts[0]["uphill_guy.rope"].verdict is Verdict.PASS
     assert verdicts[1]["uphill_guy.rope"].verdict is Verdict.FAIL
@@ -276,7 +275,7 @@ def test_limits_of_single_values_follow_the_panel(pair):
     by_panel = checks_of(pair[1])["uphill_guy.rope.end"]
     resistance = 1.06 * by_panel.read_band("E_d")[1] * by_panel.read("γ_R") * 1e3
     found = []
-    for panel in (None, a_panel()):
+    for panel in ((), a_panel()):
         resistances = resist(uphill_guy__rope=resistance)
         row = with_panel(panel, resistances=resistances)
         _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))

@@ -66,7 +66,7 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
 def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost():
     """A system that is not computed must not turn a row with an end guy into a pass."""
     row = with_panel(a_panel(), end=an_end(angle=37.0))
-    row = replace(row, panel=None, panel_lack=say("panel.triangular"))
+    row = replace(row, panels=(), panel_assumed=(), panel_lack=say("panel.triangular"))
     site, study = judge(row)
     checks = checks_of(study)
     bare = {"row_end": None, "panel_lack": None, "net_parts": row.net_parts[:1]}
@@ -166,7 +166,7 @@ def test_weak_end_fails():
 
 
 def test_a_row_that_goes_on_has_no_end():
-    row = build_row("R1", panel=a_panel(), gap=0.0)
+    row = build_row("R1", panels=a_panel(), gap=0.0)
     _, study = judge(row)
     assert not [one for one in study.rows[0].checks if one.id.endswith(".end")]
 

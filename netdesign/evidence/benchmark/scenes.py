@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from netdesign.coupling.scene import Scene
-from netdesign.files.scene import SceneFile, build_scene
+from netdesign.files.scene import SceneFile, build_given
 from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import GROUND_KINDS
@@ -58,7 +58,7 @@ def load_scenes(names: tuple[str, ...] = ()) -> dict[str, Scene]:
 
 def build_tables(tables: Tables) -> Scene:
     """Scene of the tables of a scene file."""
-    return build_scene(SceneFile.model_validate(tables))[0]
+    return build_given(SceneFile.model_validate(tables)).scene
 
 
 # Usual ranges of the symbols; stiffness and slip length are drawn on a log scale.

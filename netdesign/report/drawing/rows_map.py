@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.files.rows_map import RowsMap
-from netdesign.files.verdict_map import MeasuredPlace
+from netdesign.files.rows_map import MeasuredPlace, RowsMap
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.label_board import LINE_PT, Label, LabelBoard
 from netdesign.report.drawing.letters import measure_words

@@ -15,10 +15,13 @@ from io import BytesIO
 from typing import Any
 
 from netdesign.outcome import ContentError
-from netdesign.site.cells.cells import Cell, MergedRange, Sheet, group_by_row
-from netdesign.site.cells.limits import (
+from netdesign.site.cells.cells import (
     MAX_COLUMNS,
     MAX_ROWS,
+    Cell,
+    MergedRange,
+    Sheet,
+    group_by_row,
     require_columns,
     require_rows,
 )

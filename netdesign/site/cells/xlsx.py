@@ -11,15 +11,18 @@ from string import ascii_uppercase
 from typing import TYPE_CHECKING, Any
 
 from netdesign.outcome import ContentError, NetDesignError
-from netdesign.site.cells.cells import Cell, MergedRange, Sheet, group_by_row
-from netdesign.site.cells.findings import refuse_file
-from netdesign.site.cells.limits import (
+from netdesign.site.cells.cells import (
     MAX_COLUMNS,
     MAX_ROWS,
+    Cell,
+    MergedRange,
+    Sheet,
+    group_by_row,
     guard_archive,
     require_columns,
     require_rows,
 )
+from netdesign.site.cells.findings import refuse_file
 from netdesign.site.cells.numbers import (
     DecimalMark,
     find_format_unit,

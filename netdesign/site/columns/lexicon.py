@@ -13,8 +13,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from netdesign.site.columns.all_tables import load_file
-from netdesign.site.columns.fields import Field, SheetPlan, normalise, split_heading
-from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
+from netdesign.site.columns.fields import (
+    KNOWN_UNITS,
+    Field,
+    SheetPlan,
+    normalise,
+    normalise_unit,
+    split_heading,
+)
 
 LONGEST_HEADING = 100
 # Without brackets these are as often names as units: N is newton and glide factor.

@@ -12,9 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.given_files import make_printable
-from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat
+from netdesign.site.cells.cells import DAMAGE, UNDECLARED, Sheet, TextFormat
 from netdesign.site.cells.findings import Finding, refuse_file
-from netdesign.site.cells.limits import DAMAGE
 from netdesign.site.cells.xlsx import open_for_editing
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_cells

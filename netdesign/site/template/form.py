@@ -13,10 +13,10 @@ from netdesign.site.cells.findings import fold_findings
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import TESTS
 from netdesign.site.headings import Table
-from netdesign.site.mapping import is_meant
 from netdesign.site.readings import Row
 from netdesign.site.tables import find_table, read_rows
 from netdesign.site.template.workbook import start_book, write_sheet
+from netdesign.site.titles import is_meant
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 

@@ -7,8 +7,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from netdesign.files.rows_map import RowsMap
-from netdesign.files.verdict_map import MeasuredPlace
+from netdesign.files.rows_map import MeasuredPlace, RowsMap
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.raster import render_png
 from netdesign.report.drawing.rows_map import MappedRow, draw_rows_map

@@ -13,7 +13,7 @@ from netdesign.site.cells.numbers import (
     show_thousands,
 )
 from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.columns.unit_names import KNOWN_UNITS, convert_unit, normalise_unit
+from netdesign.site.columns.fields import KNOWN_UNITS, convert_unit, normalise_unit
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from tests.site.cells.ods_files import write_ods

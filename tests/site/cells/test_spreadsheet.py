@@ -7,7 +7,8 @@ import pytest
 import xlsxwriter
 
 from netdesign.outcome import NetDesignError, SiteDataError
-from netdesign.site.cells import limits, spreadsheet
+from netdesign.site.cells import cells as limits
+from netdesign.site.cells import spreadsheet
 from netdesign.site.cells.cells import name_column
 from netdesign.site.cells.spreadsheet import read_workbook
 

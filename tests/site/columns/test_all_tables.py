@@ -3,8 +3,13 @@ import math
 import pytest
 
 from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
-from netdesign.site.columns.fields import normalise, split_heading
-from netdesign.site.columns.unit_names import convert_unit, normalise_unit, to_si
+from netdesign.site.columns.fields import (
+    convert_unit,
+    normalise,
+    normalise_unit,
+    split_heading,
+    to_si,
+)
 from netdesign.site.model import MEMBER_MODES, NAMED_BY
 
 TABLES = {plan.name: plan.fields for plan in SHEETS} | {

@@ -13,8 +13,7 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     load_file,
 )
-from netdesign.site.columns.fields import Kind
-from netdesign.site.columns.unit_names import KNOWN_UNITS
+from netdesign.site.columns.fields import KNOWN_UNITS, Kind
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.axis import LEAST_AXIS, MOST_AXIS
 from netdesign.structure.layout import DEFAULT_POST_TILT

@@ -79,11 +79,11 @@ def test_a_panel_of_which_something_is_empty_is_assumed(tmp_path, sheet, key):
     write_lines(tmp_path / "whole.xlsx", lines)
     write_lines(tmp_path / "less.xlsx", empty(lines, [(sheet, 0, key)]))
     whole, less = (
-        read_site(tmp_path / name).rows[0].panel for name in ("whole.xlsx", "less.xlsx")
+        read_site(tmp_path / name).rows[0] for name in ("whole.xlsx", "less.xlsx")
     )
     name = f"column.{sheet}.{key}"
-    assert name not in [one.key for one in whole.assumed]
-    assert name in [one.key for one in less.assumed]
+    assert name not in [one.key for one in whole.panel_assumed]
+    assert name in [one.key for one in less.panel_assumed]
     assert len(less.panels) > 1 or key == "panel_system" or less.panels == whole.panels
 
 

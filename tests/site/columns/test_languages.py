@@ -8,7 +8,7 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     load_file,
 )
-from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.columns.fields import split_heading
 from netdesign.site.template.workbook import describe_accepted
 from netdesign.words.catalogue import LANGUAGES, render
 
@@ -85,20 +85,3 @@ def test_numbers_are_the_same_in_every_language(language):
             assert "." not in "".join(told[:2]) or language == "en"
             unitless = [float(number.replace(",", ".")) for number in told[:2]]
             assert unitless == pytest.approx(list(field.bounds), rel=1e-9)
-
-
-def test_another_english_name_tells_no_language():
-    """Every language uses min or max."""
-    ranges = next(plan for plan in SHEETS if plan.name == "Ranges")
-    quantity = next(one for one in ranges.fields if one.key == "quantity")
-    label = quantity.label_in("fr")
-    headings = [normalise(label), normalise("min")]
-    assert ranges.find_language(headings, "Sheet1") == "fr"
-
-
-def test_the_name_of_a_sheet_outweighs_a_heading_that_languages_share():
-    posts = next(one for one in SHEETS if one.name == "Posts")
-    headings = [normalise("aire de la section"), normalise("MBL")]
-    assert posts.find_language(headings, "Posts") == "en"
-    assert posts.find_language(headings, "Poteaux") == "fr"
-    assert posts.find_language([], "Stützen") == "de"

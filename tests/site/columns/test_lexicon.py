@@ -13,8 +13,8 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     load_file,
 )
+from netdesign.site.columns.fields import normalise_unit
 from netdesign.site.columns.lexicon import Lexicon, find_unit, fold, read_part
-from netdesign.site.columns.unit_names import normalise_unit
 
 LISTS = [(plan, plan.fields) for plan in SHEETS]
 LISTS += [(plan, plan.items) for plan in SHEETS if plan.items]

@@ -3,7 +3,7 @@ import math
 import pytest
 
 from netdesign.site.columns.all_tables import RANGE_QUANTITIES, SHEETS
-from netdesign.site.columns.unit_names import (
+from netdesign.site.columns.fields import (
     UNCLEAR_UNITS,
     convert_unit,
     normalise_unit,
