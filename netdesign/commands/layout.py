@@ -139,7 +139,7 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     if asked["as_json"]:
         print_document(document)
     else:
-        _tell_plan(document, study, asked["language"])
+        _tell_plan(document, study, proposed, asked["language"])
     ended = failed or find_exit_code([study])
     raise SystemExit(ended or (0 if document["is_covered"] else _NOT_PROVEN))
 
@@ -458,18 +458,21 @@ def _write(
         report_places([list(files)], language, quiet=False)
 
 
-def _tell_plan(document: Mapping[str, Any], study: Study, language: Language) -> None:
+def _tell_plan(
+    document: Mapping[str, Any], study: Study, proposed: _Proposed, language: Language
+) -> None:
     from netdesign.report.terminal import open_console, print_summary
+    from netdesign.terrain.measure import describe_kinks, describe_steep_above
 
     for row in document["rows"]:
-        told = {key: row[key] for key in ("length_m", "posts", "upslope_length_m")}
-        verdict = say(f"verdict.{row['verdict']}")
-        tell(
-            say("layout.row", row=row["id"], net=row["net"], verdict=verdict, **told),
-            language,
-        )
-    keys = ("length_m", "posts", "zone_m2", "uncovered_m2")
-    sums = {key: document[key] for key in keys}
+        keys = ("length_m", "posts", "upslope_length_m")
+        shown = {key: row[key] for key in keys}
+        tell(say("layout.row", row=row["id"], net=row["net"], **shown), language)
+    for one in proposed.rows:
+        for told in filter(None, (describe_kinks(one), describe_steep_above(one))):
+            tell(told, language)
+    of_sums = ("length_m", "posts", "zone_m2", "uncovered_m2")
+    sums = {key: document[key] for key in of_sums}
     tell(say("layout.sums", rows=len(document["rows"]), **sums), language)
     if "cost" in document:
         tell(say("layout.cost", cost=document["cost"]), language)
