@@ -113,8 +113,8 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     \b
     netdesign layout --example
     netdesign layout grid.asc zone.geojson --types types.xlsx --snow 3.8
-    netdesign layout grid.asc zone.geojson --types types.xlsx --snow 3.2 \\
-        --snow-altitude 1850 --snow-gradient 0.15 --prices prices.csv
+    netdesign layout grid.asc zone.geojson --types types.xlsx --snow-grid snow.tif
+    netdesign layout grid.asc zone.geojson --types types.xlsx --prices prices.csv
 
     Rows of 12 to 60 m follow the contours, as far apart as the guideline allows on the
     steepest slope between them. Each has the lowest net of sheet Nets that is as high

@@ -1,4 +1,4 @@
-"""What a fit is given: readings with their noise, parameters with their priors.
+"""Inputs of a fit: readings with their noise, parameters with their priors.
 
 Theory: winter/THEORY.md, section 7.
 """

@@ -29,17 +29,17 @@ def read_study(path):
 def test_sizing_writes_a_study_that_its_own_command_makes_again(site, call):
     ended = call("check", "site.xlsx", *QUICK, "--size", "--out", "a", *BARE)
     assert ended.code == 4, ended.err  # of the site as built
-    assert "smallest type of the workbook that passes is A28-computed" in ended.out
+    assert "smallest type of the workbook that passes is A28-tested" in ended.out
     built, sized = (read_study(site / f"a/{n}study.json") for n in ("", "what-if-"))
     assert (built["verdict"], built["what_if"]) == ("not_proven", [])
     assert sized["verdict"] == "pass"
     assert sized["what_if"] == [
-        {"cell": "Nets!P2", "was": "A25-untested", "now": "A28-computed"}
+        {"cell": "Nets!P2", "was": "A25-untested", "now": "A28-tested"}
     ]
     command = sized["provenance"]["command"]
     assert "--size" not in command.split()
-    assert command.endswith("--what-if Nets.P2=A28-computed")
-    given = ("--what-if", "Nets.P2=A28-computed")
+    assert command.endswith("--what-if Nets.P2=A28-tested")
+    given = ("--what-if", "Nets.P2=A28-tested")
     ended = call("check", "site.xlsx", *QUICK, *given, "--out", "b", *BARE)
     assert ended.code == 4, ended.err  # it proves nothing of the site
     assert [path.name for path in (site / "b").glob("[!.]*")] == ["what-if-study.json"]

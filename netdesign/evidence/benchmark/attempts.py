@@ -99,7 +99,8 @@ def attempt_scenes(
 
     Verified by
     -----------
-    tests/evidence/benchmark/test_stress_report.py, test_honesty.py
+    tests/evidence/benchmark/test_stress_report.py
+    tests/evidence/benchmark/test_honesty.py
     """
     work = partial(attempt_scene, seed=seed, accuracy=accuracy, is_compared=is_compared)
     numbers = islice(list_accepted(seed), count) if is_compared else range(count)

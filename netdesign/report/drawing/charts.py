@@ -88,7 +88,7 @@ class Panel:
 
     @property
     def words(self) -> list[str]:
-        """What stands at its right."""
+        """Label at its right."""
         return [*(line.label for line in self.lines), *(text for _, text in self.key)]
 
     @property

@@ -10,8 +10,8 @@ import pytest
 
 from netdesign import cli
 from netdesign.checks import load_standard
+from netdesign.commands import evidence as verify_command
 from netdesign.commands import stored_study
-from netdesign.commands import verify as verify_command
 from netdesign.outcome import StudyError
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
