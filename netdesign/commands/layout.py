@@ -27,7 +27,7 @@ from netdesign.commands.options import (
     solving_options,
 )
 from netdesign.commands.running import (
-    find_exit_code,
+    EXIT_CODES,
     format_time,
     open_run,
     print_document,
@@ -35,7 +35,7 @@ from netdesign.commands.running import (
     report_places,
 )
 from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.outcome import TerrainError
+from netdesign.outcome import TerrainError, Verdict
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
@@ -61,7 +61,6 @@ _GUIDELINE = "swiss-guideline-2007"
 _SITE, _ROWS, _DRAWN, _PLAN = "site.xlsx", "rows.geojson", "plan.geojson", "plan.json"
 _ENDS = "Ends"  # sheet of the lines on the ends of rows
 _LEFT_OPEN = 0.1  # of the steep ground; a plan that leaves more is not whole [-]
-_NOT_PROVEN = 4  # exit code
 _EXAMPLE_SNOW = 3.2  # vertical [m]
 _LOOKED_FOR = 50.0  # of snow above a row, as `terrain` does [m]
 _FILE = click.Path(path_type=Path, dir_okay=False)
@@ -140,8 +139,7 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
         print_document(document)
     else:
         _tell_plan(document, study, proposed, asked["language"])
-    ended = failed or find_exit_code([study])
-    raise SystemExit(ended or (0 if document["is_covered"] else _NOT_PROVEN))
+    raise SystemExit(failed or EXIT_CODES[Verdict(document["verdict"])])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -402,10 +400,12 @@ def _describe(given: _Given, proposed: _Proposed, study: Study) -> dict[str, Any
             unknown |= dict.fromkeys(left_out)
             one["cost"] = round(cost, 2)
         rows.append(one)
+    is_covered = proposed.coverage.share <= _LEFT_OPEN
+    is_open = not is_covered and study.verdict is not Verdict.FAIL
     found: dict[str, Any] = {
         "schema": "netdesign.layout/1",
-        "verdict": str(study.verdict),
-        "is_covered": proposed.coverage.share <= _LEFT_OPEN,
+        "verdict": str(Verdict.NOT_PROVEN if is_open else study.verdict),
+        "is_covered": is_covered,
         "length_m": round(sum(row.length for row in proposed.rows), 2),
         "posts": sum(len(row.posts) for row in proposed.rows),
         "zone_m2": proposed.coverage.area,

@@ -27,6 +27,7 @@ _LEAST_SNOW = 10.0  # above a row, along the ground: anchors of nearer rows meet
 _CLEAR = 14.0  # below another row: anchors of nearer rows meet [m]
 _STEEPEST = math.radians(60.0)  # ground on which a row may stand
 _STEP = 1.0  # along a contour, between two lines of fall [m]
+_FARTHEST = 100.0  # along a line of fall, that is looked at [m]
 _WIDE = 300.0  # along a contour, to each side [m]
 _SPARE = 0.98  # of the largest distance, for what lies between two lines of fall [-]
 _FOOT = 0.92  # of it below the highest place: beside it the lines may be longer [-]
@@ -107,7 +108,8 @@ class Task:
     @property
     def farthest(self) -> float:
         """Largest distance that any row holds, on the flattest ground [m]."""
-        return self.find_reach(LEAST_STEEP, self.constructions[-1].net_height)
+        reach = self.find_reach(LEAST_STEEP, self.constructions[-1].net_height)
+        return min(reach, _FARTHEST)  # a profile may have no cap
 
     def find_spared_reach(self, place: Floats, slope: float) -> float:
         """Distance that a row at a place holds, of the net that its snow needs [m]."""

@@ -76,6 +76,27 @@ def test_the_plan_has_rows_verdicts_sums_and_cost(planned):
     }
 
 
+def test_a_plan_that_leaves_ground_open_is_not_proven(zone, call, tmp_path):
+    """A wedge of a zone, which narrows to nothing: rows have no room in its tip."""
+    document = json.loads((zone / "zone.geojson").read_text())
+    ring = np.array(document["features"][0]["geometry"]["coordinates"][0])
+    (west, south), (_, north) = ring.min(axis=0), ring.max(axis=0)
+    wedge = [[west, north], [west + 40.0, north], [west + 20.0, south], [west, north]]
+    document["features"][0]["geometry"]["coordinates"] = [wedge]
+    (tmp_path / "wedge.json").write_text(json.dumps(document))
+    ended = call(
+        *("layout", zone / "grid.asc", tmp_path / "wedge.json", "--snow", 3.2),
+        *("--types", zone / "types.xlsx", "--out", tmp_path / "out"),
+        *("--accuracy", 0.05),
+    )
+    told = json.loads((tmp_path / "out" / "plan.json").read_text())
+    assert told["uncovered_m2"] > 0.1 * told["zone_m2"]
+    assert told["is_covered"] is False
+    assert told["verdict"] in ("not_proven", "fail")
+    assert ended.code in (1, 4)
+    assert "held by no row" in ended.out
+
+
 def test_each_row_checked_alone_has_the_verdict_of_the_plan(planned, call, tmp_path):
     _, out, document = planned
     for one in document["rows"]:

@@ -189,3 +189,20 @@ def test_a_hill_all_round_is_closed_by_rows_that_do_not_meet():
     for one, other in combinations(rows, 2):
         apart = one.points[:, None] - other.points[None]
         assert np.hypot(*np.moveaxis(apart, -1, 0)).min() > 0.45 * GAP
+
+
+def test_a_profile_without_a_cap_ends_what_is_looked_at():
+    """On 25 degrees the ground alone may hold the snow: no distance is too large."""
+    grid = build_grid(plane(math.radians(33.0)), size=200.0)
+    zone = rectangle(40.0, 50.0)
+    task = Task(
+        surface=choose_window(grid, zone),
+        zones=[zone],
+        constructions=NETS,
+        find_snow=lambda places: np.full(len(places), 3.2),
+        find_reach=lambda slope, height: compute_largest_row_spacing(
+            slope, height, FRICTION
+        ),
+    )
+    assert math.isinf(task.find_reach(math.radians(25.0), 3.0))
+    assert propose_rows(task)
