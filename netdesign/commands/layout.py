@@ -124,7 +124,10 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     if asked["example"]:
         if grid is not None or asked["types"] or asked["prices"]:
             raise UsageRefusal(say("layout.example_alone"))
-        asked |= _write_example(folder, overwrite=asked["force"])
+        from netdesign.terrain.example import write_example
+
+        files = write_example(folder, overwrite=asked["force"])
+        asked |= dict(zip(("grid", "zone", "types", "prices"), files, strict=True))
         if asked["snow"] is None and asked["snow_grid"] is None:
             asked["snow"] = _EXAMPLE_SNOW
         grid, zone = asked["grid"], asked["zone"]
@@ -175,35 +178,6 @@ def _require_free(folder: Path, asked: Mapping[str, Any]) -> None:
 
     names = (_SITE, _ROWS, _DRAWN, _PLAN, STUDY_FILE, PAGE_FILE)
     require_free([folder / one for one in names], overwrite=asked["force"])
-
-
-def _write_example(folder: Path, *, overwrite: bool) -> dict[str, Any]:
-    """Files of the made-up starting zone, and options that read them."""
-    from netdesign.edge.output import write_files
-    from netdesign.terrain.example import (
-        GRID_FILE,
-        PRICES_FILE,
-        ROWS_FILE,
-        TYPES_FILE,
-        build_example,
-        write_grid,
-        write_prices,
-        write_rows,
-        write_types,
-    )
-
-    ground = build_example()
-    grid, zone, types, prices = (
-        folder / one for one in (GRID_FILE, ROWS_FILE, TYPES_FILE, PRICES_FILE)
-    )
-    contents = {
-        grid: write_grid(ground),
-        zone: write_rows(ground),
-        types: write_types(),
-        prices: write_prices(),
-    }
-    write_files(contents, overwrite=overwrite)
-    return {"grid": grid, "zone": zone, "types": types, "prices": prices}
 
 
 def _read(grid: Path, zone: Path, asked: Mapping[str, Any]) -> _Given:

@@ -110,7 +110,10 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     if asked["example"]:
         if grid is not None or folder is None:
             raise UsageRefusal(say("terrain.example_alone"))
-        grid, rows, asked["types"] = _write_example(folder, overwrite=asked["force"])
+        from netdesign.terrain.example import write_example
+
+        files = write_example(folder, overwrite=asked["force"])
+        grid, rows, asked["types"], _ = files
     if grid is None or rows is None:
         raise UsageRefusal(say("terrain.no_input"))
     _measure(grid, rows, folder, site, asked, language)
@@ -167,26 +170,6 @@ def _place(asked: Mapping[str, Any]) -> tuple[Path | None, str]:
     names = (site.name, _ROWS, PAGE_FILE)
     require_free([site.parent / one for one in names], overwrite=asked["force"])
     return site.parent, site.name
-
-
-def _write_example(folder: Path, *, overwrite: bool) -> tuple[Path, Path, Path]:
-    """Grid, rows and types of the made-up starting zone, written to a folder."""
-    from netdesign.edge.output import write_files
-    from netdesign.terrain.example import (
-        GRID_FILE,
-        ROWS_FILE,
-        TYPES_FILE,
-        build_example,
-        write_grid,
-        write_rows,
-        write_types,
-    )
-
-    ground = build_example()
-    grid, rows, types = (folder / one for one in (GRID_FILE, ROWS_FILE, TYPES_FILE))
-    places = {grid: write_grid(ground), rows: write_rows(ground), types: write_types()}
-    write_files(places, overwrite=overwrite)
-    return grid, rows, types
 
 
 def _measure(

@@ -11,51 +11,53 @@ from netdesign.numerics.arrays import Floats, Mask
 from netdesign.terrain.fall_line import FallLines
 
 
-def find_crossing(
-    lines: FallLines, line: int, other: Floats, *, least: float
-) -> float | None:
-    """Length at which a line of fall first crosses another one [m].
+def find_first_crossings(
+    lines: FallLines, line: int, others: Sequence[tuple[str, Floats]], *, least: float
+) -> dict[str, float]:
+    """Lengths at which a line of fall first crosses other lines, by their names [m].
 
-    Crossings nearer to the start than ``least`` [m] do not count. None without any.
+    Crossings nearer to the start than ``least`` [m] do not count. Lines of one name are
+    one.
 
     Verified by
     -----------
     tests/terrain/test_measure.py
     """
-    found = list_crossings(lines, line, other)
-    return next((one for one in found if one > least), None)
+    if not others:
+        return {}
+    names = [name for name, points in others for _ in points[1:]]
+    starts = np.concatenate([points[:-1] for _, points in others])
+    ends = np.concatenate([points[1:] for _, points in others])
+    found: dict[str, float] = {}
+    for length, which in _list_crossings(lines, line, starts, ends):
+        if length > least:
+            found.setdefault(names[which], length)
+    return found
 
 
-def list_crossings(lines: FallLines, line: int, other: Floats) -> list[float]:
-    """Lengths along the ground at which a line of fall crosses another one [m].
+def _list_crossings(
+    lines: FallLines, line: int, starts: Floats, ends: Floats
+) -> list[tuple[float, int]]:
+    """Lengths at which a line of fall crosses segments [m], and which; nearest first.
 
-    Parameters
-    ----------
-    lines : FallLines
-        Of some points.
-    line : int
-        Which of them.
-    other : ndarray, shape (m, 2)
-        Points of the other line [m].
+    Shapes of both (m, 2) [m].
     """
     points, lengths = lines.points[:, line], lines.lengths[:, line]
     known = np.isfinite(points).all(axis=1) & np.isfinite(lengths)
     points, lengths = points[known], lengths[known]
     if len(points) < 2:
         return []
-    low, high = other.min(axis=0), other.max(axis=0)
-    if (points.max(axis=0) < low).any() or (points.min(axis=0) > high).any():
-        return []
     start, way = points[:-1, None], np.diff(points, axis=0)[:, None]
-    corner, side = other[None, :-1], np.diff(other, axis=0)[None]
+    corner, side = starts[None], (ends - starts)[None]
     crossed = _cross(way, side)
     with np.errstate(divide="ignore", invalid="ignore"):
         along = _cross(corner - start, side) / crossed
         beside = _cross(corner - start, way) / crossed
     # half open, so that a crossing at a corner counts once
     meets = (along >= 0.0) & (along < 1.0) & (beside >= 0.0) & (beside < 1.0)
-    steps, _ = np.nonzero(meets)
-    return sorted((lengths[steps] + along[meets] * np.diff(lengths)[steps]).tolist())
+    steps, which = np.nonzero(meets)
+    at = lengths[steps] + along[meets] * np.diff(lengths)[steps]
+    return sorted(zip(at.tolist(), which.tolist(), strict=True))
 
 
 def find_exit(lines: FallLines, line: int, rings: Sequence[Floats]) -> float | None:
@@ -70,7 +72,8 @@ def find_exit(lines: FallLines, line: int, rings: Sequence[Floats]) -> float | N
     """
     spans: list[tuple[float, float]] = []
     for ring in rings:
-        edges = list_crossings(lines, line, np.vstack((ring, ring[:1])))
+        crossed = _list_crossings(lines, line, ring, np.roll(ring, -1, axis=0))
+        edges = [length for length, _ in crossed]
         if is_inside(lines.points[:1, line], ring)[0]:
             edges = [0.0, *edges]
         spans += zip(edges[::2], [*edges[1::2], math.inf], strict=False)
@@ -85,14 +88,6 @@ def find_exit(lines: FallLines, line: int, rings: Sequence[Floats]) -> float | N
 
 def _cross(one: Floats, other: Floats) -> Floats:
     return one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
-
-
-def is_in_any(places: Floats, rings: Sequence[Floats]) -> Mask:
-    """Places inside any of some rings, shape (n,)."""
-    found = np.zeros(len(places), dtype=bool)
-    for ring in rings:
-        found |= is_inside(places, ring)
-    return found
 
 
 def is_inside(places: Floats, ring: Floats) -> Mask:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 
+from netdesign.edge.output import write_files
 from netdesign.numerics.arrays import Floats
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.template.workbook import load_example, render_workbook
@@ -83,6 +85,20 @@ def build_example() -> Grid:
     heights = np.round(1850.0 + steep + flat + gully + rib + noise, 2)
     west, south = _EAST + 0.5 * _CELL, _NORTH + 0.5 * _CELL
     return Grid(west=west, south=south, cell=_CELL, heights=heights)
+
+
+def write_example(folder: Path, *, overwrite: bool) -> tuple[Path, Path, Path, Path]:
+    """Write grid, rows with their zone, types and prices to a folder; their places."""
+    ground = build_example()
+    contents = {
+        folder / GRID_FILE: write_grid(ground),
+        folder / ROWS_FILE: write_rows(ground),
+        folder / TYPES_FILE: write_types(),
+        folder / PRICES_FILE: write_prices(),
+    }
+    write_files(contents, overwrite=overwrite)
+    grid, rows, types, prices = contents
+    return grid, rows, types, prices
 
 
 def write_grid(grid: Grid) -> bytes:

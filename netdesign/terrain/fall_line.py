@@ -13,6 +13,10 @@ import numpy as np
 from netdesign.numerics.arrays import Floats
 from netdesign.terrain.surface import Surface
 
+LONGEST_BENCH = 6.0  # of level or opposite ground, across which a line goes on [m]
+_LEAST_RISE = (
+    0.2  # of a step that leads farther; steps to and fro over a top do not [-]
+)
 _FLAT = 1e-9  # a gradient below it has no direction [-]
 
 
@@ -25,13 +29,23 @@ class FallLines:
     points : ndarray, shape (K + 1, n, 2)
         East and north [m].
     heights, steepness, lengths : ndarray, shape (K + 1, n)
-        Of the ground [m], its angle [rad], length along the ground from the start [m].
+        Of the ground [m]; its angle, negative against the line [rad]; length along the
+        ground from the start [m].
     """
 
     points: Floats
     heights: Floats
     steepness: Floats
     lengths: Floats
+
+    def take(self, lines: slice) -> FallLines:
+        """Some of them."""
+        return FallLines(
+            points=self.points[:, lines],
+            heights=self.heights[:, lines],
+            steepness=self.steepness[:, lines],
+            lengths=self.lengths[:, lines],
+        )
 
     def find_length(self, line: int) -> float:
         """Length of a line up to where it ends on the grid [m]."""
@@ -42,6 +56,9 @@ def follow_fall(
     surface: Surface, starts: Floats, *, most: float, is_up: bool
 ) -> FallLines:
     """Follow the line of fall from points, by the midpoint rule.
+
+    Each ends with the first step that reaches its length, or at a top or a bottom.
+    Over a boulder or a bench it follows the fall of the ground around.
 
     Parameters
     ----------
@@ -58,31 +75,53 @@ def follow_fall(
     -----------
     tests/terrain/test_measure.py
     """
-    step = surface.grid.cell
-    sign = 1.0 if is_up else -1.0
+    step, sign = surface.step, 1.0 if is_up else -1.0
     ground = surface.at(starts)
     points, heights, angles = [starts], [ground.height], [ground.steepness]
-    lengths = [np.where(np.isfinite(ground.height), 0.0, math.nan)]
+    lengths, rises = [0.0 * ground.height], [np.isfinite(ground.height)]
+    farthest, stalled = sign * ground.height, np.zeros(len(starts))
+    least = _LEAST_RISE * step
     for _ in range(math.ceil(most / step) + 1):
-        here = points[-1]
-        half = surface.at(here + 0.5 * step * sign * _direct(ground.gradient))
-        there = here + step * sign * _direct(half.gradient)
-        ground = surface.at(there)
-        rise = ground.height - heights[-1]
-        goes_on = sign * rise > 0.0  # not beyond a top, nor a bottom
-        length = np.where(goes_on, lengths[-1] + np.hypot(step, rise), math.nan)
-        points.append(np.where(np.isfinite(length)[:, None], there, math.nan))
-        heights.append(ground.height)
-        angles.append(ground.steepness)
-        lengths.append(length)
-        if not (length < most).any():
+        goes_on = (lengths[-1] < most) & (stalled <= LONGEST_BENCH)
+        if not goes_on.any():
             break
+        half = surface.at(points[-1] + 0.5 * step * sign * _direct(ground.gradient))
+        there = points[-1] + step * sign * _direct(half.gradient)
+        ground = surface.at(there)
+        is_farther = sign * ground.height > farthest + least
+        if (goes_on & ~is_farther).any():  # over a boulder or a bench
+            around = step * sign * _direct(_find_fall_around(surface, points[-1]))
+            there = np.where(is_farther[:, None], there, points[-1] + around)
+            ground = surface.at(there)
+            is_farther = sign * ground.height > farthest + least
+        farthest = np.where(is_farther, sign * ground.height, farthest)
+        stalled = np.where(is_farther, 0.0, stalled + step * goes_on)
+        nothing = np.where(goes_on, 0.0, math.nan)
+        rise = ground.height - heights[-1]
+        angle = np.where(sign * rise > 0.0, ground.steepness, -ground.steepness)
+        points.append(there + nothing[:, None])
+        heights.append(ground.height + nothing)
+        angles.append(angle + nothing)
+        lengths.append(lengths[-1] + np.hypot(step, rise) + nothing)
+        rises.append(is_farther)
+    # a line that nothing leads farther ended at its last top or bottom
+    goes_farther = np.logical_or.accumulate(rises[::-1])[::-1]
+    ended = np.where(goes_farther | (stalled <= LONGEST_BENCH), 0.0, math.nan)
     return FallLines(
-        points=np.stack(points),
-        heights=np.stack(heights),
-        steepness=np.stack(angles),
-        lengths=np.stack(lengths),
+        points=np.stack(points) + ended[..., None],
+        heights=np.stack(heights) + ended,
+        steepness=np.stack(angles) + ended,
+        lengths=np.stack(lengths) + ended,
     )
+
+
+def _find_fall_around(surface: Surface, places: Floats) -> Floats:
+    """Gradient of the ground over the width of two benches, shape (n, 2) [-]."""
+    turns = np.arange(8) * (math.pi / 4.0)
+    ring = np.column_stack((np.cos(turns), np.sin(turns)))
+    there = places[:, None] + LONGEST_BENCH * ring
+    heights = surface.at(there.reshape(-1, 2)).height.reshape(len(places), len(ring))
+    return np.asarray(heights @ ring / (0.5 * len(ring) * LONGEST_BENCH))
 
 
 def _direct(gradient: Floats) -> Floats:

@@ -14,8 +14,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.terrain.contour import go_along
-from netdesign.terrain.coverage import list_steep_places
-from netdesign.terrain.crossings import is_inside
+from netdesign.terrain.coverage import divide_zones
 from netdesign.terrain.fall_line import FallLines, follow_fall
 from netdesign.terrain.grid import Grid
 from netdesign.terrain.measure import BROKEN, LEAST_STEEP, find_flattest
@@ -121,44 +120,44 @@ class _Ground:
     """Squares of the zones, and which of them some row holds."""
 
     def __init__(self, task: Task) -> None:
-        self.side, self.places = list_steep_places(task.surface, task.zones)
-        self.heights = task.surface.at(self.places).height
-        self.is_sought = np.isfinite(self.heights)
-        self._corner = self.places.min(axis=0) if len(self.places) else np.zeros(2)
-        self._at = np.rint((self.places - self._corner) / self.side).astype(np.int64)
-        size = self._at.max(axis=0) + 3 if len(self.places) else (2, 2)
-        self._states = np.full(size, _ELSEWHERE, dtype=np.int8)
-        self._states[tuple(self._at.T + 1)] = _OPEN
+        self._squares = divide_zones(task.surface, task.zones)
+        is_steep: Mask = self._squares.is_steep
+        self._states: Ints = np.where(is_steep, _OPEN, _ELSEWHERE)
+        self._sought: Floats = np.full(
+            is_steep.shape, -math.inf
+        )  # heights, where looked at
+        heights = task.surface.at(self._squares.locate(is_steep)).height
+        self._sought[is_steep] = np.where(np.isfinite(heights), heights, -math.inf)
 
     def find_states(self, places: Floats) -> Ints:
         """State of the ground at places, shape (..., 2) -> (...)."""
-        found = (places - self._corner) / self.side + 1.0
-        outer = np.array(self._states.shape) - 1
-        is_on = np.asarray(np.isfinite(found).all(axis=-1))
-        at = np.rint(np.where(is_on[..., None], found, 0.0))
-        at = np.clip(at, 0, outer).astype(np.int64)
-        return np.where(is_on, self._states[at[..., 0], at[..., 1]], _ELSEWHERE)
+        at = np.rint((places - self._squares.corner) / self._squares.side)
+        ends = self._states.shape[::-1]
+        is_on: Mask = np.asarray(((at >= 0) & (at < ends)).all(axis=-1))
+        column, line = np.moveaxis(np.where(is_on[..., None], at, 0), -1, 0)
+        found = self._states[line.astype(np.int64), column.astype(np.int64)]
+        return np.where(is_on, found, _ELSEWHERE)
 
     def find_top(self) -> Floats | None:
         """Highest open place that has not been looked at; None without one."""
-        if not self.is_sought.any():
+        line, column = divmod(int(self._sought.argmax()), self._sought.shape[1])
+        if self._sought[line, column] == -math.inf:
             return None
-        return np.asarray(
-            self.places[
-                int(np.argmax(np.where(self.is_sought, self.heights, -math.inf)))
-            ]
-        )
+        return self._squares.corner + self._squares.side * np.array((column, line))
 
     def hold(self, strip: Floats) -> None:
         """Mark the squares inside a ring as held."""
-        inside = is_inside(self.places, strip)
-        self._states[tuple(self._at[inside].T + 1)] = _HELD
-        self.is_sought &= ~inside
+        part, inside = self._squares.find_inside(strip)
+        states = self._states[part]  # a view: marked in place
+        states[inside & (states == _OPEN)] = _HELD
+        self._sought[part][inside] = -math.inf
 
     def pass_over(self, top: Floats) -> None:
         """Look no more at a place, and at those beside it where no row has room."""
-        near = np.hypot(*(self.places - top).T) <= 0.5 * LEAST_ROW
-        self.is_sought &= ~near
+        turns = np.linspace(0.0, 2.0 * math.pi, 33)
+        round_it = np.column_stack((np.cos(turns), np.sin(turns)))
+        part, inside = self._squares.find_inside(top + 0.5 * LEAST_ROW * round_it)
+        self._sought[part][inside] = -math.inf
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ Theory: terrain/THEORY.md, (T4) to (T8).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -14,8 +14,8 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crossings import find_crossing, find_exit
-from netdesign.terrain.fall_line import FallLines, follow_fall
+from netdesign.terrain.crossings import find_exit, find_first_crossings
+from netdesign.terrain.fall_line import LONGEST_BENCH, FallLines, follow_fall
 from netdesign.terrain.grid import Grid
 from netdesign.terrain.plan import NetLine, Plan
 from netdesign.terrain.surface import Surface, choose_window
@@ -115,42 +115,115 @@ class MeasuredRow:
         return tuple(int(one) + 2 for one in np.flatnonzero(self.bends > KINK))
 
 
-def measure_row(
-    surface: Surface, plan: Plan, line: NetLine, *, most: float
-) -> MeasuredRow:
-    """Measure one net row.
+@dataclass(frozen=True, slots=True)
+class _DrawnRow:
+    """A row with its posts and the lines of fall through them."""
+
+    line: NetLine
+    posts: Floats
+    bends: Floats
+    above: FallLines
+    below: FallLines
+
+
+def measure_rows(
+    surface: Surface,
+    plan: Plan,
+    *,
+    most: float,
+    on_row: Callable[[object], None] | None = None,
+) -> list[MeasuredRow]:
+    """Measure the net rows of a plan.
 
     Parameters
     ----------
     surface : Surface
         Ground.
     plan : Plan
-        All rows, and the starting zones.
-    line : NetLine
-        The row.
+        Rows, and the starting zones.
     most : float
         Cap on the upslope length [m].
+    on_row : callable, optional
+        Called after each row.
 
     Raises
     ------
     TerrainError
-        If the row leaves the grid or meets a hole, is shorter than a post spacing, or
-        bends too much to be one row.
+        With the faults of all rows at once: one leaves the grid or meets a hole, is
+        shorter than a post spacing, or bends too much to be one row.
 
     Verified by
     -----------
     tests/terrain/test_measure.py
     """
-    posts = place_posts(surface, line)
-    places = posts[:, :2]
-    bends = find_bends(places)
-    if bends.size and bends.max() > BROKEN:
-        raise TerrainError(_refuse_bend(line, bends))
+    found = []
+    for drawn in _draw_rows(surface, plan, most):
+        found.append(_measure_row(surface, plan, drawn, most))
+        if on_row is not None:
+            on_row(drawn.line)
+    return found
+
+
+def _draw_rows(surface: Surface, plan: Plan, most: float) -> list[_DrawnRow]:
+    """Posts of all rows; their lines of fall are followed at once."""
+    found: list[tuple[NetLine, Floats, Floats]] = []
+    faults: list[Message] = []
+    for line in plan.lines:
+        try:
+            posts = place_posts(surface, line)
+        except TerrainError as error:
+            faults.append(error.message)
+            continue
+        bends = find_bends(posts[:, :2])
+        if bends.size and bends.max() > BROKEN:
+            faults.append(_refuse_bend(line, bends))
+        found.append((line, posts, bends))
+    if faults:
+        raise TerrainError(say("text.lines", lines=tuple(faults)))
+    places = np.concatenate([posts[:, :2] for _, posts, _ in found])
     above = follow_fall(surface, places, most=most, is_up=True)
     below = follow_fall(surface, places, most=most, is_up=False)
+    firsts = np.cumsum([0, *(len(posts) for _, posts, _ in found)]).tolist()
+    parts = [slice(one, other) for one, other in pairwise(firsts)]
+    return [
+        _DrawnRow(line, posts, bends, above.take(part), below.take(part))
+        for (line, posts, bends), part in zip(found, parts, strict=True)
+    ]
+
+
+def _measure_row(
+    surface: Surface, plan: Plan, drawn: _DrawnRow, most: float
+) -> MeasuredRow:
+    line, posts, above, below = drawn.line, drawn.posts, drawn.above, drawn.below
+    places = posts[:, :2]
     plan = plan.cut_to(np.concatenate((above.points, below.points)))
+    others = [
+        *((one.id, one.points) for one in plan.lines if one.id != line.id),
+        *(
+            (one.rows[0], one.points)
+            for one in plan.closed_gaps
+            if line.id not in one.rows
+        ),
+    ]
+    crossed, crossed_below = (
+        [
+            find_first_crossings(way, post, others, least=surface.grid.cell)
+            for post in range(len(posts))
+        ]
+        for way in (above, below)
+    )
     ends = tuple(
-        _end_above(surface, plan, line, above, post, most, of_zone)
+        _end_above(
+            *(
+                surface,
+                above,
+                post,
+                most,
+                min(line.net_height, LONGEST_BENCH),
+                of_zone,
+                crossed[post],
+            )
+        )
         for post, of_zone in enumerate(_list_zone_ends(plan, above))
     )
     slopes = np.array(
@@ -160,7 +233,8 @@ def measure_row(
         ]
     )
     gradient = surface.at(places).gradient.mean(axis=0)
-    row, length = _find_below(surface, plan, line, below)
+    nearest = [(at, name) for one in crossed_below for name, at in one.items()]
+    length, row = min(nearest, default=(None, ""))
     return MeasuredRow(
         line=line,
         posts=posts,
@@ -170,10 +244,10 @@ def measure_row(
         flattest=find_flattest(surface, places),
         aspect=math.atan2(-gradient[0], -gradient[1]) % (2.0 * math.pi),
         upslope=max(ends, key=lambda one: one.length.high),
-        bends=bends,
+        bends=drawn.bends,
         above=above,
         ends=ends,
-        has_row_above=_find_row_above(surface, plan, line, above),
+        has_row_above=_find_row_above(crossed, above),
         below_row=row,
         below_length=length,
     )
@@ -250,30 +324,24 @@ def _measure(posts: Floats) -> float:
 
 def _end_above(
     surface: Surface,
-    plan: Plan,
-    line: NetLine,
     above: FallLines,
     post: int,
     most: float,
+    bench: float,
     of_zone: float | None,
+    rows: Mapping[str, float],
 ) -> Upslope:
     """First end of the snow above a post: a row, the zone's edge, flat ground."""
     spread = _ERRORS * surface.slope_error
     flat = [
-        _find_flat(above, post, LEAST_STEEP + one) for one in (spread, 0.0, -spread)
+        _find_flat(above, post, LEAST_STEEP + one, bench, most)
+        for one in (spread, 0.0, -spread)
     ]
     known = above.find_length(post)
     ends = [("cap", "", most)]
     if known < most:
         ends.append(("edge", "", known))
-    for other in plan.lines:
-        if other.id != line.id:
-            found = find_crossing(above, post, other.points, least=surface.grid.cell)
-            ends += [("row", other.id, found)] if found is not None else []
-    for gap in plan.closed_gaps:
-        if line.id not in gap.rows:
-            found = find_crossing(above, post, gap.points, least=surface.grid.cell)
-            ends += [("row", gap.rows[0], found)] if found is not None else []
+    ends += [("row", name, found) for name, found in rows.items()]
     if of_zone is not None:
         ends.append(("zone", "", of_zone))
     end, row, length = min(ends, key=lambda one: one[2])
@@ -297,32 +365,37 @@ def _list_zone_ends(plan: Plan, above: FallLines) -> list[float | None]:
 
 
 def _find_row_above(
-    surface: Surface, plan: Plan, line: NetLine, above: FallLines
+    crossed: Sequence[Mapping[str, float]], above: FallLines
 ) -> bool | None:
     """Presence of a row above any post, beyond the end of its snow, too."""
-    posts = range(above.points.shape[1])
-    others = [one.points for one in plan.lines if one.id != line.id]
-    crossings = (
-        find_crossing(above, post, points, least=surface.grid.cell)
-        for post in posts
-        for points in others
-    )
-    if any(one is not None for one in crossings):
+    if any(crossed):
         return True
-    return None if min(map(above.find_length, posts)) < _FAR else False
+    least = min(map(above.find_length, range(len(crossed))))
+    return None if least < _FAR else False
 
 
-def _find_flat(above: FallLines, post: int, least: float) -> float:
-    """Length at which a line of fall first becomes flatter than an angle [m]."""
+def _find_flat(
+    above: FallLines, post: int, least: float, bench: float, most: float
+) -> float:
+    """Length at which a line of fall becomes flatter than an angle [m].
+
+    Flat ground shorter than a bench [m] does not count, but on a top: snow reaches
+    across it.
+    """
     angles, lengths = above.steepness[:, post], above.lengths[:, post]
-    flatter = np.flatnonzero(angles < least)
-    if not flatter.size:
-        return math.inf
-    first = int(flatter[0])
-    if first == 0:
-        return 0.0
-    share = (angles[first - 1] - least) / (angles[first - 1] - angles[first])
-    return float(lengths[first - 1] + share * (lengths[first] - lengths[first - 1]))
+    is_flat = np.concatenate(([False], angles < least, [False]))
+    firsts = np.flatnonzero(is_flat[1:] & ~is_flat[:-1])
+    afters = np.flatnonzero(is_flat[:-1] & ~is_flat[1:])
+    last = int(np.isfinite(lengths).sum()) - 1
+    for first, after in zip(firsts.tolist(), afters.tolist(), strict=True):
+        is_top = after > last and lengths[last] < most
+        if lengths[min(after, last)] - lengths[first] < bench and not is_top:
+            continue
+        if first == 0:
+            return 0.0
+        share = (angles[first - 1] - least) / (angles[first - 1] - angles[first])
+        return float(lengths[first - 1] + share * (lengths[first] - lengths[first - 1]))
+    return math.inf
 
 
 def _find_mean(
@@ -360,24 +433,6 @@ def _band_slope(
     spread = _ERRORS * surface.slope_error / math.sqrt(windows)
     value = float(slopes[steepest])
     return Band(low=value - spread, value=value, high=value + spread)
-
-
-def _find_below(
-    surface: Surface, plan: Plan, line: NetLine, below: FallLines
-) -> tuple[str, float | None]:
-    """Nearest row below, along the lines of fall of the posts."""
-    found = [
-        (length, other.id)
-        for other in plan.lines
-        if other.id != line.id
-        for post in range(below.points.shape[1])
-        if (length := find_crossing(below, post, other.points, least=surface.grid.cell))
-        is not None
-    ]
-    if not found:
-        return "", None
-    length, row = min(found)
-    return row, length
 
 
 def describe_kinks(row: MeasuredRow) -> Message | None:
@@ -419,18 +474,7 @@ def measure_plan(
         With the faults of all rows at once.
     """
     surface = choose_window(grid, np.concatenate([one.points for one in plan.lines]))
-    rows: list[MeasuredRow] = []
-    faults: list[Message] = []
-    for line in plan.lines:
-        try:
-            rows.append(measure_row(surface, plan, line, most=most))
-        except TerrainError as error:
-            faults.append(error.message)
-        if on_row is not None:
-            on_row(line)
-    if faults:
-        raise TerrainError(say("text.lines", lines=tuple(faults)))
-    return surface, rows
+    return surface, measure_rows(surface, plan, most=most, on_row=on_row)
 
 
 def describe_steep_above(row: MeasuredRow) -> Message | None:

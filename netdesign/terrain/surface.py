@@ -11,10 +11,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.terrain.grid import Grid
 
 WINDOWS = (3, 5, 7)  # cells on a side
+_AT_ONCE = 8192  # points whose windows are held at once: a quarter of the time of all
+_LONGEST_STEP = 2.0  # less than what rows and zones are told apart by [m]
 _ENOUGH = math.radians(0.25)  # standard error of a slope at which a window serves
 
 
@@ -28,13 +30,10 @@ class Ground:
         [m].
     gradient : ndarray, shape (n, 2)
         Rise towards east and north [-].
-    misfit : ndarray, shape (n,)
-        Standard deviation of the heights from the quadratic [m].
     """
 
     height: Floats
     gradient: Floats
-    misfit: Floats
 
     @property
     def steepness(self) -> Floats:
@@ -61,13 +60,23 @@ class Surface:
     noise: float
 
     @property
+    def step(self) -> float:
+        """Between places at which the ground is looked at, in plan [m]."""
+        return min(self.grid.cell, _LONGEST_STEP)
+
+    @property
     def slope_error(self) -> float:
         """Standard error of the slope at one point by the noise, (T3) [rad]."""
         return self.noise * _gain(self.window) / self.grid.cell
 
     def at(self, points: Floats) -> Ground:
         """Ground at points, shape (n, 2) [m]."""
-        return fit(self.grid, points, self.window)
+        parts = np.array_split(points, 1 + len(points) // _AT_ONCE)
+        found = [fit(self.grid, part, self.window) for part in parts]
+        return Ground(
+            height=np.concatenate([one.height for one in found]),
+            gradient=np.concatenate([one.gradient for one in found]),
+        )
 
 
 def choose_window(grid: Grid, points: Floats) -> Surface:
@@ -80,7 +89,7 @@ def choose_window(grid: Grid, points: Floats) -> Surface:
     points : ndarray, shape (n, 2)
         Where the noise is looked at [m].
     """
-    misfits = fit(grid, points, WINDOWS[-1]).misfit
+    misfits = find_misfits(grid, points, WINDOWS[-1])
     known = misfits[np.isfinite(misfits)]
     noise = float(np.median(known)) if known.size else 0.0
     surfaces = [Surface(grid, window, noise) for window in WINDOWS]
@@ -104,35 +113,50 @@ def fit(grid: Grid, points: Floats, window: int) -> Ground:
     -----------
     tests/terrain/test_measure.py
     """
+    place, middle, centre, relative = _cut_windows(grid, points, window)
+    _, solve = _prepare(window)
+    quadratic = relative @ solve.T
+    u, v = (place - middle).T
+    _, c1, c2, c3, c4, c5 = quadratic.T
+    east, north = c1 + 2.0 * c3 * u + c4 * v, c2 + c4 * u + 2.0 * c5 * v
+    return Ground(
+        height=centre + np.einsum("nk,nk->n", quadratic, _list_terms(u, v)),
+        gradient=np.stack((east, north), axis=1) / grid.cell,
+    )
+
+
+def find_misfits(grid: Grid, points: Floats, window: int) -> Floats:
+    """Standard deviations of heights from the quadratics at points, shape (n,) [m].
+
+    Parameters are those of `fit`; NaN where a window leaves the grid or has a hole.
+    """
+    relative = _cut_windows(grid, points, window)[-1]
+    terms, solve = _prepare(window)
+    off = relative - relative @ solve.T @ terms.T
+    free = max(1, window**2 - terms.shape[1])
+    return np.asarray(np.sqrt((off**2).sum(axis=1) / free))
+
+
+def _cut_windows(
+    grid: Grid, points: Floats, window: int
+) -> tuple[Floats, Ints, Floats, Floats]:
+    """Points and their cells [cells], heights there and, above these, of the windows.
+
+    Shapes (n, 2), (n, 2), (n,), (n, window squared) [m]. NaN off the grid.
+    """
     half = window // 2
     lines, columns = grid.heights.shape
     place = (points - (grid.west, grid.south)) / grid.cell
     is_known = np.isfinite(place).all(axis=1, keepdims=True)
-    nearest = np.rint(np.where(is_known, place, -1.0)).astype(np.int64)
+    middle = np.rint(np.where(is_known, place, -1.0)).astype(np.int64)
     last = np.array((columns, lines)) - half
-    inside = np.asarray(((nearest >= half) & (nearest < last)).all(axis=1))
-    middle = np.where(inside[:, None], nearest, half)
+    is_inside = ((middle >= half) & (middle < last)).all(axis=1)
     steps = np.arange(-half, half + 1)
-    rows = middle[:, 1, None, None] + steps[None, :, None]
-    cells = middle[:, 0, None, None] + steps[None, None, :]
-    around = grid.heights[rows, cells].reshape(len(points), window**2)
-    centre = grid.heights[middle[:, 1], middle[:, 0]]
-    relative = around - centre[:, None]
-    terms, solve = _prepare(window)
-    quadratic = relative @ solve.T
-    off = relative - quadratic @ terms.T
-    free = max(1, window**2 - terms.shape[1])
-    u, v = (place - middle).T
-    _, c1, c2, c3, c4, c5 = quadratic.T
-    east, north = c1 + 2.0 * c3 * u + c4 * v, c2 + c4 * u + 2.0 * c5 * v
-    shape = _list_terms(u, v)
-    height = centre + np.einsum("nk,nk->n", quadratic, shape)
-    nothing = np.where(inside, 0.0, math.nan)
-    return Ground(
-        height=height + nothing,
-        gradient=np.stack((east, north), axis=1) / grid.cell + nothing[:, None],
-        misfit=np.sqrt((off**2).sum(axis=1) / free) + nothing,
-    )
+    around = (columns * steps[:, None] + steps).ravel()
+    at = np.where(is_inside, middle @ (1, columns), around[-1])
+    heights = grid.heights.ravel()
+    centre = np.where(is_inside, heights[at], math.nan)
+    return place, middle, centre, heights[at[:, None] + around] - centre[:, None]
 
 
 @lru_cache(maxsize=len(WINDOWS))

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.terrain.coverage import find_coverage, is_inside
+from netdesign.terrain.coverage import find_coverage
+from netdesign.terrain.crossings import is_inside
 from netdesign.terrain.measure import measure_plan
 from netdesign.terrain.neighbours import find_gap, find_overlap
 from netdesign.terrain.site_lines import derive_cells

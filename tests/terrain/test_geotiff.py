@@ -16,6 +16,7 @@ from netdesign.terrain.geotiff import parse_geotiff
 from netdesign.terrain.grid import Grid, parse_grid, read_grid
 from netdesign.terrain.libraries import keep_quiet
 from netdesign.terrain.measure import measure_plan
+from tests.peak_memory import PEAK, needs_peak
 from tests.terrain.map_files import write_asc, write_tif
 from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
 
@@ -202,23 +203,24 @@ HOSTILE = {
     "vrt": b'<VRTDataset rasterXSize="5" rasterYSize="5"></VRTDataset>',
     "png": b"\x89PNG\r\n\x1a\n" + bytes(64),
 }
-WATCHED = """
-import resource, sys
+WATCHED = f"""
+import sys
 from pathlib import Path
 from netdesign.outcome import TerrainError
 from netdesign.terrain.grid import read_grid
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+{PEAK}
+before = peak()
 for name in sys.argv[1:]:
     try:
         read_grid(Path(name))
         print(name, "read")
     except TerrainError as error:
         print(str(error))
-print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) // 1024)
+print(peak() - before)
 """
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="memory is told otherwise there")
+@needs_peak
 def test_hostile_headers_are_refused_without_their_memory(tmp_path):
     for name, content in HOSTILE.items():
         (tmp_path / f"{name}.tif").write_bytes(content)

@@ -15,6 +15,7 @@ from netdesign.terrain.crs import read_member, require_plane, require_same, writ
 from netdesign.terrain.cut_names import read_cut_names
 from netdesign.terrain.plan import read_plan
 from netdesign.terrain.wkb import decode_wkb, encode_wkb
+from tests.peak_memory import PEAK, needs_peak
 from tests.terrain.map_files import GIVEN, SWISS, pack_wkb, write_rows
 
 DRAW = np.random.default_rng(4)
@@ -281,8 +282,8 @@ def test_what_is_no_such_file_is_one_refusal(
     assert "GDAL" not in ended.err
 
 
-WATCHED = """
-import resource, sys
+WATCHED = f"""
+import sys
 from pathlib import Path
 from netdesign.outcome import TerrainError
 from netdesign.terrain.plan import read_plan
@@ -291,7 +292,8 @@ for name in sys.argv[1:]:
         print(name, "read", len(read_plan(Path(name)).lines))
     except TerrainError as error:
         print(str(error).splitlines()[0])
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+{PEAK}
+print(peak())
 """
 # Counts of records, of points, sizes of fields: place in its file, and bytes there.
 LIES = {
@@ -306,7 +308,7 @@ LIES = {
 }
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="memory is told otherwise there")
+@needs_peak
 def test_counts_that_lie_are_refused_without_their_memory(tmp_path):
     names = [f"{name}.shp" for name in LIES]
     for name, (suffix, at, lie) in LIES.items():

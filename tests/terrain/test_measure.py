@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.outcome import TerrainError
-from netdesign.terrain.measure import describe_steep_above, measure_row
+from netdesign.terrain.measure import describe_steep_above, measure_rows
 from netdesign.terrain.site_lines import derive_cells
 from netdesign.terrain.surface import choose_window
 from tests.terrain.surfaces import SPACING, build_grid, draw_line, plan_of, plane
@@ -18,7 +18,7 @@ ALONG_CONTOUR = [(-13.0, -20.0), (14.0, -20.0)]
 
 def measure(grid, *lines, zones=(), most=60.0, at=0):
     surface = choose_window(grid, np.vstack([one.points for one in lines]))
-    return measure_row(surface, plan_of(*lines, zones=zones), lines[at], most=most)
+    return measure_rows(surface, plan_of(*lines, zones=zones), most=most)[at]
 
 
 @pytest.mark.parametrize("cell", CELLS)
@@ -80,9 +80,49 @@ def test_rows_on_a_cone_are_arcs_of_constant_slope(cell, turned):
     assert found.upslope.length.value <= apex + 1e-6
 
 
+@pytest.mark.parametrize("cell", [0.5, 1.0])
+@pytest.mark.parametrize("width", [1.3, 2.2, 6.1, 11.7])
+def test_snow_reaches_across_a_bench_narrower_than_the_net_is_high(cell, width):
+    """Level ground 12 m above the row, between two planes; in plan."""
+    low, high = -8.0, -8.0 + width
+
+    def bench(x, y):
+        return 1500.0 + math.tan(PSI) * (
+            np.minimum(y, low) + np.maximum(y, high) - high
+        )
+
+    grid = build_grid(lambda x, y: bench(x, y) + 0.0 * x, cell=cell, size=160.0)
+    found = measure(grid, draw_line(ALONG_CONTOUR, net_height=4.0), most=40.0)
+    if width < 4.0 - 3.0 * cell:
+        assert found.upslope.end == "cap"
+    elif width > 4.0 + 3.0 * cell:
+        assert found.upslope.end == "flat"
+        assert found.upslope.length.value == pytest.approx(
+            12.0 / math.cos(PSI), abs=cell
+        )
+
+
+@pytest.mark.parametrize("cell", [0.5, 1.0])
+@pytest.mark.parametrize("seed", range(6))
+def test_snow_reaches_over_boulders(cell, seed):
+    """Forty lower than the snow, whose upper sides dip into the slope."""
+    drawn = np.random.default_rng(seed)
+    east, north = drawn.uniform(-16.0, 16.0, 40), drawn.uniform(-18.0, 6.0, 40)
+    tall, wide = drawn.uniform(0.5, 1.5, 40), drawn.uniform(0.5, 0.9, 40)
+
+    def slope(x, y):
+        away = (x[..., None] - east) ** 2 + (y[..., None] - north) ** 2
+        boulders = (tall * np.exp(-0.5 * away / wide**2)).max(axis=-1)
+        return 1500.0 + math.tan(PSI) * y + boulders
+
+    grid = build_grid(slope, cell=cell, size=100.0)
+    found = measure(grid, draw_line(ALONG_CONTOUR, net_height=4.0), most=30.0)
+    assert {one.end for one in found.ends} == {"cap"}
+
+
 def test_on_a_cylinder_slope_and_length_converge_with_the_square_of_the_cell():
     """z = f(y): the mean of atan f' over the stretch, and the arc to the next row."""
-    foot, upper, cells = -25.0, 3.0, (4.0, 2.0, 1.0, 0.5)
+    foot, upper, cells = -25.0, 3.0, (1.6, 0.8, 0.4, 0.2)  # steps are of a cell there
     arc, mean = integrate_wave(foot, upper)
     errors = []
     for cell in cells:
