@@ -110,9 +110,10 @@ def _list_further(case: CasePoint) -> list[tuple[str, float]]:
     return [*case.values.items()][_MAPPED:]
 
 
-_LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
+_LEFT, _GAP, _RIGHT = 30.0, 30.0, 42.0  # beside and between panels [pt]
 _HEAD, _PANEL, _FOOT = 25.0, 60.0, 19.0  # heights of a row of panels [pt]
-_ACROSS = 4  # lines side by side; more go below
+_LINE_WIDTH = WIDTH / 4  # that lines side by side need; more go below [pt]
+_BESIDE = 0.56 * WIDTH  # of the maps beside a worked check [pt]
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
 _FAILED = "×"  # at a case without a result
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
@@ -123,7 +124,9 @@ def split_members(record: EnvelopeRecord) -> list[EnvelopeRecord]:
     return [replace(record, bounds=[bound]) for bound in _list_loaded(record)]
 
 
-def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
+def draw_maps(
+    record: EnvelopeRecord, words: Words = ENGLISH, width: float = WIDTH
+) -> str:
     """SVG of force over density and friction, a column for each inclination.
 
     Returns "" where density or friction does not range. The ring marks the governing
@@ -144,7 +147,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
         )
         low, high = bounds_of(_list_known(bound))
         frames = [
-            _place_panel(column, len(bound.maps), top, one)
+            _place_panel(column, len(bound.maps), (top, width), one)
             for column, one in enumerate(bound.maps)
         ]
         pairs = list(zip(frames, bound.maps, strict=True))
@@ -156,18 +159,20 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
             math.isnan(x) for one in bound.maps for row in one.force_kN for x in row
         ):
             told = f"{_FAILED} {words('drawing.no_result')}"
-            chart.text(WIDTH - 2.0, top + TEXT_PT + 1.0, told, anchor="end")
+            chart.text(width - 2.0, top + TEXT_PT + 1.0, told, anchor="end")
         at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
-        _paint_legend(chart, top + _HEAD, low, high)
+        _paint_legend(chart, (width, top + _HEAD), low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
     values = [
         _show_forces(_list_known(bound), bound, record, words) for bound in bounds
     ]
-    return chart.write(height, _title("drawing.maps", record, values, words))
+    return chart.write(height, _title("drawing.maps", record, values, words), width)
 
 
-def draw_lines(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
+def draw_lines(
+    record: EnvelopeRecord, words: Words = ENGLISH, width: float = WIDTH
+) -> str:
     """SVG of force along each quantity through the governing case, with its bound."""
     bounds = [bound for bound in _list_loaded(record) if bound.lines]
     if not bounds:
@@ -175,31 +180,32 @@ def draw_lines(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     chart, top = Chart(language=words.language), 0.0
     for bound in bounds:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
-        for start in range(0, len(bound.lines), _ACROSS):
-            some = bound.lines[start : start + _ACROSS]
-            top += _paint_lines(chart, some, bound, top, words)
+        across = round(width / _LINE_WIDTH)
+        for start in range(0, len(bound.lines), across):
+            some = bound.lines[start : start + across]
+            top += _paint_lines(chart, some, bound, (top, width), words)
     values = [
         _show_forces([one.force_kN for one in bound.lines], bound, record, words)
         for bound in bounds
     ]
-    return chart.write(top, _title("drawing.lines", record, values, words))
+    return chart.write(top, _title("drawing.lines", record, values, words), width)
 
 
 def _paint_lines(
     chart: Chart,
     lines: Sequence[LineRecord],
     bound: BoundRecord,
-    top: float,
+    room: tuple[float, float],
     words: Words,
 ) -> float:
     """Paint lines side by side, all to the scale of their member; their height [pt]."""
     low, high = bounds_of([*(one.force_kN for one in bound.lines)])
     high = max(high, bound.upper_bound_kN)
     margin = 0.06 * (high - low) or 0.01 * high
-    names = 1
+    names, across = 1, round(room[1] / _LINE_WIDTH)
     for column, one in enumerate(lines):
         frame = Frame(
-            **_panel(column, min(len(bound.lines), _ACROSS), top),
+            **_panel(column, min(len(bound.lines), across), room),
             x_low=one.values[0],
             x_high=one.values[-1],
             y_low=low - margin,
@@ -267,9 +273,12 @@ def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
     _name_axis(chart, frame, "ρ [kg/m³]")
 
 
-def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
+def _paint_legend(
+    chart: Chart, corner: tuple[float, float], low: float, high: float
+) -> None:
     """Bar of all shades, with a few round forces beside it."""
-    left, wide, high_pt = WIDTH - _RIGHT + 8.0, 9.0, _PANEL - 14.0
+    right, top = corner
+    left, wide, high_pt = right - _RIGHT + 8.0, 9.0, _PANEL - 14.0
     step = high_pt / SHADES
     chart.tiles(
         (left, top + k * step, wide, step + 0.1, shade(SHADES - 1 - k, 0, SHADES - 1))
@@ -347,9 +356,11 @@ def _paint_tornado(chart: Chart, bound: BoundRecord, top: float, words: Words) -
     return frame.height + 18.0
 
 
-def _place_panel(column: int, columns: int, top: float, one: MapRecord) -> Frame:
+def _place_panel(
+    column: int, columns: int, room: tuple[float, float], one: MapRecord
+) -> Frame:
     return Frame(
-        **_panel(column, columns, top),
+        **_panel(column, columns, room),
         x_low=one.density_kg_m3[0],
         x_high=one.density_kg_m3[-1],
         y_low=one.friction_deg[0],
@@ -357,8 +368,10 @@ def _place_panel(column: int, columns: int, top: float, one: MapRecord) -> Frame
     )
 
 
-def _panel(column: int, columns: int, top: float) -> dict[str, float]:
-    width = (WIDTH - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns
+def _panel(column: int, columns: int, room: tuple[float, float]) -> dict[str, float]:
+    """Sides of a panel below a top on paper of a width [pt]."""
+    top, paper = room
+    width = (paper - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns
     return {
         "left": _LEFT + column * (width + _GAP),
         "top": top + _HEAD,
@@ -440,10 +453,13 @@ def _show_driver(one: DriverRecord, words: Words) -> str:
 
 
 def draw_envelope(row: RowStudy, words: Words) -> str:
-    """Envelope of the member that governs; of another where that has no force."""
+    """Envelope of the member that governs, as wide as there is room beside a check.
+
+    Of another member where that has no force.
+    """
     members = split_members(row.envelope or record_grid(row))
     if not members:
         return ""
     first = find_shown_member(row)
     shown = min(members, key=lambda one: one.bounds[0].quantity != first)
-    return draw_maps(shown, words) or draw_lines(shown, words)
+    return draw_maps(shown, words, _BESIDE) or draw_lines(shown, words, _BESIDE)

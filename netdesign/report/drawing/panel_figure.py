@@ -1,4 +1,4 @@
-"""The last panel of a row: elevation, plan, and the tension along its two ropes.
+"""The last panel of a row: elevation and plan.
 
 They stand side by side. In each the row's end is at the left, an inner post at the
 right. Forces are to one scale.
@@ -17,19 +17,19 @@ from netdesign.report.drawing.label_board import (
     write_label,
 )
 from netdesign.report.drawing.letters import wrap_words
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, Point
+from netdesign.report.drawing.plain_svg import Chart, Point
 from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord, RopeRecord
 
-SPAN, LEFT = 84.0, 46.0  # of a panel on paper, room at its left [pt]
-LONGEST = 34.0  # arrow [pt]
-_PLACE = 172.0  # from one picture to the next
+SPAN, LEFT = 56.0, 42.0  # of a panel on paper, room at its left [pt]
+LONGEST = 22.0  # arrow [pt]
+_PLACE = 140.0  # from one picture to the next
 _TOP = 3 * LINE_PT  # below titles of two lines
 _AROUND = 4.0  # an arrow above and below a view
-_CHART = 62.0
+_WIDTH = 2 * _PLACE
 _ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
-_TITLES = ("panel_view.elevation", "panel_view.plan", "panel_view.tensions")
+_TITLES = ("panel_view.elevation", "panel_view.plan")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,8 +57,8 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
     sketch = Chart(language=words.language)
     views = [_place_view(drawn, part, place) for place, part in enumerate((1, 0))]
     bottoms = [bottom for _, bottom in views]
-    height = max(*bottoms, _TOP + _CHART + 5 * LINE_PT)
-    board = LabelBoard(width=WIDTH, height=height)
+    height = max(bottoms)
+    board = LabelBoard(width=_WIDTH, height=height)
     for place, title in enumerate(_TITLES):
         _write_title(sketch, board, words(title), place * _PLACE)
     for (view, bottom), is_named in zip(views, (True, False), strict=True):
@@ -66,8 +66,7 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
             _name_supports(sketch, board, bottom, words)
         _draw_view(sketch, view, drawn)
         _draw_forces(sketch, board, view, drawn, words)
-    _draw_tensions(sketch, panel, drawn, words)
-    return sketch.write(height, _describe(panel, drawn, words))
+    return sketch.write(height, _describe(panel, drawn, words), _WIDTH)
 
 
 def _write_title(sketch: Chart, board: LabelBoard, text: str, left: float) -> None:
@@ -195,44 +194,6 @@ def _draw_forces(
             labels.append(write_label(name, start, side, ACCENT))
     for label in labels:
         board.draw(sketch, label)
-
-
-def _draw_tensions(
-    sketch: Chart, panel: PanelRecord, drawn: PanelDrawing, words: Words
-) -> None:
-    """Tension of both ropes over the panel, their names below."""
-    left, spacing = 2 * _PLACE + 30.0, 2.0 * drawn.places_m[-1]
-    series = (
-        ("lower", drawn.lower_tensions_kN, ""),
-        ("upper", drawn.upper_tensions_kN, "4 2"),
-    )
-    frame = Frame(
-        left=left,
-        top=_TOP,
-        width=WIDTH - 8.0 - left,
-        height=_CHART,
-        x_low=0.0,
-        x_high=spacing,
-        y_low=0.0,
-        y_high=1.1 * max(max(values) for _, values, _ in series),
-    )
-    sketch.axes(frame)
-    sketch.text(left - 24.0, _TOP - 0.6 * LINE_PT, "kN")
-    base = _TOP + _CHART + 2.6 * LINE_PT
-    middle = (left + frame.width / 2.0, base)
-    sketch.text(*middle, words("panel_view.axis_along"), anchor="middle")
-    for name, values, dash in series:
-        half = list(zip(drawn.rope_places_m, values, strict=True))
-        whole = [*half, *((spacing - z, value) for z, value in half[::-1])]
-        points = [(frame.x(z), frame.y(value)) for z, value in whole]
-        sketch.line(points, stroke=INK, width=1.1, dash=dash)
-        for rope in panel.ropes:
-            if rope.rope == name:
-                base += LINE_PT
-                key = [(left - 24.0, base - 2.6), (left - 4.0, base - 2.6)]
-                sketch.line(key, stroke=INK, width=1.1, dash=dash)
-                text = f"{name_rope(rope, words)} {rope.type}".strip()
-                sketch.text(left, base, text)
 
 
 def name_rope(rope: RopeRecord, words: Words) -> str:

@@ -61,7 +61,7 @@ def draw_legend(sketch: Chart, words: Words, board: LabelBoard) -> None:
 
 
 CHART_WIDTH = 150.0  # of all that stands right of the section [pt]
-_CHART_LEFT, _CHART_HEIGHT = WIDTH - 112.0, 62.0
+_CHART_LEFT, _CHART_HEIGHT = WIDTH - 112.0, 52.0
 _TITLES = 2.6 * TEXT_PT  # two lines above the chart
 CHART_BOTTOM = LEGEND_BOTTOM + _TITLES + _CHART_HEIGHT + 4.0 * TEXT_PT
 

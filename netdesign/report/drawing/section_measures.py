@@ -20,7 +20,7 @@ MEASURES = 0.2  # room that heights take beside the snow
 LONGEST_ARROW, ROD = 0.46, 0.16
 _LEFT, _RIGHT = 74.0, 198.0  # room for labels, and right for the pressure, too
 _TOP, _BOTTOM = 9.0, 30.0
-_TALLEST = 170.0
+_TALLEST = 152.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -34,11 +34,11 @@ from netdesign.report.words import (
 )
 from netdesign.site.model import InputEcho
 from netdesign.study.records import ProfileRecord, RowStudy, Study
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 DEFAULT = "default"  # cell of an input that nobody typed
-_ACROSS = 12  # rows of nets beside each other on a page
+_ACROSS = 8  # rows of nets beside each other on a page
 _BY_DEFAULT, _DERIVED = "*", "‡"
 
 
@@ -353,13 +353,29 @@ def list_notes(study: Study, words: Words) -> list[str]:
     ]
 
 
+# Notes on what is known beside the verdict: they stand with the second opinions.
+_BESIDE = ("own_end_effect", "model_code", "loaded_net", "guys_in_snow")
+
+
+def is_beside_verdict(note: Message) -> bool:
+    """A note that asks nothing of anyone, as no number of it decides."""
+    return note.key.rpartition(".")[2] in _BESIDE
+
+
 def share_notes(study: Study, words: Words) -> dict[str, list[str]]:
     """Notes that several rows have, word by word, with the rows: told once."""
+    notes = group_notes(study, words, is_beside=False)
+    return {note: ids for note, ids in notes.items() if len(ids) > 1}
+
+
+def group_notes(study: Study, words: Words, *, is_beside: bool) -> dict[str, list[str]]:
+    """Rows of each note, word by word: of those beside the verdict, or the others."""
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        for note in dict.fromkeys(words.show(note) for note in row.notes):
+        notes = [one for one in row.notes if is_beside_verdict(one) is is_beside]
+        for note in dict.fromkeys(words.show(one) for one in notes):
             rows.setdefault(note, []).append(show_text(row.id))
-    return {note: ids for note, ids in rows.items() if len(ids) > 1}
+    return rows
 
 
 def list_reading(study: Study, words: Words) -> tuple[str, ...]:

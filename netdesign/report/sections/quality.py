@@ -24,7 +24,7 @@ from netdesign.report.blocks import (
     text_column,
 )
 from netdesign.report.governing import find_shown, find_shown_member, list_failed
-from netdesign.report.sections.basis import name_rows
+from netdesign.report.sections.basis import group_notes, name_rows
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -35,7 +35,12 @@ from netdesign.report.words import (
     show_text,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.case_records import BoundRecord, CasePoint, CaseRecord
+from netdesign.study.case_records import (
+    BoundRecord,
+    CasePoint,
+    CaseRecord,
+    DriverRecord,
+)
 from netdesign.study.records import CheckRecord, ModelFormRecord, RowStudy, Study
 from netdesign.words.message import Message
 from netdesign.words.names import name
@@ -64,6 +69,7 @@ def show_quality(study: Study, words: Words) -> Part:
         *(one.shown("extremes") for one in rows),
         build_opinions(study, words).shown("extremes"),
         *_list_differences(study, words),
+        *_list_notes(study, words),
     )
 
 
@@ -262,7 +268,9 @@ def build_bounds(row: RowStudy, words: Words) -> Table:
 
 
 def _list_bounds(row: RowStudy) -> list[BoundRecord]:
-    return [] if row.envelope is None else row.envelope.bounds
+    """Bounds of the members that carry something."""
+    bounds = [] if row.envelope is None else row.envelope.bounds
+    return [one for one in bounds if one.upper_bound_kN > 0.0]
 
 
 def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
@@ -293,34 +301,31 @@ def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
 
 
 def _build_drivers(row: RowStudy, words: Words) -> Table:
-    """Force of the member that is shown at both ends of each range."""
-    numbers = [words(f"heading.{key}") for key in ("first_order", "total")]
-    low, high = words("heading.at_low_end"), words("heading.at_high_end")
+    """Force of the member that is shown at both ends of each range; Sobol indices."""
     member = find_shown_member(row)
+    shown = [one for one in _list_bounds(row) if one.quantity == member and one.drivers]
+    drivers = [driver for one in shown for driver in one.drivers]
     return Table(
         caption=words("caption.driver_table"),
         columns=(
             text_column(words("heading.member")),
-            text_column(words("heading.quantity")),
-            number_column("max_kN", add_unit(low, "kN")),
-            number_column("max_kN", add_unit(high, "kN")),
-            *name_columns(numbers, numbers=numbers),
+            *(text_column(name_heading(words, one.key)) for one in drivers),
         ),
         rows=tuple(
             (
-                text_cell(show_member(words, bound.quantity)),
-                text_cell(name_heading(words, one.key)),
-                number_cell(words, "max_kN", one.at_low_kN),
-                number_cell(words, "max_kN", one.at_high_kN),
-                fixed_cell(words, one.first_order, 3),
-                fixed_cell(words, one.total, 3),
+                text_cell(show_member(words, one.quantity)),
+                *(text_cell(_show_driver(driver, words)) for driver in one.drivers),
             )
-            for bound in _list_bounds(row)
-            if bound.quantity == member
-            for one in bound.drivers
+            for one in shown
         ),
         empty=words("heading.grid_without_bound"),
     )
+
+
+def _show_driver(driver: DriverRecord, words: Words) -> str:
+    ends = words.show_band("max_kN", driver.at_low_kN, driver.at_high_kN)
+    indices = f"{driver.first_order:.2f} / {driver.total:.2f}"
+    return f"{ends} kN ({words.write(indices)})"
 
 
 def _build_spreads(study: Study, words: Words) -> Table:
@@ -421,6 +426,17 @@ def _list_differences(study: Study, words: Words) -> Iterator[Block]:
             words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
             for one, ids in rows.items()
         )
+        yield Items(items=items, look="small")
+
+
+def _list_notes(study: Study, words: Words) -> Iterator[Block]:
+    """What is known of the rows beside their verdicts."""
+    notes = group_notes(study, words, is_beside=True)
+    items = tuple(
+        words("show.label", label=name_rows(ids, study, words), text=note)
+        for note, ids in notes.items()
+    )
+    if items:
         yield Items(items=items, look="small")
 
 

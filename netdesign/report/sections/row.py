@@ -36,7 +36,7 @@ from netdesign.report.drawing.envelope_maps import draw_envelope
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.governing import find_shown, is_far_from_limit
-from netdesign.report.sections.basis import show_value
+from netdesign.report.sections.basis import is_beside_verdict, show_value
 from netdesign.report.sections.checks import (
     CheckLine,
     describe_loads,
@@ -186,9 +186,6 @@ _SHOWN = (
 )
 
 
-_BESIDE = 240  # signs that find room beside a drawing
-
-
 @dataclass(frozen=True, slots=True)
 class RowSections:
     """Builds the sections of one row, the notes that are ``told`` elsewhere left out.
@@ -227,15 +224,23 @@ class RowSections:
                 self._section(
                     "worked", t("heading.worked_check"), *self._show_worked()
                 ),
-                self._section("envelope", t("heading.envelope"), self._show_envelope()),
-                self._section("changes", heading, *changes, look=_find_room(changes)),
-                *self._show_further(),
+                Part(
+                    id=f"{self.anchor}-beside",
+                    blocks=(
+                        self._section(
+                            "envelope", t("heading.envelope"), self._show_envelope()
+                        ),
+                        *self._show_further(),
+                    ),
+                ),
+                self._section("changes", heading, *changes),
+                *self._show_notes(),
                 Paragraph(text=name, look="running", on="page"),
             ),
         )
 
-    def _section(self, name: str, heading: str, *blocks: Block, look: str = "") -> Part:
-        return section(f"{self.anchor}-{name}", heading, *blocks, level=3, look=look)
+    def _section(self, name: str, heading: str, *blocks: Block) -> Part:
+        return section(f"{self.anchor}-{name}", heading, *blocks, level=3)
 
     def _none(self, key: str) -> Paragraph:
         return Paragraph(text=self.words(key), look="none")
@@ -375,7 +380,7 @@ class RowSections:
         return Figure(svg=svg) if svg else self._none("heading.no_case_converged")
 
     def _show_further(self) -> Iterator[Part]:
-        """Panel, measurements and notes, of a row that has them."""
+        """Panel and measurements, of a row that has them."""
         t, row = self.words, self.row
         panel = draw_panel(row.panel, t) if row.panel else ""
         if panel:
@@ -385,23 +390,20 @@ class RowSections:
             caption = describe_monitoring(row.monitoring, t)
             figure = Figure(svg=monitoring, caption=caption)
             yield self._section("monitoring", t("heading.monitoring"), figure)
+
+    def _show_notes(self) -> Iterator[Part]:
         notes = tuple(self._list_notes())
         if notes:
-            yield self._section("notes", t("heading.notes"), Items(items=notes))
+            heading = self.words("heading.notes")
+            yield self._section("notes", heading, Items(items=notes))
 
     def _list_notes(self) -> Iterator[str]:
-        """Notes of this row alone, and cases that gave no numbers."""
+        """Notes that this row alone has, and cases that gave no numbers."""
         t, row = self.words, self.row
         for note in row.notes:
             text = t.show(note)
-            if text not in self.told:
+            if text not in self.told and not is_beside_verdict(note):
                 yield text
         if row.panel and row.panel.assumed:
             names = tuple(map(t.show, row.panel.assumed))
             yield t("panel.assumed", names=names)
-
-
-def _find_room(blocks: Sequence[Block]) -> str:
-    """Look of what makes a row pass: short, it stands beside the envelope on paper."""
-    texts = [str(x) for one in blocks if isinstance(one, Items) for x in one.items]
-    return "beside" if sum(map(len, texts)) <= _BESIDE else ""
