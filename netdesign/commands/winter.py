@@ -271,7 +271,8 @@ def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
             row=row["id"],
             period=one["period_a"],
             foot=one["foot_kN_per_m"],
-            error=one["standard_error_kN_per_m"],
+            low=one["low_kN_per_m"],
+            high=one["high_kN_per_m"],
             count=found["winters"],
         )
     yield say("show.label", label=row["id"], text=row["trend"]["why"])

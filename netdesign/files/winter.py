@@ -23,7 +23,13 @@ from netdesign.winter.fit import SeasonFit
 from netdesign.winter.maxima import AnnualMaximum
 from netdesign.winter.measured import Comparison, ComputedForce
 from netdesign.winter.season import RowWinters, Season, StationPacks, list_complete
-from netdesign.winter.statistics import LEAST_FOR_TREND, RETURN_PERIODS, Gumbel, Trend
+from netdesign.winter.statistics import (
+    LEAST_FOR_TREND,
+    RETURN_PERIODS,
+    ExtremeValue,
+    Gumbel,
+    Trend,
+)
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -222,7 +228,7 @@ def _write_row(
         "ground": scene.ground.kind,
         "slip_length_m": scene.ground.slip_length,
         "winters": winters,
-        "statistics": _write_statistics(result.statistics),
+        "statistics": _write_statistics(result.statistics, result.extreme_values),
         "trend": _write_trend(result.trend, language),
         "equivalent_density": _write_range(result, run, language),
         "fit": write_fit(fitted, run.winter.series, language) if fitted else None,
@@ -340,24 +346,37 @@ def _largest_members(season: Season) -> dict[str, float]:
     return found
 
 
-def _write_statistics(fit: Gumbel | None) -> dict[str, Any] | None:
+def _write_statistics(
+    fit: Gumbel | None, other: ExtremeValue | None
+) -> dict[str, Any] | None:
     if fit is None:
         return None
-    values = {period: fit.find_return_value(period) for period in RETURN_PERIODS}
     return {
         "distribution": "Gumbel, by moments",
         "winters": fit.count,
         "mean_kN_per_m": kilonewton_from_newton(fit.mean),
         "variation": fit.variation,
-        "return_values": [
-            {
-                "period_a": period,
-                "foot_kN_per_m": kilonewton_from_newton(value),
-                "standard_error_kN_per_m": kilonewton_from_newton(error),
-            }
-            for period, (value, error) in values.items()
-        ],
+        "gev_shape": other.shape if other else None,
+        "return_values": [_write_value(one, fit, other) for one in RETURN_PERIODS],
     }
+
+
+def _write_value(
+    period: float, fit: Gumbel, other: ExtremeValue | None
+) -> dict[str, Any]:
+    """Return value by both distributions, with the ends of 5 and 95 %."""
+    value, error = fit.find_return_value(period)
+    low, high = fit.find_interval(period)
+    found = {"foot": value, "standard_error": error, "low": low, "high": high}
+    is_far = False
+    if other is not None:
+        found["gev"] = other.find_return_value(period)
+        found["gev_low"], found["gev_high"] = other.find_interval(period)
+        is_far = abs(found["gev"] - value) > error
+    shown = {
+        f"{name}_kN_per_m": kilonewton_from_newton(one) for name, one in found.items()
+    }
+    return {"period_a": period, **shown, "is_gev_far": is_far}
 
 
 def _write_trend(trend: Trend | None, language: Language) -> dict[str, Any]:

@@ -23,7 +23,14 @@ from netdesign.winter.maxima import (
     find_largest,
     find_many_maxima,
 )
-from netdesign.winter.statistics import Gumbel, Trend, find_trend, fit_gumbel
+from netdesign.winter.statistics import (
+    ExtremeValue,
+    Gumbel,
+    Trend,
+    find_trend,
+    fit_extreme_values,
+    fit_gumbel,
+)
 
 HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
 CURVE_STEP = 4  # days between those of the curve
@@ -236,6 +243,8 @@ class RowWinters:
     statistics : Gumbel or None
         Of the complete winters with a proven maximum [N/m]; None of fewer than
         ``gumbel.LEAST_WINTERS``, or where a complete winter proves none.
+    extreme_values : ExtremeValue or None
+        Of the same winters [N/m]; None where all maxima are the same, too.
     trend : Trend or None
         Of the same winters [N/m]; None of fewer than ``trend.LEAST_FOR_TREND``.
     """
@@ -246,6 +255,7 @@ class RowWinters:
     seasons: tuple[Season, ...]
     others: Mapping[str, tuple[AnnualMaximum, ...]]
     statistics: Gumbel | None
+    extreme_values: ExtremeValue | None
     trend: Trend | None
 
     @property
@@ -359,6 +369,7 @@ def follow_winters(
         seasons=seasons,
         others={one: maxima[one] for one in rest},
         statistics=fit_gumbel(pulls),
+        extreme_values=fit_extreme_values(pulls),
         trend=find_trend([int(one.winter[:4]) for one in counted], pulls),
     )
 

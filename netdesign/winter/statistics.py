@@ -1,6 +1,6 @@
 """Return values of annual maxima, and their trend over the years.
 
-Theory: winter/THEORY.md, sections 4 and 8.
+Theory: winter/THEORY.md, sections 4, 8 and 10.
 """
 
 from __future__ import annotations
@@ -8,11 +8,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats
+
 LEAST_WINTERS = 15  # fewer tell no return value
 RETURN_PERIODS = (30.0, 100.0)  # [a]
+CERTAINTY = 0.95  # of each end of a return value's interval
+_SAMPLES = 20_000  # by which the ends are found
+_SEED = 1958
+_FLAT = 1e-6  # a shape below it is Gumbel's [-]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,6 +61,152 @@ class Gumbel:
         spread = math.sqrt(1.0 + 1.1396 * factor + 1.1 * factor**2)
         error = self.deviation * spread / math.sqrt(self.count)
         return self.mean + factor * self.deviation, error
+
+    def find_interval(self, period: float) -> tuple[float, float]:
+        """Ends below and above which the value lies in one of twenty, eq. (Y21).
+
+        Parameters
+        ----------
+        period : float
+            T [a], above 1.
+
+        Returns
+        -------
+        (float, float)
+            Lower and upper end, in the unit of the maxima.
+
+        Verified by
+        -----------
+        tests/verification/test_return_values.py
+        """
+        means, deviations = _draw_moments(self.count)
+        truth = -math.log(-math.log(1.0 - 1.0 / period))
+        low, high = _find_ends((truth - means) / deviations)
+        return self.mean + low * self.deviation, self.mean + high * self.deviation
+
+
+@lru_cache(maxsize=4)
+def _draw_moments(count: int) -> tuple[Floats, Floats]:
+    """Means and deviations of samples of so many draws of Gumbel's distribution."""
+    samples = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
+    return samples.mean(axis=1), samples.std(axis=1, ddof=1)
+
+
+def _find_ends(pivots: Floats) -> tuple[float, float]:
+    low, high = np.quantile(pivots, (1.0 - CERTAINTY, CERTAINTY))
+    return float(low), float(high)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExtremeValue:
+    """Generalised extreme value distribution (GEV) by L-moments, eqs (Y22) to (Y24).
+
+    Attributes
+    ----------
+    count : int
+        Number of winters.
+    location, scale : float
+        In the unit of the maxima.
+    shape : float
+        xi [-]; above 0 the tail is heavier than Gumbel's, below it has an end.
+    """
+
+    count: int
+    location: float
+    scale: float
+    shape: float
+
+    def find_return_value(self, period: float) -> float:
+        """Value exceeded once in so many years, eq. (Y24).
+
+        Parameters
+        ----------
+        period : float
+            T [a], above 1.
+
+        Returns
+        -------
+        float
+            In the unit of the maxima.
+        """
+        return self.location + self.scale * float(_reduce(period, np.array(self.shape)))
+
+    def find_interval(self, period: float) -> tuple[float, float]:
+        """Ends below and above which the value lies in one of twenty, eq. (Y25).
+
+        Nearly: the samples are drawn with the shape that was found.
+
+        Parameters
+        ----------
+        period : float
+            T [a], above 1.
+
+        Returns
+        -------
+        (float, float)
+            Lower and upper end, in the unit of the maxima.
+        """
+        locations, scales, shapes = _draw_fits(self.count, round(self.shape, 6))
+        found = locations + scales * _reduce(period, shapes)
+        truth = _reduce(period, np.array(self.shape))
+        low, high = _find_ends((truth - found) / scales)
+        value = self.find_return_value(period)
+        return value + low * self.scale, value + high * self.scale
+
+
+@lru_cache(maxsize=4)
+def _draw_fits(count: int, shape: float) -> tuple[Floats, Floats, Floats]:
+    """Fits to samples of so many draws of the reduced GEV."""
+    chances = np.random.default_rng(_SEED).uniform(size=(_SAMPLES, count))
+    return _fit_extreme_values(_transform(-np.log(chances), np.array(shape)))
+
+
+def _reduce(period: float, shape: Floats) -> Floats:
+    return _transform(np.asarray(-math.log(1.0 - 1.0 / period)), shape)
+
+
+def _transform(rates: Floats, shape: Floats) -> Floats:
+    """Reduced value of a rate -ln F: (rate^-xi - 1) / xi."""
+    safe = np.where(np.abs(shape) < _FLAT, _FLAT, shape)
+    return np.asarray(np.expm1(-safe * np.log(rates)) / safe)
+
+
+def fit_extreme_values(maxima: Sequence[float]) -> ExtremeValue | None:
+    """GEV of annual maxima; None of fewer than ``LEAST_WINTERS``, or all alike.
+
+    Parameters
+    ----------
+    maxima : sequence of float
+        One of each winter, in any unit.
+
+    Verified by
+    -----------
+    tests/verification/test_return_values.py
+    """
+    if len(maxima) < LEAST_WINTERS or len(set(maxima)) < 3:
+        return None
+    found = _fit_extreme_values(np.array(maxima, dtype=np.float64)[None])
+    location, scale, shape = (float(one[0]) for one in found)
+    return ExtremeValue(count=len(maxima), location=location, scale=scale, shape=shape)
+
+
+def _fit_extreme_values(samples: Floats) -> tuple[Floats, Floats, Floats]:
+    """Location, scale and shape of samples, shape (m, n) -> (m,) each."""
+    from scipy.special import gamma
+
+    ordered = np.sort(samples, axis=1)
+    n = ordered.shape[1]
+    rank = np.arange(n)
+    b0 = ordered.mean(axis=1)
+    b1 = ordered @ (rank / (n - 1)) / n
+    b2 = ordered @ (rank * (rank - 1) / ((n - 1) * (n - 2))) / n
+    second, third = 2.0 * b1 - b0, 6.0 * b2 - 6.0 * b1 + b0
+    c = 2.0 / (3.0 + third / second) - math.log(2.0) / math.log(3.0)
+    k = 7.8590 * c + 2.9554 * c**2
+    k = np.where(np.abs(k) < _FLAT, _FLAT, k)
+    scale = second * k / ((1.0 - 2.0**-k) * gamma(1.0 + k))
+    location = b0 - scale * (1.0 - gamma(1.0 + k)) / k
+    return location, scale, -k
 
 
 def fit_gumbel(maxima: Sequence[float]) -> Gumbel | None:

@@ -68,17 +68,21 @@ def test_document_is_that_of_the_interface(call, site, heights):
     assert document["station"]["height_factor_given"] is False
 
 
-def test_terminal_has_each_return_value_with_its_error_and_winters():
+def test_terminal_has_each_return_value_with_its_ends_and_winters():
     fit = Gumbel(count=23, mean=17.3e3, deviation=5.2e3)
-    row = {"id": "R1", "statistics": _write_statistics(fit), "trend": {"why": "Flat."}}
+    statistics = _write_statistics(fit, None)
+    row = {"id": "R1", "statistics": statistics, "trend": {"why": "Flat."}}
     told = [render(one, "en") for one in _list_statistics(row)]
-    assert told == [
-        "R1: foot's pull once in 30 years 28.7 kN/m, standard error 3.2 kN/m,"
-        " from 23 winters",
-        "R1: foot's pull once in 100 years 33.6 kN/m, standard error 4.3 kN/m,"
-        " from 23 winters",
-        "R1: Flat.",
+    ends = [
+        tuple(f"{one[f'{end}_kN_per_m']:.1f}" for end in ("foot", "low", "high"))
+        for one in statistics["return_values"]
     ]
+    assert [one[0] for one in ends] == ["28.7", "33.6"]
+    assert told == [
+        f"R1: foot's pull once in {period} years {foot} kN/m, between {low} and {high}"
+        " kN/m (5 and 95 %), from 23 winters"
+        for period, (foot, low, high) in zip((30, 100), ends, strict=True)
+    ] + ["R1: Flat."]
     alone = [render(one, "en") for one in _list_statistics(row | {"statistics": None})]
     assert alone == told[2:]
 

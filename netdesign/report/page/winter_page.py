@@ -12,6 +12,7 @@ from typing import Any
 from netdesign.report.blocks import (
     Block,
     Cell,
+    Column,
     Figure,
     Heading,
     Paragraph,
@@ -127,6 +128,7 @@ def _show_row(
     statistics = _tabulate_statistics(row["statistics"], words)
     without = Paragraph(text=words("winter_page.no_statistics"))
     yield statistics.shown("study") if statistics else without
+    yield from _compare_tails(row["statistics"] or {"return_values": ()}, words)
     yield _show_trend(row["trend"])
     yield Heading(text=words("winter_page.density_heading"), level=3)
     for text in _describe_range(row, document, words):
@@ -276,9 +278,8 @@ def _tabulate_statistics(
 ) -> Table | None:
     if statistics is None:
         return None
-    headings = [
-        words(f"winter_column.{key}") for key in ("period", "return_value", "error")
-    ]
+    keys = ("period", "return_value", "interval", "error", "gev", "interval")
+    headings = [words(f"winter_column.{key}") for key in keys]
     return Table(
         caption=words(
             "winter_page.statistics_caption",
@@ -286,16 +287,36 @@ def _tabulate_statistics(
             mean=statistics["mean_kN_per_m"],
             variation=statistics["variation"],
         ),
-        columns=name_columns(headings, numbers=headings),
+        columns=tuple(Column(heading=one, is_number=True) for one in headings),
         rows=tuple(
             (
                 fixed_cell(words, one["period_a"], 0),
                 fixed_cell(words, one["foot_kN_per_m"], 1),
+                _show_interval(one, "", words),
                 fixed_cell(words, one["standard_error_kN_per_m"], 1),
+                fixed_cell(words, one.get("gev_kN_per_m"), 1),
+                _show_interval(one, "gev_", words),
             )
             for one in statistics["return_values"]
         ),
     )
+
+
+def _show_interval(value: Mapping[str, Any], of: str, words: Words) -> Cell:
+    ends = [value.get(f"{of}{end}_kN_per_m") for end in ("low", "high")]
+    if None in ends:
+        return text_cell(MISSING)
+    low, high = (words.write(f"{end:.1f}") for end in ends)
+    return text_cell(words("show.band", low=low, high=high))
+
+
+def _compare_tails(statistics: Mapping[str, Any], words: Words) -> Iterator[Block]:
+    """Sentence on a value that both distributions do not agree on."""
+    for one in statistics["return_values"]:
+        if one.get("is_gev_far"):
+            gev = one["gev_kN_per_m"]
+            told = words("winter_page.gev_far", period=one["period_a"], gev=gev)
+            yield notes(told, look="notes open")
 
 
 def _show_trend(trend: Mapping[str, Any]) -> Block:

@@ -430,7 +430,7 @@ def _list_differences(study: Study, words: Words) -> Iterator[Block]:
 
 
 def _list_notes(study: Study, words: Words) -> Iterator[Block]:
-    """What is known of the rows beside their verdicts."""
+    """Notes on the rows that no verdict rests on."""
     notes = group_notes(study, words, is_beside=True)
     items = tuple(
         words("show.label", label=name_rows(ids, study, words), text=note)
