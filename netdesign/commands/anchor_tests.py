@@ -12,10 +12,8 @@ import click
 
 from netdesign.commands.options import (
     DEFAULT_STANDARD,
-    flag,
-    force_option,
-    language_option,
     refuse_without,
+    take_options,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.stored_study import require_sound
@@ -36,25 +34,7 @@ _FORM = "anchor-tests.xlsx"
 
 @click.command(name="tests")
 @click.argument("file", type=click.Path(path_type=Path, dir_okay=False))
-@flag("--plan", help="Plan tests of a site and write a form for them.")
-@click.option(
-    "--study",
-    "study_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help=f"Study of the site, with --plan [{_STUDY}].",
-)
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help=f"Form to write, with --plan [{_FORM}].",
-)
-@click.option(
-    "--standard",
-    metavar="ID",
-    help=f"Limit profile [the study's; of a form {DEFAULT_STANDARD}].",
-)
-@language_option("Of the form, and of what is printed.")
-@force_option
+@take_options("tests")
 def anchor_tests(
     file: Path,
     *,

@@ -11,11 +11,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
-    accuracy_option,
-    jobs_option,
-    json_option,
-    language_option,
     refuse_without,
+    take_options,
 )
 from netdesign.commands.running import print_document
 from netdesign.commands.usage import UsageRefusal
@@ -57,49 +54,7 @@ class _Output:
 
 
 @click.command()
-@click.option(
-    "--stress",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Solve N random scenes instead; each has to converge or to be refused.",
-)
-@click.option(
-    "--errors",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Compare N random scenes with finer meshes instead: are errors honest?",
-)
-@click.option(
-    "--lines",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Follow N lines of 200 scenes instead: does a force jump beyond its error?",
-)
-@click.option(
-    "--against",
-    type=click.Path(path_type=Path),
-    metavar="WHEEL_OR_VENV",
-    help="Time this version beside another one instead: both in turns, in one run.",
-)
-@click.option(
-    "--seed", type=click.IntRange(0), default=1, show_default=True, help="Of --stress."
-)
-@accuracy_option("Asked of the random scenes.", default=0.005)
-@jobs_option(
-    "Processes for random scenes; more than cores make times useless.",
-    default=1,
-    show_default=True,
-)
-@click.option("--scenes", metavar="A,B", help="Only these named scenes.")
-@click.option("--quick", is_flag=True, help="Less of everything, for a first look.")
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="Write run time against error as SVG.",
-)
-@click.option("--force", is_flag=True, help="Overwrite an existing plot.")
-@json_option("result")
-@language_option()
+@take_options("bench")
 def bench(
     *,
     stress: int | None,

@@ -14,18 +14,7 @@ import click
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
     DEFAULT_STANDARD,
-    accuracy_option,
-    choice,
-    example_option,
-    flag,
-    force_option,
-    json_option,
-    out_option,
-    quiet_option,
-    report_options,
-    site_options,
-    solving_options,
-    what_if_options,
+    take_options,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.running import format_time, own_command
@@ -49,42 +38,7 @@ if TYPE_CHECKING:
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
-@example_option("Use the built-in example site.")
-@site_options
-@click.option(
-    "--standard",
-    "standards",
-    multiple=True,
-    metavar="ID",
-    help=f"Limit profile, or a folder with one; repeatable [{DEFAULT_STANDARD}].",
-)
-@accuracy_option("Relative error allowed in every end force of the net.", default=0.01)
-@choice(
-    "--method",
-    ("steady", "transient"),
-    "Steady states; transient confirms governing cases by their histories.",
-)
-@click.option(
-    "--floor",
-    type=click.Choice(["guideline", "none"]),
-    help="What no demand lies below [the limit profile's]; told on the first page.",
-)
-@click.option(
-    "--row",
-    "rows",
-    multiple=True,
-    metavar="ID",
-    help="Check this net row only; repeatable.",
-)
-@what_if_options
-@solving_options
-@out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
-@report_options
-@flag("--explain", help="Print what would flip each check.")
-@json_option("study")
-@flag("--dry-run", help="Read and count only; write nothing.")
-@force_option
-@quiet_option
+@take_options("check")
 def check(site_file: Path | None, **asked: Any) -> None:
     """Check every anchor of a site and write the reports.
 

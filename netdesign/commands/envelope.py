@@ -14,16 +14,8 @@ import click
 from netdesign.commands.options import (
     RANGE,
     GivenRange,
-    accuracy_option,
-    choice,
-    force_option,
-    join,
-    json_option,
-    language_option,
-    out_option,
-    quiet_option,
     refuse_jobs,
-    solving_options,
+    take_options,
 )
 from netdesign.commands.running import (
     open_phases,
@@ -46,19 +38,6 @@ if TYPE_CHECKING:
     from netdesign.solving.solve import Settings
     from netdesign.study.case_records import EnvelopeRecord
 
-_RANGES = (
-    ("--density", "density", "Snow density [kg/m3]."),
-    ("--friction", "friction_angle", "Friction angle of snow on net [degrees]."),
-    ("--inclination", "inclination", "Net inclination [degrees]."),
-    ("--slope", "slope_angle", "Slope angle [degrees]."),
-    ("--thickness", "thickness", "Snow thickness normal to the slope [m]."),
-    ("--height", "snow_height", "Vertical snow height, instead of a thickness [m]."),
-    ("--length", "upslope_length", "Snowpack that the net carries, upslope [m]."),
-    ("--slack", "slack", "Slack of the net [-]."),
-    ("--stiffness", "net_stiffness", "Net stiffness per metre of width [kN/m]."),
-    ("--slip", "slip_length", "Slip length of sliding ground [m]."),
-    ("--glide", "glide_factor", "Glide factor, instead of a slip length [-]."),
-)
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
 _USUAL_CASES = 18  # of a search, for each range
@@ -67,23 +46,7 @@ DOCUMENT, FIGURES = "envelope.json", ("maps.svg", "lines.svg", "drivers.svg")
 
 @click.command()
 @click.argument("scene_file", type=click.Path(path_type=Path))
-@join(*(click.option(name, key, type=RANGE, help=text) for name, key, text in _RANGES))
-@accuracy_option(
-    "Relative error allowed in every force, and most that may hide above it.",
-    default=0.005,
-    least=1e-3,
-)
-@choice(
-    "--confirm",
-    ("mesh", "transient", "none"),
-    "How the governing cases are solved again.",
-)
-@solving_options
-@out_option("Folder.")
-@json_option("envelope")
-@language_option()
-@force_option
-@quiet_option
+@take_options("envelope")
 def envelope(scene_file: Path, **asked: Any) -> None:
     """Find the largest forces of a scene over ranges, with what may still hide.
 
@@ -97,7 +60,8 @@ def envelope(scene_file: Path, **asked: Any) -> None:
 
     language, out, confirm = asked["language"], asked["out"], asked["confirm"]
     refuse_jobs(asked["executor"], language)
-    given = {key: asked[key] for _, key, _ in _RANGES if asked[key] is not None}
+    ranging = [one.name or "" for one in _list_options()]
+    given = {name: asked[name] for name in ranging if asked[name] is not None}
     counted = _require_usable(given)
     read = read_scene_file(scene_file, "steady")
     spans = _build_ranges(given)
@@ -127,12 +91,18 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     sys.exit(failed or (_NOT_PROVEN if document["outcome"] == "not_proven" else 0))
 
 
+def _list_options() -> list[click.Parameter]:
+    """Options of ranges, in the order of the help."""
+    command = click.get_current_context().command
+    return [one for one in command.params if one.type is RANGE]
+
+
 def _require_usable(given: dict[str, GivenRange]) -> bool:
     """Refuse ranges that make no envelope; True if they ask for a grid."""
     from netdesign.envelope.ranges import MOST_GRID_CASES
 
     if not given:
-        flags = tuple(flag for flag, _, _ in _RANGES)
+        flags = tuple(one.opts[0] for one in _list_options())
         raise UsageRefusal(say("usage.no_range", flags=flags))
     if len(given) > _MOST_RANGES:
         raise UsageRefusal(

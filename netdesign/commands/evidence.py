@@ -13,14 +13,8 @@ from typing import TYPE_CHECKING
 import click
 
 from netdesign.commands.options import (
-    force_option,
-    jobs_option,
-    json_option,
-    language_option,
-    origin_options,
-    out_option,
-    quiet_option,
     refuse_without,
+    take_options,
 )
 from netdesign.commands.running import (
     open_run,
@@ -48,24 +42,7 @@ _SHOWN = 20  # differences; more help nobody
 
 
 @click.command()
-@click.option(
-    "--study",
-    "study_file",
-    type=click.Path(path_type=Path),
-    metavar="STUDY.json",
-    help="Hash and solve this study again instead.",
-)
-@origin_options
-@jobs_option("Processes of --study [all cores].")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIRECTORY",
-    help="Write the pack as a page with pictures, too.",
-)
-@force_option
-@json_option("cases")
-@language_option()
+@take_options("verify")
 def verify(
     *,
     study_file: Path | None,
@@ -283,11 +260,7 @@ class _Shown:
 @click.argument(
     "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
 )
-@out_option("Folder of the page and its document.", required=True)
-@json_option("validation")
-@force_option
-@quiet_option
-@language_option("Of page and messages.")
+@take_options("validate")
 def validate(
     structures: Path | None,
     out: Path,
@@ -339,11 +312,7 @@ def validate(
 
 
 @click.command()
-@out_option("Folder of the page, drawings and tables.", required=True)
-@force_option
-@jobs_option()
-@quiet_option
-@language_option("Of page and messages.")
+@take_options("paper")
 def paper(
     out: Path, *, force: bool, jobs: int | None, quiet: bool, language: Language
 ) -> None:

@@ -16,15 +16,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
-    DEFAULT_STANDARD,
-    accuracy_option,
-    example_option,
-    force_option,
-    json_option,
-    language_option,
-    out_option,
-    quiet_option,
-    solving_options,
+    take_options,
 )
 from netdesign.commands.running import (
     EXIT_CODES,
@@ -69,43 +61,7 @@ _FILE = click.Path(path_type=Path, dir_okay=False)
 @click.command()
 @click.argument("grid", required=False, type=_FILE)
 @click.argument("zone", required=False, type=_FILE)
-@example_option("Made-up starting zone; its grid, types and prices stand beside.")
-@click.option(
-    "--types",
-    type=_FILE,
-    metavar="SITE",
-    help="Workbook: the nets that may be built on sheet Nets, all types, ranges.",
-)
-@click.option("--snow", type=click.FloatRange(0.1, 20.0), help="Vertical height [m].")
-@click.option(
-    "--snow-altitude",
-    type=click.FloatRange(-500.0, 9000.0),
-    help="Where that height holds [m].",
-)
-@click.option(
-    "--snow-gradient",
-    type=click.FloatRange(-1.0, 1.0),
-    help="Its change in 100 m of altitude [m].",
-)
-@click.option("--snow-grid", type=_FILE, help="Grid of vertical heights instead [m].")
-@click.option("--prices", type=_FILE, help="csv of type, price, per: the cheapest.")
-@click.option(
-    "--standard", metavar="ID", default=DEFAULT_STANDARD, help="Limit profile."
-)
-@click.option(
-    "--spacing-standard",
-    metavar="ID",
-    default=_GUIDELINE,
-    show_default=True,
-    help="Limit profile of the distance of rows.",
-)
-@accuracy_option("Relative error allowed in every end force of the net.", default=0.01)
-@solving_options
-@out_option(f"Folder of the outputs [{DEFAULT_FOLDER}].")
-@language_option("Of workbook and messages.")
-@json_option("plan")
-@force_option
-@quiet_option
+@take_options("layout")
 def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     """Propose net rows for a starting zone, and check each of them.
 

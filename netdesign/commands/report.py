@@ -10,13 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
-    force_option,
-    json_option,
-    language_option,
-    origin_options,
-    out_option,
     refuse_without,
-    report_options,
+    take_options,
 )
 from netdesign.commands.running import find_exit_code, print_document, report_places
 from netdesign.commands.stored_study import require_sound
@@ -102,10 +97,7 @@ def _read_places(path: Path | None) -> RowsMap | None:
 
 @click.command()
 @click.argument("study_file", type=click.Path(path_type=Path))
-@out_option("Folder of the outputs.", default=DEFAULT_FOLDER, show_default=True)
-@origin_options
-@report_options
-@force_option
+@take_options("report")
 def report(
     study_file: Path,
     *,
@@ -152,8 +144,7 @@ def report(
 @click.command()
 @click.argument("old", type=click.Path(path_type=Path))
 @click.argument("new", type=click.Path(path_type=Path))
-@json_option("changes")
-@language_option()
+@take_options("diff")
 def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
     """Show what changed from one study to another: verdicts, checks, inputs.
 

@@ -13,12 +13,10 @@ import click
 
 from netdesign.commands.options import (
     DELIMITERS,
-    force_option,
-    language_option,
     read_instead,
     refuse_delimiter,
     refuse_jobs,
-    text_options,
+    take_options,
 )
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.causes import explain_with_file
@@ -235,9 +233,7 @@ _SUFFIX = ".xlsx"
 
 @click.command()
 @click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
-@click.option("--example", is_flag=True, help="Fill in the built-in example site.")
-@language_option("Of headings, words and notes; all three are read.")
-@click.option("--force", is_flag=True, help="Overwrite an existing file.")
+@take_options("init")
 def init(site_file: Path, *, example: bool, language: Language, force: bool) -> None:
     """Write an input workbook to fill in.
 
@@ -288,10 +284,7 @@ def _put_once(
 
 @click.command(name="map")
 @click.argument("site_file", type=click.Path(path_type=Path))
-@text_options
-@click.option("--ask", is_flag=True, help="Ask one after another on the terminal.")
-@language_option("Of the comments in the file.")
-@force_option
+@take_options("map")
 def map_headings(
     site_file: Path, *, ask: bool, language: Language, force: bool, **reading: Any
 ) -> None:

@@ -9,13 +9,9 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
-    json_option,
-    language_option,
-    median_option,
-    model_option,
     refuse_delimiter,
     refuse_without,
-    text_options,
+    take_options,
 )
 from netdesign.commands.running import print_document
 from netdesign.commands.site_input import build_text_format
@@ -32,12 +28,7 @@ SCHEMA = "netdesign.snowpack/1"
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("height_file", type=click.Path(path_type=Path))
-@model_option("Settling model.")
-@median_option
-@click.option("--layers", is_flag=True, help="Layers of each day, too; with --json.")
-@text_options
-@language_option("Of messages.")
-@json_option("days")
+@take_options("snowpack")
 def snowpack(
     height_file: Path,
     *,
@@ -113,7 +104,7 @@ def _write_day(day: str, pack: DayPack, *, with_layers: bool) -> dict[str, Any]:
 
 
 @click.command()
-@language_option()
+@take_options("glide")
 def glide(*, language: Language) -> None:
     """Measure the glide factors of slip lengths again, beside the stored table."""
     from netdesign.coupling.steady.rigid import measure_glide_factor

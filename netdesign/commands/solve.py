@@ -9,10 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from netdesign.commands.options import (
-    force_option,
-    json_option,
-    language_option,
-    out_option,
+    take_options,
 )
 from netdesign.commands.running import (
     EXIT_CODES,
@@ -42,15 +39,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("scene_file", type=click.Path(path_type=Path))
-@click.option(
-    "--method",
-    type=click.Choice(["steady", "transient", "staggered"]),
-    help="Steady state, history, or the source paper's exchange [the scene's].",
-)
-@json_option("solution")
-@out_option("Folder for a page with drawings, the solution, a history's table.")
-@language_option("Of what is printed, and of reasons and remarks.")
-@force_option
+@take_options("solve")
 def solve(
     scene_file: Path,
     *,

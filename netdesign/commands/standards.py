@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from netdesign.commands.options import language_option
+from netdesign.commands.options import take_options
 from netdesign.commands.usage import LanguageGroup, tell
 from netdesign.outcome import OutputError
 from netdesign.words.catalogue import Language, render
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.group(cls=LanguageGroup)
-@language_option("Of this help.", expose_value=False)
+@take_options("standards")
 def standards() -> None:
     """Show the limit profiles, and start one of your own.
 
@@ -33,7 +33,7 @@ def standards() -> None:
 
 
 @standards.command("list")
-@language_option()
+@take_options("standards_list")
 def list_profiles(*, language: Language) -> None:
     """List the profiles that come with the program."""
     from netdesign.checks import list_standards, load_standard
@@ -47,7 +47,7 @@ def list_profiles(*, language: Language) -> None:
 
 @standards.command("show")
 @click.argument("name", metavar="ID")
-@language_option("Of a profile that comes with the program, and of what it says.")
+@take_options("standards_show")
 def show_profile(name: str, *, language: Language) -> None:
     """Show every value of a profile with its status and source."""
     from netdesign.checks import load_standard
@@ -86,7 +86,7 @@ def show_profile(name: str, *, language: Language) -> None:
 
 @standards.command("validate")
 @click.argument("folder", type=click.Path(path_type=Path))
-@language_option()
+@take_options("standards_validate")
 def validate_profile(folder: Path, *, language: Language) -> None:
     """Validate a profile folder; every fault is told."""
     from netdesign.checks import load_standard
@@ -97,7 +97,7 @@ def validate_profile(folder: Path, *, language: Language) -> None:
 @standards.command("copy")
 @click.argument("name", metavar="ID")
 @click.argument("folder", type=click.Path(path_type=Path))
-@language_option()
+@take_options("standards_copy")
 def copy_profile(name: str, folder: Path, *, language: Language) -> None:
     """Copy a profile to edit; its id becomes the name of the folder."""
     from netdesign.checks import load_standard

@@ -10,12 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
-    example_option,
-    force_option,
-    json_option,
-    language_option,
-    quiet_option,
     refuse_without,
+    take_options,
 )
 from netdesign.commands.running import print_document
 from netdesign.commands.usage import UsageRefusal, tell
@@ -40,50 +36,7 @@ _ROWS = "rows.geojson"
 @click.command()
 @click.argument("grid", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.argument("rows", required=False, type=click.Path(path_type=Path, dir_okay=False))
-@example_option("Made-up starting zone; its grid, rows and types stand beside.")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help=f"Workbook; beside it rows.geojson and terrain.html [{_SITE}].",
-)
-@click.option(
-    "--types",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="SITE",
-    help="Workbook whose other sheets are taken over: types, row ends, ranges.",
-)
-@click.option(
-    "--verdicts",
-    "study_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="STUDY",
-    help="Put the verdicts of a study on the map instead; with --rows and --out.",
-)
-@click.option(
-    "--rows",
-    "places_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="ROWS",
-    help="The rows.geojson of that study's site, with --verdicts.",
-)
-@click.option(
-    "--most",
-    type=click.FloatRange(1.0, 500.0),
-    default=50.0,
-    show_default=True,
-    help="Largest upslope length that is looked for [m].",
-)
-@click.option(
-    "--standard",
-    metavar="ID",
-    default=_GUIDELINE,
-    show_default=True,
-    help="Limit profile of the distance of rows, for the zone's coverage.",
-)
-@language_option("Of workbook and messages.")
-@json_option("rows on the terrain")
-@force_option
-@quiet_option
+@take_options("terrain")
 def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     """Read slope, length and posts of net rows off an elevation grid.
 

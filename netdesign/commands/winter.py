@@ -12,21 +12,8 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
-    FIT_PARAMETERS,
-    accuracy_option,
-    example_option,
-    fit_options,
-    flag,
-    force_option,
-    json_option,
-    language_option,
-    median_option,
-    model_option,
-    out_option,
-    quiet_option,
     refuse_without,
-    site_options,
-    solving_options,
+    take_options,
 )
 from netdesign.commands.running import (
     EXIT_CODES,
@@ -63,33 +50,7 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
-@example_option("Built-in site, made-up winter.")
-@site_options
-@click.option(
-    "--heights",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE.csv",
-    help="Snow heights of a station, instead of sheet Winter.",
-)
-@model_option("Settling model of the curves; the others give their annual maxima.")
-@click.option("--row", "rows", multiple=True, metavar="ID", help="Rows [all].")
-@click.option(
-    "--every",
-    type=click.IntRange(1, 60),
-    default=4,
-    show_default=True,
-    help="Days between those of a curve.",
-)
-@median_option
-@flag("--accept-heights", help="However little or much snow that is.")
-@fit_options
-@accuracy_option("Relative error allowed in every end force.", default=0.01)
-@solving_options
-@out_option(f"Folder of the outputs [{_FOLDER}; with --json none].")
-@language_option("Of page and messages.")
-@json_option("winters")
-@force_option
-@quiet_option
+@take_options("winter")
 def winter(site_file: Path | None, **asked: Any) -> None:
     """Follow a station's snow heights on the net rows of a site.
 
@@ -289,6 +250,13 @@ def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
 
 
 SOLVES = 600  # of a fit, about
+FIT_PARAMETERS = {
+    "slip": "slip_length",
+    "density": "density_factor",
+    "height": "height_factor",
+    "slack": "slack",
+    "friction": "friction_angle",
+}
 FIT_NAMES = ("noise", "cell_error", "rope_kelvin", "known")  # of its parameters
 
 
