@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from netdesign.checks import Standard
     from netdesign.checks.schema import Floor
     from netdesign.site.model import Site
-    from netdesign.words.catalogue import Language
 
 
 @click.command(cls=ConfiguredCommand)
@@ -67,9 +66,8 @@ def check(site_file: Path | None, **asked: Any) -> None:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
-    language: Language = asked["language"]
     profiles = _choose_profiles(asked["standards"], site, asked["floor"])
-    _describe_other_profile(asked["standards"], site, language)
+    _describe_other_profile(asked["standards"], site)
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
         method=asked["method"],
@@ -80,11 +78,10 @@ def check(site_file: Path | None, **asked: Any) -> None:
     if asked["dry_run"]:
         from netdesign.commands.check_run import announce
 
-        as_json = asked["as_json"]
-        sys.exit(announce(site, run, len(profiles), as_json=as_json, language=language))
+        sys.exit(announce(site, run, len(profiles), as_json=asked["as_json"]))
     if not asked["quiet"]:
         for question in site.questions:
-            tell(say("cli.question", text=question), language, err=True)
+            tell(say("cli.question", text=question), err=True)
     outputs = plan_outputs(folder, [profile.id for profile in profiles], asked)
     if outputs.style.places is not None:
         from netdesign.files.rows_map import require_rows
@@ -130,14 +127,12 @@ def _choose_profiles(
     return [one.overrule_floor(floor) for one in profiles] if floor else profiles
 
 
-def _describe_other_profile(
-    names: Sequence[str], site: Site, language: Language
-) -> None:
+def _describe_other_profile(names: Sequence[str], site: Site) -> None:
     """Note that the command line overrules the profile that the site names."""
     named = site.project.standard
     if named and names and named not in names:
         other = say("standard.not_of_site", named=named, used=tuple(names))
-        tell(say("cli.note", text=other), language, err=True)
+        tell(say("cli.note", text=other), err=True)
 
 
 def _find_profiles(names: Sequence[str], site: Site) -> list[Standard]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import os
@@ -20,13 +19,17 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.running import (
     EXIT_CODES,
+    follow,
     format_time,
     open_run,
     print_document,
     print_faults,
-    report_places,
+    require_places,
+    write_outputs,
 )
-from netdesign.commands.usage import UsageRefusal, tell
+from netdesign.commands.terrain import ROWS_FILE, read_ground, render_measured
+from netdesign.commands.usage import UsageRefusal, speak, tell
+from netdesign.edge.output import STUDY_FILE
 from netdesign.outcome import TerrainError, Verdict
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
@@ -50,7 +53,7 @@ if TYPE_CHECKING:
 
 DEFAULT_FOLDER = "netdesign-layout"
 _GUIDELINE = "swiss-guideline-2007"
-_SITE, _ROWS, _DRAWN, _PLAN = "site.xlsx", "rows.geojson", "plan.geojson", "plan.json"
+_SITE, _DRAWN, _PLAN = "site.xlsx", "plan.geojson", "plan.json"
 _ENDS = "Ends"  # sheet of the lines on the ends of rows
 _LEFT_OPEN = 0.1  # of the steep ground; a plan that leaves more is not whole [-]
 _EXAMPLE_SNOW = 3.2  # vertical [m]
@@ -75,8 +78,11 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     steepest slope between them. Each has the lowest net of sheet Nets that is as high
     as its snow, and the smallest or cheapest types of the workbook that pass.
     """
+    from netdesign.report.page.terrain_page import PAGE_FILE
+
     folder: Path = asked["out"] or Path(DEFAULT_FOLDER)
-    _require_free(folder, asked)
+    names = (_SITE, ROWS_FILE, _DRAWN, _PLAN, STUDY_FILE, PAGE_FILE)
+    require_places(folder, names, asked)
     if asked["example"]:
         if grid is not None or asked["types"] or asked["prices"]:
             raise UsageRefusal(say("layout.example_alone"))
@@ -93,11 +99,12 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     proposed = _propose(task, asked)
     workbook, study, failed = _check(task, proposed, asked)
     document = _describe(task, proposed, study)
-    _write(task, folder, proposed, workbook, study, document, asked)
+    contents = _render(task, proposed, study, document)
+    write_outputs(folder, {_SITE: workbook, **contents}, asked)
     if asked["as_json"]:
         print_document(document)
     else:
-        _tell_plan(document, study, proposed, asked["language"])
+        _tell_plan(document, study, proposed)
     raise SystemExit(failed or EXIT_CODES[Verdict(document["verdict"])])
 
 
@@ -128,30 +135,18 @@ class _Proposed:
     coverage: Coverage
 
 
-def _require_free(folder: Path, asked: Mapping[str, Any]) -> None:
-    from netdesign.edge.output import STUDY_FILE, require_free
-    from netdesign.report.page.terrain_page import PAGE_FILE
-
-    names = (_SITE, _ROWS, _DRAWN, _PLAN, STUDY_FILE, PAGE_FILE)
-    require_free([folder / one for one in names], overwrite=asked["force"])
-
-
 def _read(grid: Path, zone: Path, asked: Mapping[str, Any]) -> _Given:
     from netdesign.checks import load_standard
     from netdesign.checks.schema import GROUND_FRICTION, SPACING_CAP
     from netdesign.terrain.constructions import read_catalogue
-    from netdesign.terrain.crs import require_same
-    from netdesign.terrain.grid import read_grid
     from netdesign.terrain.plan import read_zones
 
     spacing = load_standard(asked["spacing_standard"])
     friction, cap = spacing.find(GROUND_FRICTION), spacing.find(SPACING_CAP)
     if friction is None:
         raise UsageRefusal(say("terrain.no_friction", profile=spacing.id))
-    ground, zones = read_grid(grid), read_zones(zone)
-    require_same(ground.crs, zones.crs)
-    for note in (*ground.notes, *zones.notes):
-        tell(note, asked["language"], err=True)
+    zones = read_zones(zone)
+    ground = read_ground(grid, zones)
     return _Given(
         grid=ground,
         grid_file=grid,
@@ -202,7 +197,6 @@ def _choose_snow(ground: Grid, asked: Mapping[str, Any]) -> Callable[[Floats], F
 def _propose(given: _Given, asked: Mapping[str, Any]) -> _Proposed:
     """Rows for the zones, and the same rows as ``netdesign terrain`` measures them."""
     from netdesign.checks.geometry import compute_largest_row_spacing
-    from netdesign.edge.progress import show_progress
     from netdesign.terrain.coverage import find_coverage
     from netdesign.terrain.layout import Task, choose_surface, propose_rows
     from netdesign.terrain.measure import measure_plan
@@ -227,8 +221,7 @@ def _propose(given: _Given, asked: Mapping[str, Any]) -> _Proposed:
     named = {f"R{number}": row for number, row in enumerate(rows, 1)}
     lines = tuple(given.catalogue.draw(row, name) for name, row in named.items())
     plan = replace(given.zones, lines=lines)
-    shown = {"quiet": asked["quiet"], "language": asked["language"]}
-    with show_progress(len(lines), "rows", **shown) as on_row:
+    with follow(len(lines), "rows", asked) as on_row:
         surface, measured = measure_plan(
             given.grid, plan, most=max(_LOOKED_FOR, task.farthest), on_row=on_row
         )
@@ -276,7 +269,7 @@ def _check(
         workbook = write_workbook(rows, name, lines, language)
         again = solve_rows(_read_site(workbook, {}), run, runner, watch, solved)
         (study,) = judge_solved(again, [given.standard], run, runner, watch)
-    return workbook, study, print_faults(runner.faults, language)
+    return workbook, study, print_faults(runner.faults)
 
 
 def _name_check(asked: Mapping[str, Any]) -> str:
@@ -348,67 +341,45 @@ def _describe(given: _Given, proposed: _Proposed, study: Study) -> dict[str, Any
     return found
 
 
-def _write(
-    given: _Given,
-    folder: Path,
-    proposed: _Proposed,
-    workbook: bytes,
-    study: Study,
-    document: Mapping[str, Any],
-    asked: Mapping[str, Any],
-) -> None:
-    from netdesign.edge.output import STUDY_FILE, write_files
-    from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
+def _render(
+    given: _Given, proposed: _Proposed, study: Study, document: Mapping[str, Any]
+) -> dict[str, bytes]:
+    """Contents of all files but the workbook, by their names."""
     from netdesign.study.document import write_document
-    from netdesign.terrain.geojson import (
-        list_drawn_features,
-        list_row_features,
-        write_features,
-    )
+    from netdesign.terrain.geojson import list_drawn_features, write_features
 
-    language = asked["language"]
-    name, crs = given.grid_file.name, given.grid.crs or given.zones.crs
-    sha256 = hashlib.sha256(given.grid_file.read_bytes()).hexdigest()
-    measured = list_row_features(proposed.rows, given.zones.zones, name, sha256)
-    page = render_terrain(
-        *(proposed.surface, proposed.plan, proposed.rows, proposed.coverage),
-        *((name, sha256), language),
-    )
-    contents = {
-        _DRAWN: write_features(list_drawn_features(proposed.plan, language), crs),
-        _SITE: workbook,
-        _ROWS: write_features(measured, crs),
+    crs = given.grid.crs or given.zones.crs
+    drawn = list_drawn_features(proposed.plan, speak())
+    return {
+        _DRAWN: write_features(drawn, crs),
         _PLAN: (json.dumps(document, indent=1) + "\n").encode(),
         STUDY_FILE: write_document(study).encode(),
-        PAGE_FILE: page,
+        **render_measured(
+            *(given.grid_file, crs, proposed.surface, proposed.plan),
+            *(proposed.rows, proposed.coverage),
+        ),
     }
-    files = {folder / one: content for one, content in contents.items()}
-    write_files(files, overwrite=asked["force"])
-    if not asked["quiet"]:
-        report_places([list(files)], language, quiet=False)
 
 
-def _tell_plan(
-    document: Mapping[str, Any], study: Study, proposed: _Proposed, language: Language
-) -> None:
+def _tell_plan(document: Mapping[str, Any], study: Study, proposed: _Proposed) -> None:
     from netdesign.report.terminal import open_console, print_summary
     from netdesign.terrain.measure import describe_kinks, describe_steep_above
 
     for row in document["rows"]:
         keys = ("length_m", "posts", "upslope_length_m")
         shown = {key: row[key] for key in keys}
-        tell(say("layout.row", row=row["id"], net=row["net"], **shown), language)
+        tell(say("layout.row", row=row["id"], net=row["net"], **shown))
     for one in proposed.rows:
         for told in filter(None, (describe_kinks(one), describe_steep_above(one))):
-            tell(told, language)
+            tell(told)
     of_sums = ("length_m", "posts", "zone_m2", "uncovered_m2")
     sums = {key: document[key] for key in of_sums}
-    tell(say("layout.sums", rows=len(document["rows"]), **sums), language)
+    tell(say("layout.sums", rows=len(document["rows"]), **sums))
     if "cost" in document:
-        tell(say("layout.cost", cost=document["cost"]), language)
+        tell(say("layout.cost", cost=document["cost"]))
     if document.get("without_cost"):
         types = tuple(document["without_cost"])
-        tell(say("layout.without_cost", types=types), language)
+        tell(say("layout.without_cost", types=types))
     if not document["is_covered"]:
-        tell(say("layout.not_covered"), language)
-    print_summary(study, open_console(), language)
+        tell(say("layout.not_covered"))
+    print_summary(study, open_console(), speak())

@@ -20,8 +20,7 @@ import click
 from click.core import ParameterSource
 
 from netdesign.commands.usage import UsageRefusal, ValueRefusal, tell
-from netdesign.words.catalogue import Language
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
 DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
@@ -171,33 +170,25 @@ def _build_option(name: str, table: dict[str, Any]) -> Callable[[Any], Any]:
     return click.option(*names, **of_click)
 
 
-def refuse_without(
-    names: Sequence[str], needed: tuple[str, ...], language: Language
-) -> None:
+def refuse_without(names: Sequence[str], *needed: str) -> None:
     """Refuse options of the command that runs, which belong to one not given.
 
     Parameters
     ----------
     names : sequence of str
         Of their parameters.
-    needed : tuple of str
+    *needed : str
         Options of which one would give them an effect.
-    language : str
-        Of the note on variables: they may be there for other runs.
 
     Raises
     ------
     UsageRefusal
         If one of them was typed.
     """
-    _refuse(
-        names,
-        lambda options: say("usage.idle_without", options=options, needed=needed),
-        language,
-    )
+    _refuse(names, "usage.idle_without", needed=needed)
 
 
-def refuse_delimiter(*paths: Path | None, language: Language) -> None:
+def refuse_delimiter(*paths: Path | None) -> None:
     """Refuse ``--delimiter`` where no csv file is read; None is the example's workbook.
 
     Raises
@@ -210,14 +201,10 @@ def refuse_delimiter(*paths: Path | None, language: Language) -> None:
     if any(path is not None and is_text(path) for path in paths):
         return
     file = _EXAMPLE if paths[-1] is None else paths[-1].name
-    _refuse(
-        ["delimiter"],
-        lambda options: say("usage.idle_in_workbook", options=options, file=file),
-        language,
-    )
+    _refuse(["delimiter"], "usage.idle_in_workbook", file=file)
 
 
-def refuse_jobs(executor: str, language: Language) -> None:
+def refuse_jobs(executor: str) -> None:
     """Refuse ``--jobs`` beside a cluster, which has its own processes.
 
     Raises
@@ -226,33 +213,28 @@ def refuse_jobs(executor: str, language: Language) -> None:
         If it was typed.
     """
     if executor:
-        _refuse(
-            ["jobs"],
-            lambda options: say("usage.idle_beside", options=options, other=_CLUSTER),
-            language,
-        )
+        _refuse(["jobs"], "usage.idle_beside", other=_CLUSTER)
 
 
-def _refuse(
-    names: Sequence[str],
-    explain: Callable[[tuple[str, ...]], Message],
-    language: Language,
-) -> None:
-    """Refuse options where typed; where variables set them, tell that of these."""
+def _refuse(names: Sequence[str], key: str, **why: Any) -> None:
+    """Refuse options where typed; where variables set them, tell that of these.
+
+    Variables may be there for other runs.
+    """
     context = click.get_current_context()
     found = [one for one in context.command.params if one.name in names]
     typed = tuple(
         max(one.opts, key=len) for one in found if _is_from(one, _TYPED, context)
     )
     if typed:
-        raise UsageRefusal(explain(typed))
+        raise UsageRefusal(say(key, options=typed, **why))
     variables = tuple(
         next(filter(os.environ.get, one.envvar or ()), "")
         for one in found
         if _is_from(one, _SET, context)
     )
     if variables:
-        tell(say("cli.note", text=explain(variables)), language, err=True)
+        tell(say("cli.note", text=say(key, options=variables, **why)), err=True)
 
 
 def _is_from(

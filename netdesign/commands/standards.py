@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -55,18 +55,18 @@ def show_profile(name: str, *, language: Language) -> None:
 
     profile, words = load_standard(name), Words(language)
     title = show_own(words, f"{profile.title}, {profile.edition}")
-    tell(say("show.label", label=profile.id, text=title), language)
+    tell(say("show.label", label=profile.id, text=title))
     told = say("standard.version", version=profile.version, sha256=profile.sha256)
-    tell(told, language)
+    tell(told)
     if profile.choice:
-        tell(say("standard.choice", choice=profile.choice), language)
+        tell(say("standard.choice", choice=profile.choice))
         click.echo(show_own(words, profile.choice_text))
     floor = f"floor.profile_{profile.floor}"
-    tell(say(floor), language)
+    tell(say(floor))
     route = render(name_of("route", profile.route), language)
-    tell(say("standard.route", route=route), language)
+    tell(say("standard.route", route=route))
     added = render(name_of("shared_sum", profile.shared_sum), language)
-    tell(say("standard.shared_sum", sum=added), language)
+    tell(say("standard.shared_sum", sum=added))
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:
@@ -87,18 +87,18 @@ def show_profile(name: str, *, language: Language) -> None:
 @standards.command("validate")
 @click.argument("folder", type=click.Path(path_type=Path))
 @take_options("standards_validate")
-def validate_profile(folder: Path, *, language: Language) -> None:
+def validate_profile(folder: Path, **_: Any) -> None:
     """Validate a profile folder; every fault is told."""
     from netdesign.checks import load_standard
 
-    tell(_summarise(load_standard(folder)), language)
+    tell(_summarise(load_standard(folder)))
 
 
 @standards.command("copy")
 @click.argument("name", metavar="ID")
 @click.argument("folder", type=click.Path(path_type=Path))
 @take_options("standards_copy")
-def copy_profile(name: str, folder: Path, *, language: Language) -> None:
+def copy_profile(name: str, folder: Path, **_: Any) -> None:
     """Copy a profile to edit; its id becomes the name of the folder."""
     from netdesign.checks import load_standard
     from netdesign.edge.given_files import find_resource
@@ -120,7 +120,7 @@ def copy_profile(name: str, folder: Path, *, language: Language) -> None:
     )
     files = {folder / name: text.encode("utf-8") for name, text in texts.items()}
     write_files(files, overwrite=False)
-    tell(_summarise(load_standard(folder)), language)
+    tell(_summarise(load_standard(folder)))
 
 
 def _summarise(profile: Standard) -> Message:
