@@ -219,18 +219,14 @@ def _cover(
 ) -> Coverage:
     """Coverage of the zones by the profile's distance of rows."""
     from netdesign.checks import load_standard
-    from netdesign.checks.geometry import compute_largest_row_spacing
-    from netdesign.checks.schema import GROUND_FRICTION
+    from netdesign.checks.geometry import read_reach
     from netdesign.terrain.coverage import find_coverage
 
-    friction = load_standard(standard).find(GROUND_FRICTION)
-    if friction is None:
+    find_reach = read_reach(load_standard(standard))
+    if find_reach is None:
         raise UsageRefusal(say("terrain.no_friction", profile=standard))
     reach = {
-        row.line.id: compute_largest_row_spacing(
-            row.slope.high, row.line.net_height, friction.value
-        )
-        for row in rows
+        row.line.id: find_reach(row.slope.high, row.line.net_height) for row in rows
     }
     return find_coverage(surface, plan, rows, reach)
 
