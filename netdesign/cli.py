@@ -28,7 +28,7 @@ from netdesign.commands.config import (
     require_known_variables,
 )
 from netdesign.commands.help_texts import HelpTexts, load_help
-from netdesign.commands.options import language_option
+from netdesign.commands.options import take_options
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
 from netdesign.commands.usage import LanguageGroup, UsageRefusal, describe_refusal, tell
 from netdesign.edge.causes import explain_system
@@ -158,7 +158,7 @@ none of them; a standard output that cannot be written to ends with 2."
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 @click.version_option(package_name="netdesign")
-@language_option("Of this help; behind a command, of what it tells and writes.")
+@take_options("netdesign")
 @click.pass_context
 def cli(context: click.Context, language: Language) -> None:
     """Check the anchors of snow nets.

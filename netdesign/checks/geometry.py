@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from netdesign.checks.check import conclude, judge, not_proven
@@ -204,6 +205,22 @@ def compute_largest_row_spacing(
         return math.inf
     factor = 2.0 * slope / (slope - ground_friction)
     return factor * net_height / math.cos(slope_angle)
+
+
+def read_reach(standard: Standard) -> Callable[[float, float], float] | None:
+    """Largest distance of rows [m] by slope [rad] and net height [m], at most the cap.
+
+    None of a profile without the friction of the ground.
+    """
+    friction, cap = standard.find(GROUND_FRICTION), standard.find(SPACING_CAP)
+    if friction is None:
+        return None
+
+    def find_reach(slope: float, net_height: float) -> float:
+        most = cap.value * net_height / math.cos(slope) if cap else math.inf
+        return min(most, compute_largest_row_spacing(slope, net_height, friction.value))
+
+    return find_reach
 
 
 def check_row_spacing(row: RowGeometry, standard: Standard) -> CheckResult | None:

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from statistics import fmean
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from netdesign.commands.options import (
     DEFAULT_STANDARD,
-    flag,
-    force_option,
-    language_option,
     refuse_without,
+    take_options,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
+from netdesign.commands.running import require_places, write_outputs
 from netdesign.commands.stored_study import require_sound
 from netdesign.commands.usage import tell
 from netdesign.words.catalogue import Language, render
@@ -36,35 +35,8 @@ _FORM = "anchor-tests.xlsx"
 
 @click.command(name="tests")
 @click.argument("file", type=click.Path(path_type=Path, dir_okay=False))
-@flag("--plan", help="Plan tests of a site and write a form for them.")
-@click.option(
-    "--study",
-    "study_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help=f"Study of the site, with --plan [{_STUDY}].",
-)
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help=f"Form to write, with --plan [{_FORM}].",
-)
-@click.option(
-    "--standard",
-    metavar="ID",
-    help=f"Limit profile [the study's; of a form {DEFAULT_STANDARD}].",
-)
-@language_option("Of the form, and of what is printed.")
-@force_option
-def anchor_tests(
-    file: Path,
-    *,
-    plan: bool,
-    study_file: Path | None,
-    out: Path | None,
-    standard: str | None,
-    language: Language,
-    force: bool,
-) -> None:
+@take_options("tests")
+def anchor_tests(file: Path, **asked: Any) -> None:
     """Plan pull-out tests of a site, or evaluate a form of them.
 
     \b
@@ -74,57 +46,46 @@ def anchor_tests(
     A plan takes the design forces of a stored study. A form that is filled in gives the
     resistance by three ways, and lines for sheet Tests of the site's workbook.
     """
-    if plan:
-        form = out or Path(_FORM)
-        _write_plan(
-            file, study_file or Path(_STUDY), form, standard, language, force=force
-        )
+    if asked["plan"]:
+        _write_plan(file, asked["study_file"] or Path(_STUDY), asked)
         return
-    refuse_without(("study_file", "out", "force"), ("--plan",), language)
+    refuse_without(("study_file", "out", "force"), "--plan")
     from netdesign.checks import load_standard
     from netdesign.site.template.form import read_form
 
     rows, still_open = read_form(file)
-    profile = load_standard(standard or DEFAULT_STANDARD)
+    profile = load_standard(asked["standard"] or DEFAULT_STANDARD)
     for told in _evaluate(rows, profile):
-        tell(told, language)
+        tell(told)
     if still_open:
-        tell(say("plan.open_tests", count=still_open), language)
-    for line in _list_lines(rows, language):
+        tell(say("plan.open_tests", count=still_open))
+    for line in _list_lines(rows, asked["language"]):
         click.echo(line)
 
 
-def _write_plan(
-    site_file: Path,
-    study_file: Path,
-    form: Path,
-    named: str | None,
-    language: Language,
-    *,
-    force: bool,
-) -> None:
+def _write_plan(site_file: Path, study_file: Path, asked: Mapping[str, Any]) -> None:
     from netdesign.commands.stored_study import read_own_site
-    from netdesign.edge.output import require_free, write_files
     from netdesign.outcome import StudyError
     from netdesign.site.template.form import build_form
     from netdesign.study.document import load_study
     from netdesign.study.planned_tests import STEPS, plan_tests
     from netdesign.study.record_provenance import load_own_profile
 
-    require_free([form], overwrite=force)
+    form, named = asked["out"] or Path(_FORM), asked["standard"]
+    require_places(form.parent, [form.name], asked)
     if not study_file.exists():
         raise StudyError(
             say("plan.no_study", study=str(study_file), site=str(site_file))
         )
     study = load_study(study_file)
-    require_sound(study, study_file, site_file, named, language)
+    require_sound(study, study_file, site_file, named)
     site = read_own_site(study, study_file, site_file)
     profile = load_own_profile(study.profile, named)
     planned, open_points = plan_tests(study, site, profile)
     for told in _describe_plan(planned, profile):
-        tell(told, language)
+        tell(told)
     for told in open_points:
-        tell(told, language, err=True)
+        tell(told, err=True)
     lines = [
         {"type": one.type_id, "proof_load": math.ceil(10.0 * one.proof_load) / 10.0}
         | ({"ground": one.ground} if one.ground else {})
@@ -132,8 +93,8 @@ def _write_plan(
         for _ in one.rows
     ]
     places = [(row, one.force) for one in planned for row in one.rows]
-    write_files({form: build_form(lines, places, STEPS, language)}, overwrite=force)
-    tell(say("cli.wrote", path=str(form)), language, err=True)
+    content = build_form(lines, places, STEPS, asked["language"])
+    write_outputs(form.parent, {form.name: content}, asked)
 
 
 def _describe_plan(

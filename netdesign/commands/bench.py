@@ -3,119 +3,36 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from netdesign.commands.options import (
-    accuracy_option,
-    jobs_option,
-    json_option,
-    language_option,
     refuse_without,
+    take_options,
 )
-from netdesign.commands.running import print_document
-from netdesign.commands.usage import UsageRefusal
-from netdesign.words.catalogue import Language
+from netdesign.commands.running import (
+    follow,
+    print_document,
+    require_places,
+    write_outputs,
+)
+from netdesign.commands.usage import UsageRefusal, speak
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from rich.console import Console
+    from collections.abc import Mapping, Sequence
 
     from netdesign.evidence.benchmark.precision import Row
-    from netdesign.report.words import Words
-
-Show = Callable[[dict[str, Any], "Console", "Words"], None]
 
 _EXIT_FAIL = 1
 _RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
 
 
-@dataclass(frozen=True, slots=True)
-class _Output:
-    """Form of a result: tables in a language, or JSON."""
-
-    language: Language
-    as_json: bool
-
-    def write(self, document: dict[str, Any], show: Show | None = None) -> None:
-        """Print a document; on a terminal, by a function of its own if one is given."""
-        if self.as_json:
-            print_document(document)
-            return
-        from rich.console import Console
-
-        from netdesign.evidence.table import show_document
-        from netdesign.report.words import Words
-
-        (show or show_document)(document, Console(), Words(self.language))
-
-
 @click.command()
-@click.option(
-    "--stress",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Solve N random scenes instead; each has to converge or to be refused.",
-)
-@click.option(
-    "--errors",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Compare N random scenes with finer meshes instead: are errors honest?",
-)
-@click.option(
-    "--lines",
-    type=click.IntRange(1),
-    metavar="N",
-    help="Follow N lines of 200 scenes instead: does a force jump beyond its error?",
-)
-@click.option(
-    "--against",
-    type=click.Path(path_type=Path),
-    metavar="WHEEL_OR_VENV",
-    help="Time this version beside another one instead: both in turns, in one run.",
-)
-@click.option(
-    "--seed", type=click.IntRange(0), default=1, show_default=True, help="Of --stress."
-)
-@accuracy_option("Asked of the random scenes.", default=0.005)
-@jobs_option(
-    "Processes for random scenes; more than cores make times useless.",
-    default=1,
-    show_default=True,
-)
-@click.option("--scenes", metavar="A,B", help="Only these named scenes.")
-@click.option("--quick", is_flag=True, help="Less of everything, for a first look.")
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="Write run time against error as SVG.",
-)
-@click.option("--force", is_flag=True, help="Overwrite an existing plot.")
-@json_option("result")
-@language_option()
-def bench(
-    *,
-    stress: int | None,
-    errors: int | None,
-    lines: int | None,
-    against: Path | None,
-    seed: int,
-    accuracy: float,
-    jobs: int,
-    scenes: str | None,
-    quick: bool,
-    plot: Path | None,
-    force: bool,
-    as_json: bool,
-    language: Language,
-) -> None:
+@take_options("bench")
+def bench(**asked: Any) -> None:
     """Measure the program itself: run time against error, stability, honesty.
 
     \b
@@ -125,38 +42,48 @@ def bench(
     netdesign bench --lines 60 --jobs 2
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
-    counts = {"--stress": stress, "--errors": errors, "--lines": lines}
-    wanted = {**counts, "--against": against}
-    given = [name for name, value in wanted.items() if value is not None]
-    _refuse_mixtures(given, quick=quick, named=bool(scenes or plot))
-    if not set(given) & set(_RANDOM):
-        refuse_without(("seed", "accuracy", "jobs"), _RANDOM, language)
-    output = _Output(language, as_json)
-    for option, count in counts.items():
-        if count is not None:
-            asked = {"accuracy": accuracy, "jobs": jobs}
-            sys.exit(_run_random(option, count, seed, output, asked))
-    if against is not None:
-        sys.exit(_run_against(against, output, quick=quick))
-    names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
-    _run_named(names, plot, output, quick=quick, force=force)
+    wanted = (*_RANDOM, "--against")
+    given = [name for name in wanted if asked[name.strip("-")] is not None]
+    _refuse_mixtures(given, asked)
+    if not given:
+        document = _run_named(asked)
+    elif given == ["--against"]:
+        document = _run_against(asked)
+    else:
+        document = _run_random(given[0], asked)
+    if asked["as_json"]:
+        print_document(document)
+    else:
+        _show(document, is_named=not given)
+    sys.exit(0 if document.get("pass", True) else _EXIT_FAIL)
 
 
-def _refuse_mixtures(given: Sequence[str], *, quick: bool, named: bool) -> None:
+def _refuse_mixtures(given: Sequence[str], asked: Mapping[str, Any]) -> None:
     """Refuse options that do not go together."""
     if len(given) > 1:
         raise UsageRefusal(say("bench.one_of", given=tuple(given)))
-    if given and named:
+    if given and (asked["scenes"] or asked["plot"]):
         raise UsageRefusal(say("bench.named_only"))
-    if quick and set(given) & set(_RANDOM):
+    is_random = bool(set(given) & set(_RANDOM))
+    if asked["quick"] and is_random:
         raise UsageRefusal(say("bench.not_quick"))
+    if not is_random:
+        refuse_without(("seed", "accuracy", "jobs"), *_RANDOM)
 
 
-def _run_random(
-    option: str, count: int, seed: int, output: _Output, asked: dict[str, Any]
-) -> int:
-    """Exit code of a run over random scenes."""
-    from netdesign.edge.progress import show_progress
+def _show(document: dict[str, Any], *, is_named: bool) -> None:
+    from rich.console import Console
+
+    from netdesign.evidence.benchmark.precision import print_bench
+    from netdesign.evidence.table import show_document
+    from netdesign.report.words import Words
+
+    show = print_bench if is_named else show_document
+    show(document, Console(), Words(speak()))
+
+
+def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
+    """Document of a run over random scenes."""
     from netdesign.evidence.benchmark.attempts import (
         attempt_scenes,
         write_errors,
@@ -164,74 +91,50 @@ def _run_random(
     )
     from netdesign.evidence.benchmark.lines import study_lines, write_lines
 
-    shown = output.language
-    ends = (seed, asked["accuracy"], "en" if output.as_json else shown)
+    count, seed, accuracy = asked[option.strip("-")], asked["seed"], asked["accuracy"]
+    ends = (seed, accuracy, "en" if asked["as_json"] else speak())
     what = "lines" if option == "--lines" else "scenes"
-    with show_progress(count, what, quiet=False, language=shown) as on_done:
-        asked |= {"on_done": on_done}
+    with follow(count, what, asked) as on_done:
+        how = {"accuracy": accuracy, "jobs": asked["jobs"], "on_done": on_done}
         if option == "--lines":
-            document = write_lines(study_lines(count, seed, **asked), *ends)
-        else:
-            is_compared = option == "--errors"
-            write = write_errors if is_compared else write_stress
-            found = attempt_scenes(count, seed, **asked, is_compared=is_compared)
-            document = write(found, *ends)
-    output.write(document)
-    return 0 if document["pass"] else _EXIT_FAIL
+            return write_lines(study_lines(count, seed, **how), *ends)
+        is_compared = option == "--errors"
+        found = attempt_scenes(count, seed, **how, is_compared=is_compared)
+        return (write_errors if is_compared else write_stress)(found, *ends)
 
 
-def _run_against(path: Path, output: _Output, *, quick: bool) -> int:
-    """Exit code: a quick look reaches nothing and so fails at nothing."""
-    from netdesign.edge.progress import show_progress
+def _run_against(asked: Mapping[str, Any]) -> dict[str, Any]:
     from netdesign.evidence.benchmark.against import (
         QUICK,
         Size,
         compare_versions,
         count_runs,
         open_version,
-        print_versions,
         read_version,
     )
 
-    size, shown = QUICK if quick else Size(), output.language
-    with open_version(path) as python:
+    size = QUICK if asked["quick"] else Size()
+    with open_version(asked["against"]) as python:
         read_version(python)  # refused before the first run
-        runs = count_runs(size)
-        with show_progress(runs, "runs", quiet=False, language=shown) as on_done:
-            document = compare_versions(python, size, on_done)
-    output.write(document, print_versions)
-    return 0 if quick or document["pass"] else _EXIT_FAIL
+        with follow(count_runs(size), "runs", asked) as on_done:
+            return compare_versions(python, size, on_done)
 
 
-def _run_named(
-    names: tuple[str, ...],
-    plot: Path | None,
-    output: _Output,
-    *,
-    quick: bool,
-    force: bool,
-) -> None:
-    from netdesign.commands.usage import tell
-    from netdesign.edge.output import require_free, write_files
-    from netdesign.evidence.benchmark.precision import print_bench, write_bench
+def _run_named(asked: Mapping[str, Any]) -> dict[str, Any]:
+    from netdesign.evidence.benchmark.precision import draw_work_precision, write_bench
+    from netdesign.report.words import Words
 
+    plot: Path | None = asked["plot"]
+    require_places(plot and plot.parent, [plot.name] if plot else [], asked)
+    names = asked["scenes"].split(",") if asked["scenes"] else ()
+    rows = _measure(tuple(name.strip() for name in names), asked)
     if plot is not None:
-        require_free([plot], overwrite=force)
-    rows = _measure(names, output.language, quick=quick)
-    if plot is not None:
-        from netdesign.evidence.benchmark.precision import draw_work_precision
-        from netdesign.report.words import Words
-
-        drawn = draw_work_precision(rows, Words(output.language))
-        write_files({plot: drawn.encode()}, overwrite=force)
-        tell(say("cli.wrote", path=str(plot)), output.language, err=True)
-    output.write(write_bench(rows), print_bench)
+        drawn = draw_work_precision(rows, Words(speak()))
+        write_outputs(plot.parent, {plot.name: drawn.encode()}, asked)
+    return write_bench(rows)
 
 
-def _measure(
-    names: tuple[str, ...], language: Language, *, quick: bool
-) -> Sequence[Row]:
-    from netdesign.edge.progress import show_progress
+def _measure(names: tuple[str, ...], asked: Mapping[str, Any]) -> Sequence[Row]:
     from netdesign.evidence.benchmark.precision import (
         QUICK,
         measure_steady,
@@ -239,11 +142,9 @@ def _measure(
     )
     from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, load_scenes
 
-    chosen = load_scenes(names)
+    chosen, quick = load_scenes(names), asked["quick"]
     rows: list[Row] = []
-    with show_progress(
-        len(chosen), "scenes", quiet=False, language=language
-    ) as on_done:
+    with follow(len(chosen), "scenes", asked) as on_done:
         for name, scene in chosen.items():
             rows += measure_steady(name, scene, **(QUICK if quick else {}))
             if name in HISTORY_SCENES and not quick:

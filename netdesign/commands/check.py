@@ -14,18 +14,7 @@ import click
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
     DEFAULT_STANDARD,
-    accuracy_option,
-    choice,
-    example_option,
-    flag,
-    force_option,
-    json_option,
-    out_option,
-    quiet_option,
-    report_options,
-    site_options,
-    solving_options,
-    what_if_options,
+    take_options,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.running import format_time, own_command
@@ -44,47 +33,11 @@ if TYPE_CHECKING:
     from netdesign.checks import Standard
     from netdesign.checks.schema import Floor
     from netdesign.site.model import Site
-    from netdesign.words.catalogue import Language
 
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
-@example_option("Use the built-in example site.")
-@site_options
-@click.option(
-    "--standard",
-    "standards",
-    multiple=True,
-    metavar="ID",
-    help=f"Limit profile, or a folder with one; repeatable [{DEFAULT_STANDARD}].",
-)
-@accuracy_option("Relative error allowed in every end force of the net.", default=0.01)
-@choice(
-    "--method",
-    ("steady", "transient"),
-    "Steady states; transient confirms governing cases by their histories.",
-)
-@click.option(
-    "--floor",
-    type=click.Choice(["guideline", "none"]),
-    help="What no demand lies below [the limit profile's]; told on the first page.",
-)
-@click.option(
-    "--row",
-    "rows",
-    multiple=True,
-    metavar="ID",
-    help="Check this net row only; repeatable.",
-)
-@what_if_options
-@solving_options
-@out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
-@report_options
-@flag("--explain", help="Print what would flip each check.")
-@json_option("study")
-@flag("--dry-run", help="Read and count only; write nothing.")
-@force_option
-@quiet_option
+@take_options("check")
 def check(site_file: Path | None, **asked: Any) -> None:
     """Check every anchor of a site and write the reports.
 
@@ -113,9 +66,8 @@ def check(site_file: Path | None, **asked: Any) -> None:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
-    language: Language = asked["language"]
     profiles = _choose_profiles(asked["standards"], site, asked["floor"])
-    _describe_other_profile(asked["standards"], site, language)
+    _describe_other_profile(asked["standards"], site)
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
         method=asked["method"],
@@ -126,11 +78,10 @@ def check(site_file: Path | None, **asked: Any) -> None:
     if asked["dry_run"]:
         from netdesign.commands.check_run import announce
 
-        as_json = asked["as_json"]
-        sys.exit(announce(site, run, len(profiles), as_json=as_json, language=language))
+        sys.exit(announce(site, run, len(profiles), as_json=asked["as_json"]))
     if not asked["quiet"]:
         for question in site.questions:
-            tell(say("cli.question", text=question), language, err=True)
+            tell(say("cli.question", text=question), err=True)
     outputs = plan_outputs(folder, [profile.id for profile in profiles], asked)
     if outputs.style.places is not None:
         from netdesign.files.rows_map import require_rows
@@ -176,14 +127,12 @@ def _choose_profiles(
     return [one.overrule_floor(floor) for one in profiles] if floor else profiles
 
 
-def _describe_other_profile(
-    names: Sequence[str], site: Site, language: Language
-) -> None:
+def _describe_other_profile(names: Sequence[str], site: Site) -> None:
     """Note that the command line overrules the profile that the site names."""
     named = site.project.standard
     if named and names and named not in names:
         other = say("standard.not_of_site", named=named, used=tuple(names))
-        tell(say("cli.note", text=other), language, err=True)
+        tell(say("cli.note", text=other), err=True)
 
 
 def _find_profiles(names: Sequence[str], site: Site) -> list[Standard]:

@@ -19,11 +19,11 @@ from netdesign.commands.running import (
     print_next_steps,
     report_places,
 )
-from netdesign.commands.usage import tell
+from netdesign.commands.usage import speak, tell
 from netdesign.edge.output import PROFILES_FILE, STUDY_FILE, WHAT_IF_MARK, write_files
 from netdesign.edge.streams import print_json
 from netdesign.site.statements import list_missing
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from netdesign.study.check_site import SolvedSite
     from netdesign.study.records import Study
     from netdesign.study.sizing import ReadInstead, SizedCell
-    from netdesign.words.catalogue import Language
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,8 +73,7 @@ def carry_out(task: Check, site_name: str) -> int:
 
     ``site_name`` is what the next commands are told to read.
     """
-    asked, language = task.asked, task.outputs.style.language
-    as_json, quiet = asked["as_json"], asked["quiet"]
+    asked = task.asked
     is_sized = task.read_instead is not None
     solved = len(task.profiles) * (2 if is_sized else 1)
     with open_run(task.site, task.run, asked, solved) as (runner, progress):
@@ -86,17 +84,17 @@ def carry_out(task: Check, site_name: str) -> int:
         progress.enter("reports")
         begun = begin_outputs(task.outputs, studies, runner)
         files = render_outputs(task.outputs, studies, sized, begun)
-    lines = print_sizes(sized, studies, language)
-    failed = print_faults(runner.faults, language)
+    lines = print_sizes(sized, studies)
+    failed = print_faults(runner.faults)
     write_files(files, overwrite=asked["force"], is_recorded=True)
-    if as_json:
+    if asked["as_json"]:
         print_json(_write_documents(studies))
         return failed or find_exit_code(studies)
-    _print_summaries(studies, language, lines, explain=asked["explain"])
-    report_places([list(files)], language, quiet=quiet)
-    if not quiet:
+    _print_summaries(studies, lines, explain=asked["explain"])
+    report_places(files, asked)
+    if not asked["quiet"]:
         verdicts = frozenset(row.verdict for study in studies for row in study.rows)
-        print_next_steps(verdicts, site_name, language, is_sized=is_sized)
+        print_next_steps(verdicts, site_name, is_sized=is_sized)
     return failed or find_exit_code(studies)
 
 
@@ -110,18 +108,14 @@ def _write_documents(studies: Sequence[Study]) -> str:
 
 
 def _print_summaries(
-    studies: Sequence[Study],
-    language: Language,
-    sized: Sequence[str],
-    *,
-    explain: bool,
+    studies: Sequence[Study], sized: Sequence[str], *, explain: bool
 ) -> None:
     """Print what each study says, and lines of what ``--size`` found."""
     from netdesign.report.terminal import open_console, print_lines, print_summary
 
     console = open_console()
     for study in studies:
-        print_summary(study, console, language, explain=explain)
+        print_summary(study, console, speak(), explain=explain)
     print_lines(tuple(sized), console)
 
 
@@ -327,14 +321,12 @@ def render_sized(
     )
 
 
-def print_sizes(
-    sized: Sequence[Sized], studies: Sequence[Study], language: Language
-) -> list[str]:
+def print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> list[str]:
     """Lines of what was found for each profile, and what those what-if studies say."""
     from netdesign.report.what_if import describe_overall, list_sized
     from netdesign.report.words import Words
 
-    words = Words(language)
+    words = Words(speak())
     lines: list[str] = []
     for one, built in zip(sized, studies, strict=False):  # none, if not asked for
         lines.append(words("what_if.sized_for", profile=built.profile.id))
@@ -349,14 +341,7 @@ def print_sizes(
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 
 
-def announce(
-    site: Site,
-    run: CheckRun,
-    profiles: int = 1,
-    *,
-    as_json: bool,
-    language: Language = "en",
-) -> int:
+def announce(site: Site, run: CheckRun, profiles: int = 1, *, as_json: bool) -> int:
     """Print net rows, solves of every phase and the predicted time; the exit code."""
     from netdesign.solving.runner import Runner
     from netdesign.study.cases import list_phases
@@ -375,29 +360,23 @@ def announce(
             "phases": [
                 {
                     "phase": one.key,
-                    "does": render(one.words, language),
+                    "does": render(one.words, speak()),
                     "cases": one.cases,
                     "cases_most": one.most,
                 }
                 for one in phases
             ],
-            "missing": [render(one, language) for one in _list_missing(site)],
-            "notes": [render(one, language) for one in site.notes],
-            "questions": [render(one, language) for one in site.questions],
+            "missing": [render(one, speak()) for one in _list_missing(site)],
+            "notes": [render(one, speak()) for one in site.notes],
+            "questions": [render(one, speak()) for one in site.questions],
         }
         print_document(plan)
     else:
-        _show(site, run, phases, seconds, language)
-    return print_faults(runner.faults, language)
+        _show(site, run, phases, seconds)
+    return print_faults(runner.faults)
 
 
-def _show(
-    site: Site,
-    run: CheckRun,
-    phases: Sequence[Phase],
-    seconds: float,
-    language: Language,
-) -> None:
+def _show(site: Site, run: CheckRun, phases: Sequence[Phase], seconds: float) -> None:
     summary = say(
         "plan.summary" if site.ranges.is_grid else "plan.summary_about",
         file=site.file_name,
@@ -407,16 +386,16 @@ def _show(
         seconds=max(seconds, 1.0),
         jobs=run.jobs,
     )
-    tell(summary, language)
+    tell(summary)
     for phase in phases:
         if phase.cases:
-            tell(_name_phase(phase), language)
+            tell(_name_phase(phase))
     for note in site.notes:
-        tell(say("cli.note", text=note), language)
+        tell(say("cli.note", text=note))
     for missing in _list_missing(site):
-        tell(missing, language)
+        tell(missing)
     for question in site.questions:
-        tell(say("cli.question", text=question), language)
+        tell(say("cli.question", text=question))
 
 
 def _list_missing(site: Site) -> list[Message]:

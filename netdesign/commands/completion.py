@@ -16,7 +16,7 @@ from click.shell_completion import (
 
 from netdesign.commands.config import COMPLETE_VARIABLE, find_language
 from netdesign.commands.help_texts import load_help
-from netdesign.commands.options import language_option
+from netdesign.commands.options import take_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.words.message import say
 
@@ -76,7 +76,7 @@ _PROGRAM = "netdesign"
 
 @click.command()
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish", "powershell"]))
-@language_option("Of this help.", expose_value=False)
+@take_options("completion")
 @click.pass_context
 def completion(context: click.Context, shell: str) -> None:
     """Print the script that completes commands and options in a shell.

@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from netdesign import __version__
-from netdesign.commands.options import json_option, language_option
+from netdesign.commands.options import take_options
 from netdesign.commands.running import print_document
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -36,8 +36,7 @@ class Probe:
 
 
 @click.command()
-@json_option("list")
-@language_option()
+@take_options("doctor")
 def doctor(*, as_json: bool, language: Language) -> None:
     """Show versions, threads and data, and test that the program works here.
 

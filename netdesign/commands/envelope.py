@@ -14,26 +14,17 @@ import click
 from netdesign.commands.options import (
     RANGE,
     GivenRange,
-    accuracy_option,
-    choice,
-    force_option,
-    join,
-    json_option,
-    language_option,
-    out_option,
-    quiet_option,
     refuse_jobs,
-    solving_options,
+    take_options,
 )
 from netdesign.commands.running import (
     open_phases,
-    place_outputs,
     print_document,
     print_faults,
+    require_places,
     write_outputs,
 )
-from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.words.catalogue import Language, render
+from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -46,19 +37,6 @@ if TYPE_CHECKING:
     from netdesign.solving.solve import Settings
     from netdesign.study.case_records import EnvelopeRecord
 
-_RANGES = (
-    ("--density", "density", "Snow density [kg/m3]."),
-    ("--friction", "friction_angle", "Friction angle of snow on net [degrees]."),
-    ("--inclination", "inclination", "Net inclination [degrees]."),
-    ("--slope", "slope_angle", "Slope angle [degrees]."),
-    ("--thickness", "thickness", "Snow thickness normal to the slope [m]."),
-    ("--height", "snow_height", "Vertical snow height, instead of a thickness [m]."),
-    ("--length", "upslope_length", "Snowpack that the net carries, upslope [m]."),
-    ("--slack", "slack", "Slack of the net [-]."),
-    ("--stiffness", "net_stiffness", "Net stiffness per metre of width [kN/m]."),
-    ("--slip", "slip_length", "Slip length of sliding ground [m]."),
-    ("--glide", "glide_factor", "Glide factor, instead of a slip length [-]."),
-)
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
 _USUAL_CASES = 18  # of a search, for each range
@@ -67,23 +45,7 @@ DOCUMENT, FIGURES = "envelope.json", ("maps.svg", "lines.svg", "drivers.svg")
 
 @click.command()
 @click.argument("scene_file", type=click.Path(path_type=Path))
-@join(*(click.option(name, key, type=RANGE, help=text) for name, key, text in _RANGES))
-@accuracy_option(
-    "Relative error allowed in every force, and most that may hide above it.",
-    default=0.005,
-    least=1e-3,
-)
-@choice(
-    "--confirm",
-    ("mesh", "transient", "none"),
-    "How the governing cases are solved again.",
-)
-@solving_options
-@out_option("Folder.")
-@json_option("envelope")
-@language_option()
-@force_option
-@quiet_option
+@take_options("envelope")
 def envelope(scene_file: Path, **asked: Any) -> None:
     """Find the largest forces of a scene over ranges, with what may still hide.
 
@@ -95,16 +57,17 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene_file
 
-    language, out, confirm = asked["language"], asked["out"], asked["confirm"]
-    refuse_jobs(asked["executor"], language)
-    given = {key: asked[key] for _, key, _ in _RANGES if asked[key] is not None}
+    out, confirm = asked["out"], asked["confirm"]
+    refuse_jobs(asked["executor"])
+    ranging = [one.name or "" for one in _list_options()]
+    given = {name: asked[name] for name in ranging if asked[name] is not None}
     counted = _require_usable(given)
     read = read_scene_file(scene_file, "steady")
     spans = _build_ranges(given)
     require_valid(read.scene, spans)
-    place_outputs(out, (DOCUMENT, *FIGURES), overwrite=asked["force"])
+    require_places(out, (DOCUMENT, *FIGURES), asked)
     if read.support is not None and not asked["quiet"]:
-        tell(say("envelope.no_support"), language, err=True)
+        tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
     with open_phases(_list_phases(given, confirm), asked) as (runner, progress):
         confirming = _read_confirming(scene_file, confirm)
@@ -112,19 +75,24 @@ def envelope(scene_file: Path, **asked: Any) -> None:
         record: EnvelopeRecord | None = None
         if counted:
             counts = {name: one.count for name, one in given.items()}
-            document = _sample(task, counts, runner, start, language)
+            document = _sample(task, counts, runner, start)
         else:
-            document, record = _search(task, runner, progress, start, language)
+            document, record = _search(task, runner, progress, start)
         progress.enter("outputs")
-    failed = print_faults(runner.faults, language)
+    failed = print_faults(runner.faults)
     if out:
-        files = _render(document, record, language)
-        write_outputs(out, files, overwrite=asked["force"])
+        write_outputs(out, _render(document, record), asked)
     if asked["as_json"]:
         print_document(document)
     else:
-        _show(document, language)
+        _show(document)
     sys.exit(failed or (_NOT_PROVEN if document["outcome"] == "not_proven" else 0))
+
+
+def _list_options() -> list[click.Parameter]:
+    """Options of ranges, in the order of the help."""
+    command = click.get_current_context().command
+    return [one for one in command.params if one.type is RANGE]
 
 
 def _require_usable(given: dict[str, GivenRange]) -> bool:
@@ -132,7 +100,7 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
     from netdesign.envelope.ranges import MOST_GRID_CASES
 
     if not given:
-        flags = tuple(flag for flag, _, _ in _RANGES)
+        flags = tuple(one.opts[0] for one in _list_options())
         raise UsageRefusal(say("usage.no_range", flags=flags))
     if len(given) > _MOST_RANGES:
         raise UsageRefusal(
@@ -225,7 +193,6 @@ def _sample(
     counts: dict[str, int | None],
     runner: Runner,
     start: float,
-    language: Language,
 ) -> dict[str, Any]:
     """Document of a grid."""
     from netdesign.envelope.search import run_grid
@@ -233,15 +200,11 @@ def _sample(
 
     grid = run_grid(task, counts, runner)
     elapsed = time.perf_counter() - start
-    return write_grid_document(grid, runner.counts, elapsed, language)
+    return write_grid_document(grid, runner.counts, elapsed, speak())
 
 
 def _search(
-    task: RowTask,
-    runner: Runner,
-    progress: RunProgress,
-    start: float,
-    language: Language,
+    task: RowTask, runner: Runner, progress: RunProgress, start: float
 ) -> tuple[dict[str, Any], EnvelopeRecord]:
     """Document of a bounded search, and its model to draw."""
     from netdesign.envelope.search import search_rows
@@ -249,11 +212,11 @@ def _search(
 
     (found,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start
-    return write_envelope_document(found, runner.counts, elapsed, language)
+    return write_envelope_document(found, runner.counts, elapsed, speak())
 
 
 def _render(
-    document: dict[str, Any], record: EnvelopeRecord | None, language: Language
+    document: dict[str, Any], record: EnvelopeRecord | None
 ) -> dict[str, bytes]:
     """Contents of the outputs; a grid has no model to draw."""
     from netdesign.report.drawing.envelope_maps import (
@@ -263,34 +226,34 @@ def _render(
     )
     from netdesign.report.words import Words
 
-    draws, words = (draw_maps, draw_lines, draw_drivers), Words(language)
+    draws, words = (draw_maps, draw_lines, draw_drivers), Words(speak())
     pictures = [draw(record, words) if record else "" for draw in draws]
     texts = [f"{json.dumps(document, indent=1, allow_nan=False)}\n", *pictures]
     names = (DOCUMENT, *FIGURES)
     return {name: one.encode() for name, one in zip(names, texts, strict=True)}
 
 
-def _show(document: dict[str, Any], language: Language) -> None:
+def _show(document: dict[str, Any]) -> None:
     from netdesign.quantities import QUANTITIES
     from netdesign.report.words import Words
 
-    words = Words(language)
+    words = Words(speak())
     for one in document["extremes"]:
-        line = render(_describe_extreme(one, words), language)
+        line = words.show(_describe_extreme(one, words))
         label = words.show(QUANTITIES[one["quantity"]].label)
         click.echo(f"{label:22} {line}")
         again = one.get("confirmation") or {}
         if again.get("difference_percent") is not None:
-            line = render(_describe_confirmation(again), language)
+            line = words.show(_describe_confirmation(again))
             click.echo(f"{'':22} {line}")
     counts = tuple(
         say(f"case_count.{what}", count=count)
         for what, count in document["cases"].items()
     )
     seconds = document["cost"]["wall_s"]
-    tell(say("envelope.cases", counts=counts, seconds=seconds), language)
+    tell(say("envelope.cases", counts=counts, seconds=seconds))
     if document["reason"]:
-        tell(say("envelope.not_proven", reason=document["reason"]), language)
+        tell(say("envelope.not_proven", reason=document["reason"]))
 
 
 def _describe_extreme(one: dict[str, Any], words: Words) -> Message:

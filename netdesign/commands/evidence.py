@@ -4,29 +4,23 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from netdesign.commands.options import (
-    force_option,
-    jobs_option,
-    json_option,
-    language_option,
-    origin_options,
-    out_option,
-    quiet_option,
     refuse_without,
+    take_options,
 )
 from netdesign.commands.running import (
+    follow,
     open_run,
-    place_outputs,
     print_document,
     print_faults,
+    require_places,
     write_outputs,
 )
 from netdesign.commands.stored_study import (
@@ -34,8 +28,8 @@ from netdesign.commands.stored_study import (
     contradict_command,
     read_own_site,
 )
-from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.words.catalogue import Language, render
+from netdesign.commands.usage import UsageRefusal, speak, tell
+from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -48,35 +42,8 @@ _SHOWN = 20  # differences; more help nobody
 
 
 @click.command()
-@click.option(
-    "--study",
-    "study_file",
-    type=click.Path(path_type=Path),
-    metavar="STUDY.json",
-    help="Hash and solve this study again instead.",
-)
-@origin_options
-@jobs_option("Processes of --study [all cores].")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIRECTORY",
-    help="Write the pack as a page with pictures, too.",
-)
-@force_option
-@json_option("cases")
-@language_option()
-def verify(
-    *,
-    study_file: Path | None,
-    site_file: Path | None,
-    standard: str | None,
-    jobs: int | None,
-    out: Path | None,
-    force: bool,
-    as_json: bool,
-    language: Language,
-) -> None:
+@take_options("verify")
+def verify(**asked: Any) -> None:
     """Run the verification pack, or verify a stored study.
 
     The pack: closed forms, invariants, other codes. Of a study: its hashes, its
@@ -90,30 +57,24 @@ def verify(
     netdesign verify --out verification
     netdesign verify --study reports/study.json --site site.xlsx
     """
-    if study_file is None:
-        of_study = ("site_file", "standard", "jobs")
-        refuse_without(of_study, ("--study",), language)
-        sys.exit(_run_pack(as_json=as_json, out=out, force=force, language=language))
-    if out is not None:
+    if asked["study_file"] is None:
+        refuse_without(("site_file", "standard", "jobs"), "--study")
+        sys.exit(_run_pack(asked))
+    if asked["out"] is not None:
         raise UsageRefusal(say("usage.out_not_with_study"))
-    if as_json:
+    if asked["as_json"]:
         raise UsageRefusal(say("usage.json_not_with_study"))
-    sys.exit(_verify_study(study_file, site_file, standard, jobs, language))
+    sys.exit(_verify_study(asked["study_file"], asked))
 
 
-def _run_pack(
-    *, as_json: bool, out: Path | None, force: bool, language: Language
-) -> int:
-    from netdesign.edge.progress import show_progress
+def _run_pack(asked: Mapping[str, Any]) -> int:
     from netdesign.evidence.validation.page import gather, list_pages, render_pages
     from netdesign.evidence.verification.pack import GROUPS, run_pack, write_pack
 
-    place_outputs(out, list_pages(), overwrite=force)
-    with show_progress(
-        len(GROUPS), "groups", quiet=False, language=language
-    ) as advance:
+    require_places(asked["out"], list_pages(), asked)
+    with follow(len(GROUPS), "groups", asked) as advance:
         cases = run_pack(advance)
-    if as_json:
+    if asked["as_json"]:
         print_document(write_pack(cases))
     else:
         from rich.console import Console
@@ -121,20 +82,14 @@ def _run_pack(
         from netdesign.evidence.verification.pack import print_cases
         from netdesign.report.words import Words
 
-        print_cases(cases, Console(), Words(language))
-    if out is not None:
-        pages = render_pages(gather((), cases=cases), language)
-        write_outputs(out, pages, overwrite=force)
+        print_cases(cases, Console(), Words(speak()))
+    if asked["out"] is not None:
+        pages = render_pages(gather((), cases=cases), speak())
+        write_outputs(asked["out"], pages, asked)
     return 0 if all(case.passes for case in cases) else _FAIL
 
 
-def _verify_study(
-    path: Path,
-    site_file: Path | None,
-    standard: str | None,
-    jobs: int | None,
-    language: Language,
-) -> int:
+def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
     from netdesign.study.check_site import check_site
     from netdesign.study.document import load_study
@@ -147,18 +102,18 @@ def _verify_study(
     from netdesign.study.rejudge import rejudge
 
     study = load_study(path)
-    run = build_run(study, jobs or os.cpu_count() or 1)
-    site = read_own_site(study, path, site_file)
+    run = build_run(study, asked["jobs"] or os.cpu_count() or 1)
+    site = read_own_site(study, path, asked["site_file"])
     if study.left_out:
         site = site.take_rows([row.id for row in study.rows])
-    profile = load_own_profile(study.profile, standard)
-    show, made = _Shown(language), study.provenance
+    profile = load_own_profile(study.profile, asked["standard"])
+    show, made = _Shown(), study.provenance
     hashes = [
         show.hash(say("verify.site_file"), made.site_sha256, site.sha256),
         show.hash(say("verify.limit_profile"), study.profile.sha256, profile.sha256),
     ]
     if not all(hashes):
-        tell(say("verify.not_its_inputs"), language)
+        tell(say("verify.not_its_inputs"))
         return _FAIL
     arithmetic = rejudge(study, profile, site)
     told = [
@@ -167,10 +122,10 @@ def _verify_study(
         show.contradictions(say("verify.its_time"), _contradict_time(study)),
         show.contradictions(say("verify.its_arithmetic"), arithmetic),
     ]
-    asked = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
-    with open_run(site, run, asked | {"language": language}) as (runner, watch):
+    solving = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
+    with open_run(site, run, solving) as (runner, watch):
         (again,) = check_site(site, [profile], run, runner, watch)
-    if failed := print_faults(runner.faults, language):
+    if failed := print_faults(runner.faults):
         return failed
     count, differences = list_differences(study, again)
     ties = [one for one in differences if is_of_ties(one)]
@@ -194,16 +149,13 @@ def _contradict_time(study: Study) -> Iterator[Message]:
         yield say("verify.in_future", time=started)
 
 
-@dataclass(frozen=True, slots=True)
 class _Shown:
-    """Printer of the results on a verified study, in a language."""
-
-    language: Language
+    """Printer of the results on a verified study."""
 
     def tell(self, message: Message) -> None:
         from netdesign.edge.given_files import make_printable
 
-        click.echo(make_printable(render(message, self.language)))
+        click.echo(make_printable(render(message, speak())))
 
     def hash(self, what: Message, stored: str, now: str) -> bool:
         """Tell two hashes; True if they are equal."""
@@ -283,20 +235,8 @@ class _Shown:
 @click.argument(
     "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
 )
-@out_option("Folder of the page and its document.", required=True)
-@json_option("validation")
-@force_option
-@quiet_option
-@language_option("Of page and messages.")
-def validate(
-    structures: Path | None,
-    out: Path,
-    *,
-    as_json: bool,
-    force: bool,
-    quiet: bool,
-    language: Language,
-) -> None:
+@take_options("validate")
+def validate(structures: Path | None, **asked: Any) -> None:
     """Write one page: verification, settling of snow, measured structures.
 
     With a file, its structures stand first: one whose inputs are all values gets a
@@ -309,9 +249,6 @@ def validate(
     netdesign validate my-net.toml --out validation
     netdesign validate --out validation --json > validation.json
     """
-    import sys
-
-    from netdesign.edge.progress import show_progress
     from netdesign.evidence.validation.page import (
         count_parts,
         gather,
@@ -321,16 +258,13 @@ def validate(
     )
     from netdesign.evidence.validation.structure import read_all
 
-    places = place_outputs(out, list_pages(), overwrite=force)
+    require_places(asked["out"], list_pages(), asked)
     known = read_all(structures)
-    parts = count_parts(known)
-    with show_progress(parts, "parts", quiet=quiet, language=language) as advance:
+    with follow(count_parts(known), "parts", asked) as advance:
         evidence = gather(known, advance)
-    write_outputs(out, render_pages(evidence, language), overwrite=force)
-    if as_json:
+    write_outputs(asked["out"], render_pages(evidence, asked["language"]), asked)
+    if asked["as_json"]:
         print_document(write_evidence(evidence))
-    if not quiet:
-        tell(say("cli.wrote", path=str(places[0])), language, err=True)
     if not all(case.passes for case in evidence.cases):
         sys.exit(_FAIL)
     bands = [one for one in evidence.validations if not one.structure.is_known]
@@ -339,33 +273,24 @@ def validate(
 
 
 @click.command()
-@out_option("Folder of the page, drawings and tables.", required=True)
-@force_option
-@jobs_option()
-@quiet_option
-@language_option("Of page and messages.")
-def paper(
-    out: Path, *, force: bool, jobs: int | None, quiet: bool, language: Language
-) -> None:
+@take_options("paper")
+def paper(**asked: Any) -> None:
     """Reproduce the source paper's study: histories, meshes, plateaus.
 
     \b
     netdesign paper --out paper
     """
-    import sys
-
-    from netdesign.edge.progress import show_progress
     from netdesign.evidence.paper.page import PAGE_FILE, render_paper
     from netdesign.evidence.paper.runs import PaperSettings, list_cases, run_study
 
-    settings = PaperSettings()
-    (page,) = place_outputs(out, [PAGE_FILE], overwrite=force)
-    count = len(list_cases(settings))
-    with show_progress(count, "runs", quiet=quiet, language=language) as on_done:
-        study = run_study(settings, jobs=jobs or os.cpu_count() or 1, on_done=on_done)
-    files = write_outputs(out, render_paper(study, language), overwrite=force)
-    if not quiet:
-        told = say("paper.wrote", path=str(page), count=len(files) - 1)
-        tell(told, language, err=True)
+    settings, jobs = PaperSettings(), asked["jobs"] or os.cpu_count() or 1
+    require_places(asked["out"], [PAGE_FILE], asked)
+    with follow(len(list_cases(settings)), "runs", asked) as on_done:
+        study = run_study(settings, jobs=jobs, on_done=on_done)
+    files = render_paper(study, asked["language"])
+    write_outputs(asked["out"], files, {**asked, "quiet": True})
+    if not asked["quiet"]:
+        page = str(asked["out"] / PAGE_FILE)
+        tell(say("paper.wrote", path=page, count=len(files) - 1), err=True)
     if any(run.failure for run in study.runs.values()):
         sys.exit(_NOT_PROVEN)

@@ -1,9 +1,9 @@
-"""Texts of help by the English ones: English stands in the commands, others in files.
+"""Texts of help by the English ones, in the other languages.
 
-A command has its help in English, as click wants it: the docstring, the ``help`` of
-each option. ``words/help/LANGUAGE.toml`` gives each of these texts in another language,
-by the English one, paragraph by paragraph: one that changes is missed at once. Help in
-English reads no file.
+A command has its help in English, as click wants it: the docstring, and the ``help`` of
+each option in ``options.toml``. ``words/help/LANGUAGE.toml`` gives each of these texts
+in another language, by the English one, paragraph by paragraph: one that changes is
+missed at once. Help in English reads none of them.
 """
 
 from __future__ import annotations

@@ -1,15 +1,18 @@
-"""Options that several commands have, each once; options without effect are refused.
+"""Options of the commands, from ``options.toml``; those without effect are refused.
 
-A group of options stands in the order of the help. What a file of defaults holds may
-stay without effect until what it belongs to is asked for; what is typed may not.
+What a file of defaults holds may stay without effect until what it belongs to is asked
+for; what is typed may not.
 """
 
 from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Sequence
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -17,28 +20,12 @@ import click
 from click.core import ParameterSource
 
 from netdesign.commands.usage import UsageRefusal, ValueRefusal, tell
-from netdesign.words.catalogue import LANGUAGES, Language
-from netdesign.words.message import Message, say
-
-Decorator = Callable[..., Any]
+from netdesign.words.message import say
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
-SETTLING_MODELS = ("delta-snow-ageing", "hs2swe", "delta-snow")  # first: the default
-_MOST_PROCESSES = 256
 DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
 _EXAMPLE, _CLUSTER = "--example", "--executor"
 _TYPED, _SET = ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT
-
-
-def join(*options: Decorator) -> Decorator:
-    """Group of options, in the order of the help."""
-
-    def add(command: Any) -> Any:
-        for option in reversed(options):
-            command = option(command)
-        return command
-
-    return add
 
 
 def check_delimiter(
@@ -126,225 +113,82 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
 
 
 RANGE = RangeType()
-_PATH = click.Path(path_type=Path)
-_FILE = click.Path(path_type=Path, dir_okay=False)
-_FOLDER = click.Path(path_type=Path, file_okay=False)
-
-
-def flag(*names: str, **more: Any) -> Decorator:
-    """Option without a value."""
-    return click.option(*names, is_flag=True, **more)
-
-
-def share(name: str, low: float, high: float, default: float, text: str) -> Decorator:
-    """Option with a number between two limits."""
-    kind = click.FloatRange(low, high)
-    return click.option(name, type=kind, default=default, show_default=True, help=text)
-
-
-def choice(name: str, accepted: Sequence[str], text: str, **more: Any) -> Decorator:
-    """Option with one of some words, of which the first is the default."""
-    more = {"default": accepted[0], "show_default": True, **more}
-    return click.option(name, type=click.Choice(accepted), help=text, **more)
-
-
-def json_option(what: str) -> Decorator:
-    """``--json``, as ``as_json``: print something as one document."""
-    return flag("--json", "as_json", help=f"Print the {what} as JSON.")
-
-
-def out_option(text: str, **more: Any) -> Decorator:
-    """``--out``: a folder, which need not exist."""
-    return click.option("--out", type=_FOLDER, help=text, **more)
-
-
-def jobs_option(text: str = "Processes [number of cores].", **more: Any) -> Decorator:
-    """``--jobs``: how many processes solve; None for one a core."""
-    processes = click.IntRange(1, _MOST_PROCESSES)
-    return click.option("--jobs", type=processes, help=text, **more)
-
-
-def accuracy_option(text: str, *, default: float, least: float = 1e-4) -> Decorator:
-    """``--accuracy``: a share of a force."""
-    return share("--accuracy", least, 0.1, default, text)
-
-
-def language_option(text: str = "Of what is printed.", **more: Any) -> Decorator:
-    """``--language``: English unless told otherwise."""
-    return choice("--language", LANGUAGES, text, **more)
-
-
-def model_option(text: str) -> Decorator:
-    """``--model``: settling model of a station's snow."""
-    return choice("--model", SETTLING_MODELS, text)
-
-
-def example_option(text: str) -> Decorator:
-    """``--example``: the built-in site."""
-    return flag(_EXAMPLE, help=text)
-
-
-force_option = flag("--force", help="Overwrite existing outputs.")
-quiet_option = flag("--quiet", help="No progress, no messages.")
-median_option = flag("--median", help="Heights as medians of three days.")
-
-# How many cases are solved: processes, cluster, store.
-solving_options = join(
-    jobs_option(),
-    click.option(
-        _CLUSTER,
-        default="",
-        metavar="dask://HOST:PORT",
-        help="Solve on a running Dask cluster [this machine].",
-    ),
-    click.option(
-        "--cache/--no-cache",
-        default=True,
-        help="Keep finished cases, and use those of earlier runs.",
-    ),
-)
-
-# How the text of a site file is written.
-text_options = join(
-    click.option(
-        "--delimiter",
-        metavar="SIGN",
-        callback=check_delimiter,
-        help="Between the columns of a csv file, or tab [found out].",
-    ),
-    click.option(
-        "--decimal-mark",
-        type=click.Choice(["comma", "point"]),
-        help="Of numbers stored as text [judged cell by cell].",
-    ),
-)
-
-# How a site file is read.
-site_options = join(
-    text_options,
-    click.option(
-        "--annotate",
-        type=_FILE,
-        metavar="OUT.xlsx",
-        help="Write the workbook again with every finding at its cell.",
-    ),
-)
-
-what_if_options = join(
-    click.option(
-        "--what-if",
-        "instead",
-        multiple=True,
-        metavar="CELL=TEXT",
-        callback=read_instead,
-        help="Read TEXT in a cell, as Nets.P8=A40; repeatable. The outputs are "
-        "marked: not the site as built.",
-    ),
-    flag(
-        "--size",
-        help="Find the smallest types of the workbook that mend it, and write "
-        "what-if studies with them beside the others.",
-    ),
-)
-
-FIT_PARAMETERS = {
-    "slip": "slip_length",
-    "density": "density_factor",
-    "height": "height_factor",
-    "slack": "slack",
-    "friction": "friction_angle",
+_KINDS = {
+    "file": click.Path(path_type=Path, dir_okay=False),
+    "folder": click.Path(path_type=Path, file_okay=False),
+    "path": click.Path(path_type=Path),
+    "range": RANGE,
 }
-
-# Noise and surveyed parameters of a fit to measured forces.
-fit_options = join(
-    flag("--fit", help="Fit to sheet Monitoring."),
-    share("--noise", 0.001, 0.5, 0.05, "Noise of each reading, relative."),
-    share("--cell-error", 0.0, 0.5, 0.05, "Noise common to all readings of a member."),
-    share(
-        *("--rope-kelvin", 0.0, 30.0, 5.0),
-        "Amplitude of the ropes' daily wave [K]: noise.",
-    ),
-    click.option(
-        "--known",
-        multiple=True,
-        type=click.Choice(tuple(FIT_PARAMETERS)),
-        help="Surveyed: not fitted.",
-    ),
-)
-
-# Where the files of a stored study are.
-origin_options = join(
-    click.option(
-        "--site",
-        "site_file",
-        type=_PATH,
-        help="Its site file [by its name, beside the study or one folder up].",
-    ),
-    click.option(
-        "--standard",
-        metavar="ID",
-        help="Its limit profile, or a folder with it [by its id].",
-    ),
-)
-
-# Which reports are written, and how.
-report_options = join(
-    click.option("--html/--no-html", default=True, help="Write report.html."),
-    click.option("--excel/--no-excel", default=True, help="Write report.xlsx."),
-    click.option("--pdf/--no-pdf", default=False, help="Write report.pdf (extra pdf)."),
-    click.option(
-        "--docx/--no-docx", default=False, help="Write report.docx (extra docx)."
-    ),
-    click.option(
-        "--template",
-        type=_PATH,
-        metavar="FILE.docx",
-        help="Write report.docx into it: its styles, header and footer stay.",
-    ),
-    click.option(
-        "--rows-map",
-        type=_FILE,
-        metavar="ROWS",
-        help="The rows.geojson of `netdesign terrain`: a map of the rows by verdict.",
-    ),
-    click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases."),
-    choice(
-        "--detail",
-        ["summary", "full"],
-        "Of report.html, report.docx: summary has two pages for the client.",
-        default="full",
-    ),
-    language_option("Of the reports; numbers, symbols and keys stay."),
-)
+_NUMBERS = {"number": click.FloatRange, "count": click.IntRange}
+_READERS = {reader.__name__: reader for reader in (check_delimiter, read_instead)}
 
 
-def refuse_without(
-    names: Sequence[str], needed: tuple[str, ...], language: Language
-) -> None:
+def take_options(command: str) -> Callable[[Any], Any]:
+    """Decorator that gives a command the options that ``options.toml`` has for it."""
+
+    def add(function: Any) -> Any:
+        for name, table in reversed([*_list_options(_load_tables()[command])]):
+            function = _build_option(name, table)(function)
+        return function
+
+    return add
+
+
+@lru_cache
+def _load_tables() -> dict[str, Any]:
+    file = files("netdesign.commands") / "options.toml"
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def _list_options(given: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Names and tables of options, those of groups in the place of the group."""
+    tables = _load_tables()
+    for name, table in given.items():
+        if table.get("group") is True:
+            yield from _list_options(tables["group"][name])
+        else:
+            yield name, {**tables["shared"].get(name, {}), **table}
+
+
+def _build_option(name: str, table: dict[str, Any]) -> Callable[[Any], Any]:
+    kind, limits = table.pop("is", "text"), table.pop("limits", ())
+    names = [f"--{name}/--no-{name}" if kind == "switch" else f"--{name}"]
+    names += [table.pop("as")] if "as" in table else []
+    of_click: dict[str, Any] = {"show_default": "default" in table, **table}
+    if kind == "flag":
+        of_click["is_flag"] = True
+    elif kind == "switch":
+        of_click["show_default"] = False
+    elif kind in _KINDS:
+        of_click["type"] = _KINDS[kind]
+    elif kind in _NUMBERS:
+        of_click["type"] = _NUMBERS[kind](*limits)
+    if words := of_click.pop("one_of", None):
+        of_click["type"] = click.Choice(words)
+    if reader := of_click.pop("by", None):
+        of_click["callback"] = _READERS[reader]
+    return click.option(*names, **of_click)
+
+
+def refuse_without(names: Sequence[str], *needed: str) -> None:
     """Refuse options of the command that runs, which belong to one not given.
 
     Parameters
     ----------
     names : sequence of str
         Of their parameters.
-    needed : tuple of str
+    *needed : str
         Options of which one would give them an effect.
-    language : str
-        Of the note on variables: they may be there for other runs.
 
     Raises
     ------
     UsageRefusal
         If one of them was typed.
     """
-    _refuse(
-        names,
-        lambda options: say("usage.idle_without", options=options, needed=needed),
-        language,
-    )
+    _refuse(names, "usage.idle_without", needed=needed)
 
 
-def refuse_delimiter(*paths: Path | None, language: Language) -> None:
+def refuse_delimiter(*paths: Path | None) -> None:
     """Refuse ``--delimiter`` where no csv file is read; None is the example's workbook.
 
     Raises
@@ -357,14 +201,10 @@ def refuse_delimiter(*paths: Path | None, language: Language) -> None:
     if any(path is not None and is_text(path) for path in paths):
         return
     file = _EXAMPLE if paths[-1] is None else paths[-1].name
-    _refuse(
-        ["delimiter"],
-        lambda options: say("usage.idle_in_workbook", options=options, file=file),
-        language,
-    )
+    _refuse(["delimiter"], "usage.idle_in_workbook", file=file)
 
 
-def refuse_jobs(executor: str, language: Language) -> None:
+def refuse_jobs(executor: str) -> None:
     """Refuse ``--jobs`` beside a cluster, which has its own processes.
 
     Raises
@@ -373,33 +213,28 @@ def refuse_jobs(executor: str, language: Language) -> None:
         If it was typed.
     """
     if executor:
-        _refuse(
-            ["jobs"],
-            lambda options: say("usage.idle_beside", options=options, other=_CLUSTER),
-            language,
-        )
+        _refuse(["jobs"], "usage.idle_beside", other=_CLUSTER)
 
 
-def _refuse(
-    names: Sequence[str],
-    explain: Callable[[tuple[str, ...]], Message],
-    language: Language,
-) -> None:
-    """Refuse options where typed; where variables set them, tell that of these."""
+def _refuse(names: Sequence[str], key: str, **why: Any) -> None:
+    """Refuse options where typed; where variables set them, tell that of these.
+
+    Variables may be there for other runs.
+    """
     context = click.get_current_context()
     found = [one for one in context.command.params if one.name in names]
     typed = tuple(
         max(one.opts, key=len) for one in found if _is_from(one, _TYPED, context)
     )
     if typed:
-        raise UsageRefusal(explain(typed))
+        raise UsageRefusal(say(key, options=typed, **why))
     variables = tuple(
         next(filter(os.environ.get, one.envvar or ()), "")
         for one in found
         if _is_from(one, _SET, context)
     )
     if variables:
-        tell(say("cli.note", text=explain(variables)), language, err=True)
+        tell(say("cli.note", text=say(key, options=variables, **why)), err=True)
 
 
 def _is_from(

@@ -10,13 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
-    force_option,
-    json_option,
-    language_option,
-    origin_options,
-    out_option,
     refuse_without,
-    report_options,
+    take_options,
 )
 from netdesign.commands.running import find_exit_code, print_document, report_places
 from netdesign.commands.stored_study import require_sound
@@ -78,7 +73,7 @@ def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
     from netdesign.report.files import ReportStyle
 
     if not any(asked[one] for one in ("html", "pdf", "docx", "template")):
-        refuse_without(("rows_map",), ("--html", "--pdf", "--docx"), asked["language"])
+        refuse_without(("rows_map",), "--html", "--pdf", "--docx")
     content: bytes | None = None
     if asked["template"]:
         from netdesign.report.document.template import read_template
@@ -102,19 +97,8 @@ def _read_places(path: Path | None) -> RowsMap | None:
 
 @click.command()
 @click.argument("study_file", type=click.Path(path_type=Path))
-@out_option("Folder of the outputs.", default=DEFAULT_FOLDER, show_default=True)
-@origin_options
-@report_options
-@force_option
-def report(
-    study_file: Path,
-    *,
-    out: Path,
-    site_file: Path | None,
-    standard: str | None,
-    force: bool,
-    **options: Any,
-) -> None:
+@take_options("report")
+def report(study_file: Path, **asked: Any) -> None:
     """Render the reports of a stored study again, without solving.
 
     A study that contradicts itself, its site file or its limit profile is refused. Only
@@ -131,30 +115,28 @@ def report(
     from netdesign.study.document import load_study
 
     study = load_study(study_file)
-    language: Language = options["language"]
     wanted = mark_names(
-        list_wanted(options), is_what_if=study.what_if, is_part=study.left_out
+        list_wanted(asked), is_what_if=study.what_if, is_part=study.left_out
     )
-    names = name_files(out, [study.profile.id], wanted)
-    style = choose_style(options)
+    names = name_files(asked["out"], [study.profile.id], wanted)
+    style = choose_style(asked)
     if style.places is not None:
         from netdesign.files.rows_map import require_named
 
         require_named(style.places, [row.id for row in study.rows])
-    require_free(names[0], overwrite=force)
-    require_sound(study, study_file, site_file, standard, language)
+    require_free(names[0], overwrite=asked["force"])
+    require_sound(study, study_file, asked["site_file"], asked["standard"])
     files = render_files([study], names, style)
-    write_files(files, overwrite=force, is_recorded=True)
-    report_places(names, language, quiet=False)
+    write_files(files, overwrite=asked["force"], is_recorded=True)
+    report_places(files, asked)
     sys.exit(find_exit_code([study]))
 
 
 @click.command()
 @click.argument("old", type=click.Path(path_type=Path))
 @click.argument("new", type=click.Path(path_type=Path))
-@json_option("changes")
-@language_option()
-def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
+@take_options("diff")
+def diff(old: Path, new: Path, **asked: Any) -> None:
     """Show what changed from one study to another: verdicts, checks, inputs.
 
     Verdicts that got worse come first. Exit code 1 if a verdict turned: of the study,
@@ -170,12 +152,12 @@ def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
 
     before, after = load_study(old), load_study(new)
     for study, path in ((before, old), (after, new)):
-        require_sound(study, path, None, None, language)
+        require_sound(study, path)
     changes = compare_studies(before, after)
-    if as_json:
-        print_document(write_difference(changes, language))
+    if asked["as_json"]:
+        print_document(write_difference(changes, asked["language"]))
     else:
-        _show(changes, language)
+        _show(changes, asked["language"])
     sys.exit(_TURNED if any(change.is_turned for change in changes) else 0)
 
 
@@ -189,4 +171,4 @@ def _show(changes: Sequence[Change], language: Language) -> None:
             click.echo(name_area(area, language))
         click.echo(f"  {change.tell(language, rows)}")
     if not changes:
-        tell(say("diff.same"), language)
+        tell(say("diff.same"))

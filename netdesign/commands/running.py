@@ -6,14 +6,22 @@ import json
 import os
 import shlex
 import sys
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import (
+    Callable,
+    Collection,
+    Iterable,
+    Iterator,
+    Mapping,
+    Sequence,
+    Set,
+)
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from netdesign.commands.usage import UsageRefusal, tell
+from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import print_json
 from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
@@ -71,10 +79,10 @@ def print_document(document: Mapping[str, Any]) -> None:
     print_json(json.dumps(document, indent=1, allow_nan=False))
 
 
-def place_outputs(
-    folder: Path | None, names: Iterable[str], *, overwrite: bool
-) -> list[Path]:
-    """Places of outputs in a folder, of none without a folder.
+def require_places(
+    folder: Path | None, names: Iterable[str], asked: Mapping[str, Any]
+) -> None:
+    """Refuse before any work what is in the way of outputs; nothing without a folder.
 
     Raises
     ------
@@ -84,14 +92,19 @@ def place_outputs(
     from netdesign.edge.output import require_free
 
     paths = [folder / name for name in names] if folder else []
-    require_free(paths, overwrite=overwrite)
-    return paths
+    require_free(paths, overwrite=asked["force"])
 
 
 def write_outputs(
-    folder: Path, contents: Mapping[str, bytes], *, overwrite: bool
-) -> list[Path]:
-    """Write files into a folder, by their names; their paths.
+    folder: Path,
+    contents: Mapping[str, bytes],
+    asked: Mapping[str, Any],
+    *,
+    is_recorded: bool = False,
+) -> None:
+    """Write files by their names, or their places, and tell where they are.
+
+    ``asked`` are options of the command line: force, quiet, as_json.
 
     Raises
     ------
@@ -101,18 +114,31 @@ def write_outputs(
     from netdesign.edge.output import write_files
 
     files = {folder / name: content for name, content in contents.items()}
-    write_files(files, overwrite=overwrite)
-    return list(files)
+    write_files(files, overwrite=asked["force"], is_recorded=is_recorded)
+    report_places(files, asked)
 
 
-def report_places(names: list[list[Path]], language: Language, *, quiet: bool) -> None:
-    """Tell where outputs were written."""
-    by_folder: dict[Path, list[str]] = {}
-    for path in [] if quiet else [path for group in names for path in group]:
-        by_folder.setdefault(path.parent, []).append(path.name)
+def report_places(paths: Iterable[Path], asked: Mapping[str, Any]) -> None:
+    """Tell where outputs were written, by their folders; not who asked for silence."""
+    is_silent = asked.get("quiet") or asked.get("as_json")
+    by_folder: dict[Path, list[Path]] = {}
+    for path in [] if is_silent else paths:
+        by_folder.setdefault(path.parent, []).append(path)
     for folder, files in by_folder.items():
-        told = say("cli.wrote_files", folder=str(folder), files=tuple(files))
-        tell(told, language, err=True)
+        names = tuple(path.name for path in files)
+        told = say("cli.wrote_files", folder=str(folder), files=names)
+        tell(
+            say("cli.wrote", path=str(files[0])) if len(files) == 1 else told, err=True
+        )
+
+
+def follow(
+    count: int, what: str, asked: Mapping[str, Any]
+) -> AbstractContextManager[Callable[[object], None] | None]:
+    """Progress through so many things; nothing is shown with ``--quiet``."""
+    from netdesign.edge.progress import show_progress
+
+    return show_progress(count, what, quiet=bool(asked.get("quiet")), language=speak())
 
 
 def open_run(
@@ -130,13 +156,13 @@ def open_phases(
 ) -> Iterator[tuple[Runner, RunProgress]]:
     """Workers, store and progress of some phases, open while they last.
 
-    ``asked`` are options of the command line: jobs, executor, cache, quiet, language.
+    ``asked`` are options of the command line: jobs, executor, cache, quiet.
     """
     from netdesign.edge.progress import show_phases
     from netdesign.solving.session import open_runner
     from netdesign.solving.store import find_store
 
-    language: Language = asked["language"]
+    language = speak()
     with (
         open_runner(
             executor=asked["executor"],
@@ -168,7 +194,7 @@ TRACEBACK = "NETDESIGN_TRACEBACK"  # a variable that asks for the whole way
 
 
 def print_faults(
-    faults: Mapping[Fault, Collection[str]], language: Language = "en"
+    faults: Mapping[Fault, Collection[str]], language: Language | None = None
 ) -> int:
     """Tell each fault with its cases and their net rows, on stderr.
 
@@ -176,8 +202,8 @@ def print_faults(
     ----------
     faults : mapping of Fault to collection of str
         What failed, and the ids of the net rows that it befell.
-    language : str
-        Of what is told; a fault's own words are the program's.
+    language : str, optional
+        Of what is told, that of the command; a fault's own words are the program's.
 
     Returns
     -------
@@ -188,7 +214,7 @@ def print_faults(
     for fault, rows in faults.items():
         alike.setdefault(str(fault), {})[fault] = rows
     for cases in alike.values():
-        _describe_alike(cases, language)
+        _describe_alike(cases, language or speak())
     if not faults:
         return 0
     if not os.environ.get(TRACEBACK):
@@ -223,16 +249,14 @@ def _name_case(rows: tuple[str, ...], case: str) -> Message:
     return say(key, rows=rows, case=case)
 
 
-def print_next_steps(
-    verdicts: Set[Verdict], site: str, language: Language, *, is_sized: bool
-) -> None:
+def print_next_steps(verdicts: Set[Verdict], site: str, *, is_sized: bool) -> None:
     """Tell what to do about rows that do not pass; nothing where all do.
 
     ``verdicts`` are those of all rows, ``site`` is what was checked, as on the command
     line.
     """
     for message in list_next_steps(verdicts, site, is_sized=is_sized):
-        tell(message, language, err=True)
+        tell(message, err=True)
 
 
 def list_next_steps(

@@ -6,50 +6,37 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
 from netdesign.commands.options import (
     DELIMITERS,
-    force_option,
-    language_option,
     read_instead,
     refuse_delimiter,
     refuse_jobs,
-    text_options,
+    take_options,
 )
-from netdesign.commands.usage import UsageRefusal, tell
+from netdesign.commands.running import write_outputs
+from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.edge.causes import explain_with_file
 from netdesign.outcome import OutputError, SiteDataError
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import render
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site
     from netdesign.site.questions import Question
-    from netdesign.words.catalogue import Language
 
-# Options of every site that is read; `open_site` takes them.
-READING = ("delimiter", "decimal_mark", "annotate", "language")
 _MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
 
 
-def open_site(
-    path: Path,
-    *,
-    delimiter: str = "",
-    decimal_mark: str | None = None,
-    annotate: Path | None = None,
-    overwrite: bool = False,
-    language: Language = "en",
-    instead: Mapping[str, str] = MappingProxyType({}),
-) -> Site:
+def open_site(path: Path, asked: Mapping[str, Any]) -> Site:
     """Read a site; with ``annotate`` also write its copy, whether refused or not.
 
-    ``instead`` are texts that are read in the place of those of some cells.
+    ``asked`` are options of the command line: delimiter, decimal_mark, annotate, force,
+    and instead, texts that are read in the place of those of some cells.
 
     Raises
     ------
@@ -61,24 +48,21 @@ def open_site(
     from netdesign.edge.output import require_free
     from netdesign.site.reader import read_site
 
-    text_format = build_text_format(delimiter=delimiter, decimal_mark=decimal_mark)
-    read = partial(read_site, path, text_format, instead)
+    text_format, annotate = build_text_format(asked), asked.get("annotate")
+    read = partial(read_site, path, text_format, asked.get("instead") or {})
     if annotate is None:
         return read()
     if annotate.suffix.casefold() != ".xlsx":
         raise UsageRefusal(say("usage.annotate_xlsx", path=str(annotate)))
     if annotate.absolute() == path.absolute():
         raise UsageRefusal(say("usage.annotate_other"))
-    require_free([annotate], overwrite=overwrite)
-    write = partial(
-        _write_copy, path, annotate, text_format, overwrite=overwrite, language=language
-    )
+    require_free([annotate], overwrite=asked["force"])
     try:
         site = read()
     except SiteDataError as error:
-        write(error)
+        _write_copy(path, error, asked)
         raise
-    write(site)
+    _write_copy(path, site, asked)
     return site
 
 
@@ -94,8 +78,8 @@ def require_source(
     """
     if asked["example"] == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
-    refuse_delimiter(*others, site_file, language=asked["language"])
-    refuse_jobs(asked["executor"], asked["language"])
+    refuse_delimiter(*others, site_file)
+    refuse_jobs(asked["executor"])
 
 
 def read_asked_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
@@ -109,11 +93,12 @@ def read_asked_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
     if site_file is None:
         with temporary_example() as path:
             return read_asked_site(path, asked)
-    reading = {one: asked[one] for one in READING} | {"overwrite": asked["force"]}
-    instead = asked.get("instead") or {}
-    site = open_site(site_file, instead=instead, **reading)
-    bare = reading | {"annotate": None}
-    require_effect(instead, lambda cells: open_site(site_file, instead=cells, **bare))
+    site = open_site(site_file, asked)
+    bare = {**asked, "annotate": None}
+    require_effect(
+        asked.get("instead") or {},
+        lambda cells: open_site(site_file, {**bare, "instead": cells}),
+    )
     return site
 
 
@@ -126,13 +111,12 @@ def choose_rows(site: Site, ids: Sequence[str]) -> Site:
     return site.take_rows(ids) if ids else site
 
 
-def build_text_format(
-    *, delimiter: str = "", decimal_mark: str | None = None
-) -> TextFormat:
-    """Declared form of a file's text."""
+def build_text_format(asked: Mapping[str, Any]) -> TextFormat:
+    """Declared form of a file's text, by the options of a command."""
     from netdesign.site.cells.cells import TextFormat
 
-    return TextFormat(delimiter=delimiter, decimal_mark=_MARKS[decimal_mark or ""])
+    mark = _MARKS[asked.get("decimal_mark") or ""]
+    return TextFormat(delimiter=asked.get("delimiter") or "", decimal_mark=mark)
 
 
 def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> None:
@@ -174,12 +158,11 @@ def reopen_site(path: Path, typed: Mapping[str, Any]) -> Site:
         instead = {}
     delimiter = str(typed.get("delimiter") or "")
     mark = str(typed.get("decimal_mark") or "")
-    return open_site(
-        path,
-        delimiter=DELIMITERS.get(delimiter, delimiter),
-        decimal_mark=mark if mark in _MARKS else None,
-        instead=instead,
-    )
+    reading = {
+        "delimiter": DELIMITERS.get(delimiter, delimiter),
+        "decimal_mark": mark if mark in _MARKS else None,
+    }
+    return open_site(path, reading | {"instead": instead})
 
 
 @contextmanager
@@ -208,26 +191,19 @@ def temporary_example() -> Iterator[Path]:
 
 
 def _write_copy(
-    path: Path,
-    copy: Path,
-    text_format: TextFormat,
-    read: Site | SiteDataError,
-    *,
-    overwrite: bool,
-    language: Language,
+    path: Path, read: Site | SiteDataError, asked: Mapping[str, Any]
 ) -> None:
-    from netdesign.edge.output import write_files
     from netdesign.site.cells.findings import Finding
     from netdesign.site.template.annotate import annotate_workbook
 
     findings = [one for one in read.findings if isinstance(one, Finding)]
+    form, copy = build_text_format(asked), asked["annotate"]
     try:
-        content = annotate_workbook(path, findings, text_format, language)
+        content = annotate_workbook(path, findings, form, speak())
     except SiteDataError as error:
-        tell(say("finding.no_copy", reason=error.message), language, err=True)
+        tell(say("finding.no_copy", reason=error.message), err=True)
         return
-    write_files({copy: content}, overwrite=overwrite)
-    tell(say("cli.wrote", path=str(copy)), language, err=True)
+    write_outputs(copy.parent, {copy.name: content}, asked)
 
 
 _SUFFIX = ".xlsx"
@@ -235,10 +211,8 @@ _SUFFIX = ".xlsx"
 
 @click.command()
 @click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
-@click.option("--example", is_flag=True, help="Fill in the built-in example site.")
-@language_option("Of headings, words and notes; all three are read.")
-@click.option("--force", is_flag=True, help="Overwrite an existing file.")
-def init(site_file: Path, *, example: bool, language: Language, force: bool) -> None:
+@take_options("init")
+def init(site_file: Path, **asked: Any) -> None:
     """Write an input workbook to fill in.
 
     \b
@@ -251,16 +225,17 @@ def init(site_file: Path, *, example: bool, language: Language, force: bool) -> 
 
     if site_file.suffix.lower() != _SUFFIX:
         raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
-    require_free([site_file], overwrite=force)
-    write_site_workbook(site_file, example=example, overwrite=force, language=language)
-    tell(say("cli.wrote", path=str(site_file)), language, err=True)
+    given = {"example": asked["example"], "language": asked["language"]}
+    require_free([site_file], overwrite=asked["force"])
+    write_site_workbook(site_file, overwrite=asked["force"], **given)
+    tell(say("cli.wrote", path=str(site_file)), err=True)
 
 
-def _put(question: Question, language: Language) -> str:
+def _put(question: Question) -> str:
     """One question on the terminal; an empty answer leaves it open."""
     from netdesign.site.questions import is_accepted
 
-    hints = "; ".join(render(one, language) for one in question.hints if one)
+    hints = "; ".join(render(one, speak()) for one in question.hints if one)
     place = " › ".join(one for one in (question.sheet, question.asked) if one)
     click.echo(f"{place}\n  {hints}", err=True)
     while True:
@@ -272,29 +247,22 @@ def _put(question: Question, language: Language) -> str:
             return ""
         if not answer.strip() or is_accepted(question, answer.strip()):
             return answer
-        tell(say("map.not_accepted", answer=answer.strip()), language, err=True)
+        tell(say("map.not_accepted", answer=answer.strip()), err=True)
 
 
-def _put_once(
-    question: Question, language: Language, known: set[tuple[str, str]]
-) -> str:
+def _put_once(question: Question, known: set[tuple[str, str]]) -> str:
     """The same, once: a question that was left open is not asked again."""
     asked = (question.sheet, question.asked)
     if asked in known:
         return ""
     known.add(asked)
-    return _put(question, language)
+    return _put(question)
 
 
 @click.command(name="map")
 @click.argument("site_file", type=click.Path(path_type=Path))
-@text_options
-@click.option("--ask", is_flag=True, help="Ask one after another on the terminal.")
-@language_option("Of the comments in the file.")
-@force_option
-def map_headings(
-    site_file: Path, *, ask: bool, language: Language, force: bool, **reading: Any
-) -> None:
+@take_options("map")
+def map_headings(site_file: Path, **asked: Any) -> None:
     """Write SITE.map.toml: which headings mean what, to be answered.
 
     \b
@@ -309,21 +277,19 @@ def map_headings(
     from netdesign.site.questions import write_questions
     from netdesign.site.titles import name_map
 
-    refuse_delimiter(site_file, language=language)
-    place = name_map(site_file)
-    require_free([place], overwrite=force)
-    form = build_text_format(**reading)
+    refuse_delimiter(site_file)
+    place, overwrite = name_map(site_file), asked["force"]
+    require_free([place], overwrite=overwrite)
     known: set[tuple[str, str]] = set()
-    put = partial(_put_once, language=language, known=known) if ask else None
-    text, missing = write_questions(site_file, form, language, put)
-    write_files({place: text.encode()}, overwrite=force)
-    before = 0
+    put = partial(_put_once, known=known) if asked["ask"] else None
+    before = -1
     while len(known) > before:  # a sheet that is known now has headings to ask for
         before = len(known)
-        text, missing = write_questions(site_file, form, language, put)
-        write_files({place: text.encode()}, overwrite=True)
-    tell(say("cli.wrote", path=str(place)), language, err=True)
-    if missing:
-        tell(say("map.missing", count=missing), language, err=True)
-    else:
-        tell(say("map.complete"), language, err=True)
+        form = build_text_format(asked)
+        text, missing = write_questions(site_file, form, asked["language"], put)
+        write_files({place: text.encode()}, overwrite=overwrite)
+        overwrite = True
+    tell(say("cli.wrote", path=str(place)), err=True)
+    tell(
+        say("map.missing", count=missing) if missing else say("map.complete"), err=True
+    )

@@ -9,45 +9,25 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
-    json_option,
-    language_option,
-    median_option,
-    model_option,
     refuse_delimiter,
     refuse_without,
-    text_options,
+    take_options,
 )
 from netdesign.commands.running import print_document
 from netdesign.commands.site_input import build_text_format
 from netdesign.commands.usage import tell
-from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.snowpack.pack import DayPack
-    from netdesign.words.catalogue import Language
 
 SCHEMA = "netdesign.snowpack/1"
 
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("height_file", type=click.Path(path_type=Path))
-@model_option("Settling model.")
-@median_option
-@click.option("--layers", is_flag=True, help="Layers of each day, too; with --json.")
-@text_options
-@language_option("Of messages.")
-@json_option("days")
-def snowpack(
-    height_file: Path,
-    *,
-    model: str,
-    median: bool,
-    layers: bool,
-    language: Language,
-    as_json: bool,
-    **reading: Any,
-) -> None:
+@take_options("snowpack")
+def snowpack(height_file: Path, **asked: Any) -> None:
     """Mass and density of snow from daily heights.
 
     \b
@@ -62,20 +42,20 @@ def snowpack(
     from netdesign.snowpack.series import smooth
     from netdesign.winter.season import FIRST_DENSITY
 
-    refuse_delimiter(height_file, language=language)
-    if not as_json:
-        refuse_without(["layers"], ("--json",), language)
-    found, remarks = read_height_file(height_file, build_text_format(**reading))
+    refuse_delimiter(height_file)
+    if not asked["as_json"]:
+        refuse_without(["layers"], "--json")
+    found, remarks = read_height_file(height_file, build_text_format(asked))
     for remark in remarks:
-        tell(remark.message, language, err=True)
-    series = smooth(found.series) if median else found.series
-    packs = follow_heights(series.heights, KNOWN[model], FIRST_DENSITY)
+        tell(remark.message, err=True)
+    series = smooth(found.series) if asked["median"] else found.series
+    packs = follow_heights(series.heights, KNOWN[asked["model"]], FIRST_DENSITY)
     days = [
-        _write_day(day.isoformat(), pack, with_layers=layers)
+        _write_day(day.isoformat(), pack, with_layers=asked["layers"])
         for day, pack in zip(series.days, packs, strict=True)
     ]
-    if as_json:
-        print_document({"schema": SCHEMA, "model": model, "days": days})
+    if asked["as_json"]:
+        print_document({"schema": SCHEMA, "model": asked["model"], "days": days})
         return
     for one in days:
         tell(
@@ -85,8 +65,7 @@ def snowpack(
                 height=one["height_m"],
                 mass=one["swe_kg_m2"],
                 density=one["density_kg_m3"],
-            ),
-            language,
+            )
         )
 
 
@@ -113,16 +92,16 @@ def _write_day(day: str, pack: DayPack, *, with_layers: bool) -> dict[str, Any]:
 
 
 @click.command()
-@language_option()
-def glide(*, language: Language) -> None:
+@take_options("glide")
+def glide(**_: Any) -> None:
     """Measure the glide factors of slip lengths again, beside the stored table."""
     from netdesign.coupling.steady.rigid import measure_glide_factor
     from netdesign.snow.creep_law import CREEP_LAWS
     from netdesign.snow.ground import load_glide_tables
 
-    tell(say("glide.heads"), language)
+    tell(say("glide.heads"))
     for name, table in load_glide_tables().items():
         for ratio, stored in zip(table.slip_ratios, table.glide_factors, strict=True):
             measured = measure_glide_factor(CREEP_LAWS[name], ratio)
             numbers = {"ratio": ratio, "stored": stored, "measured": measured}
-            tell(say("glide.line", law=name, **numbers), language)
+            tell(say("glide.line", law=name, **numbers))

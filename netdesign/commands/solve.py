@@ -4,25 +4,21 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from netdesign.commands.options import (
-    force_option,
-    json_option,
-    language_option,
-    out_option,
+    take_options,
 )
 from netdesign.commands.running import (
     EXIT_CODES,
-    place_outputs,
     print_document,
     print_faults,
-    report_places,
+    require_places,
     write_outputs,
 )
-from netdesign.commands.usage import tell
+from netdesign.commands.usage import speak, tell
 from netdesign.outcome import SENTENCE, Fault, Outcome, Verdict, catch_fault
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
@@ -37,29 +33,12 @@ if TYPE_CHECKING:
     from netdesign.files.scene import GivenScene
     from netdesign.report.page.solution_page import Solved
     from netdesign.solving.solve import Settings
-    from netdesign.words.catalogue import Language
 
 
 @click.command()
 @click.argument("scene_file", type=click.Path(path_type=Path))
-@click.option(
-    "--method",
-    type=click.Choice(["steady", "transient", "staggered"]),
-    help="Steady state, history, or the source paper's exchange [the scene's].",
-)
-@json_option("solution")
-@out_option("Folder for a page with drawings, the solution, a history's table.")
-@language_option("Of what is printed, and of reasons and remarks.")
-@force_option
-def solve(
-    scene_file: Path,
-    *,
-    method: Literal["steady", "transient", "staggered"] | None,
-    as_json: bool,
-    out: Path | None,
-    language: Language,
-    force: bool,
-) -> None:
+@take_options("solve")
+def solve(scene_file: Path, **asked: Any) -> None:
     """Solve one scene, given as a TOML file.
 
     \b
@@ -72,32 +51,33 @@ def solve(
     from netdesign.files.scene import read_scene_file
     from netdesign.files.solution import write_solution_document
 
-    given = read_scene_file(scene_file, method)
+    given, out = read_scene_file(scene_file, asked["method"]), asked["out"]
     scene, settings = given.scene, given.settings
     if out is not None:  # the page takes as long to import as all else
-        place_outputs(out, _list_names(given), overwrite=force)
+        require_places(out, _list_names(given), asked)
     start = time.perf_counter()
-    solution, failed = _solve(scene, settings, language)
+    solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
     bound = None if failed else _bound_refused(scene, settings, solution)
     support = _resolve_support(solution, given)
     document = write_solution_document(
-        solution, settings, elapsed, bound, language, support
+        solution, settings, elapsed, bound, asked["language"], support
     )
     if out is not None:
-        files = _render(solution, document, scene_file.name, support, language)
-        written = write_outputs(out, files, overwrite=force)
-        report_places([written], language, quiet=as_json)
-    if as_json:
+        files = _render(solution, document, scene_file.name, support)
+        write_outputs(out, files, asked)
+    if asked["as_json"]:
         print_document(document)
+    elif document["outcome"] == "converged":
+        _show_solution(document)
     else:
-        _show(solution, document, language)
+        _show_refusal(solution, document)
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
 
 
-def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved, int]:
+def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     """Solution of a scene, and the exit code of a fault; it is told on stderr."""
     from netdesign.coupling.solution import FailedSolution
     from netdesign.solving.describe import describe_case
@@ -108,7 +88,7 @@ def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved
     if not isinstance(solution, Fault):
         return solution, 0
     failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
-    return failed, print_faults({solution: ()}, language)
+    return failed, print_faults({solution: ()})
 
 
 def _resolve_support(solution: Solved, given: GivenScene) -> SolvedSupport | None:
@@ -136,18 +116,9 @@ def _bound_refused(
     return None
 
 
-def _show(solution: Solved, document: dict[str, Any], language: Language) -> None:
-    if document["outcome"] == "converged":
-        _show_solution(document, language)
-    else:
-        _show_refusal(solution, document, language)
-
-
-def _show_refusal(
-    solution: Solved, document: dict[str, Any], language: Language
-) -> None:
+def _show_refusal(solution: Solved, document: dict[str, Any]) -> None:
     told = say("solve.ended", ended=solution.outcome.word, reason=document["reason"])
-    tell(told, language)
+    tell(told)
     if bound := document.get("upper_bound"):
         limit = say(
             "solve.bound",
@@ -155,30 +126,30 @@ def _show_refusal(
             foot=bound["foot_kN_per_m"],
             head=bound["head_kN_per_m"],
         )
-        tell(limit, language)
+        tell(limit)
 
 
-def _show_solution(document: dict[str, Any], language: Language) -> None:
+def _show_solution(document: dict[str, Any]) -> None:
     for end, pull in (document["anchor_forces"] or {}).items():
-        tell(_describe_end(end, pull, language), language)
+        tell(_describe_end(end, pull))
     if document["wall"]:
-        tell(_describe_wall(document["wall"]), language)
+        tell(_describe_wall(document["wall"]))
     else:
-        tell(say("solve.sag", sag=document["sag_m"]), language)
+        tell(say("solve.sag", sag=document["sag_m"]))
     if document["history"]:
-        tell(_describe_plateau(document), language)
-    for line in _describe_support(document.get("support"), language):
-        tell(line, language)
+        tell(_describe_plateau(document))
+    for line in _describe_support(document.get("support")):
+        tell(line)
     residual = document["balance"]["relative_residual"]
-    tell(say("solve.balance", residual=residual), language)
+    tell(say("solve.balance", residual=residual))
     for flag in document["flags"]:
-        tell(say("cli.note", text=flag), language)
+        tell(say("cli.note", text=flag))
 
 
-def _describe_end(end: str, pull: dict[str, float], language: Language) -> Message:
+def _describe_end(end: str, pull: dict[str, float]) -> Message:
     return say(
         "solve.end",
-        end=render(name_member(end), language),  # padded as a text
+        end=render(name_member(end), speak()),  # padded as a text
         size=pull["size_kN_per_m"],
         x=pull["x_kN_per_m"],
         y=pull["y_kN_per_m"],
@@ -196,9 +167,7 @@ def _describe_wall(wall: dict[str, float]) -> Message:
     )
 
 
-def _describe_support(
-    support: dict[str, Any] | None, language: Language
-) -> Iterator[Message]:
+def _describe_support(support: dict[str, Any] | None) -> Iterator[Message]:
     """Forces of both sets, ropes and row end, a line each."""
     if support is None:
         return
@@ -215,18 +184,18 @@ def _describe_support(
         if forces:
             both = "panel" in forces
             key = "solve.support_with_panel" if both else "solve.support"
-            name = render(name_member(member), language)  # padded as a text
+            name = render(name_member(member), speak())  # padded as a text
             yield say(key, member=name, **forces)
     if support["panel"]:
-        yield from _describe_panel(support["panel"], language)
+        yield from _describe_panel(support["panel"])
     if support["row_end"]:
         yield from _describe_end_of_row(support["row_end"])
 
 
-def _describe_panel(panel: dict[str, Any], language: Language) -> Iterator[Message]:
+def _describe_panel(panel: dict[str, Any]) -> Iterator[Message]:
     for name in ("lower", "upper"):
         rope = panel[f"{name}_rope"]
-        shown = render(say(f"panel_view.{name}"), language)
+        shown = render(say(f"panel_view.{name}"), speak())
         yield say("solve.rope", rope=shown, along=rope["H_kN"], tension=rope["T_kN"])
     drop, lift = panel["mid_head_drop_m"], panel["foot_lift_m"]
     yield say("solve.mid_panel", drop=drop, lift=lift)
@@ -269,11 +238,10 @@ def _render(
     document: dict[str, Any],
     scene_file: str,
     support: SolvedSupport | None,
-    language: Language,
 ) -> dict[str, bytes]:
     """Page, drawings, tables and document."""
     from netdesign.report.page.solution_page import render_solution
     from netdesign.study.record_support import record_solved_panel
 
     panel = None if support is None else record_solved_panel(support.result)
-    return render_solution(solution, document, scene_file, language, panel)
+    return render_solution(solution, document, scene_file, speak(), panel)

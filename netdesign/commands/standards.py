@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from netdesign.commands.options import language_option
+from netdesign.commands.options import take_options
 from netdesign.commands.usage import LanguageGroup, tell
 from netdesign.outcome import OutputError
 from netdesign.words.catalogue import Language, render
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.group(cls=LanguageGroup)
-@language_option("Of this help.", expose_value=False)
+@take_options("standards")
 def standards() -> None:
     """Show the limit profiles, and start one of your own.
 
@@ -33,7 +33,7 @@ def standards() -> None:
 
 
 @standards.command("list")
-@language_option()
+@take_options("standards_list")
 def list_profiles(*, language: Language) -> None:
     """List the profiles that come with the program."""
     from netdesign.checks import list_standards, load_standard
@@ -47,7 +47,7 @@ def list_profiles(*, language: Language) -> None:
 
 @standards.command("show")
 @click.argument("name", metavar="ID")
-@language_option("Of a profile that comes with the program, and of what it says.")
+@take_options("standards_show")
 def show_profile(name: str, *, language: Language) -> None:
     """Show every value of a profile with its status and source."""
     from netdesign.checks import load_standard
@@ -55,18 +55,18 @@ def show_profile(name: str, *, language: Language) -> None:
 
     profile, words = load_standard(name), Words(language)
     title = show_own(words, f"{profile.title}, {profile.edition}")
-    tell(say("show.label", label=profile.id, text=title), language)
+    tell(say("show.label", label=profile.id, text=title))
     told = say("standard.version", version=profile.version, sha256=profile.sha256)
-    tell(told, language)
+    tell(told)
     if profile.choice:
-        tell(say("standard.choice", choice=profile.choice), language)
+        tell(say("standard.choice", choice=profile.choice))
         click.echo(show_own(words, profile.choice_text))
     floor = f"floor.profile_{profile.floor}"
-    tell(say(floor), language)
+    tell(say(floor))
     route = render(name_of("route", profile.route), language)
-    tell(say("standard.route", route=route), language)
+    tell(say("standard.route", route=route))
     added = render(name_of("shared_sum", profile.shared_sum), language)
-    tell(say("standard.shared_sum", sum=added), language)
+    tell(say("standard.shared_sum", sum=added))
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:
@@ -86,19 +86,19 @@ def show_profile(name: str, *, language: Language) -> None:
 
 @standards.command("validate")
 @click.argument("folder", type=click.Path(path_type=Path))
-@language_option()
-def validate_profile(folder: Path, *, language: Language) -> None:
+@take_options("standards_validate")
+def validate_profile(folder: Path, **_: Any) -> None:
     """Validate a profile folder; every fault is told."""
     from netdesign.checks import load_standard
 
-    tell(_summarise(load_standard(folder)), language)
+    tell(_summarise(load_standard(folder)))
 
 
 @standards.command("copy")
 @click.argument("name", metavar="ID")
 @click.argument("folder", type=click.Path(path_type=Path))
-@language_option()
-def copy_profile(name: str, folder: Path, *, language: Language) -> None:
+@take_options("standards_copy")
+def copy_profile(name: str, folder: Path, **_: Any) -> None:
     """Copy a profile to edit; its id becomes the name of the folder."""
     from netdesign.checks import load_standard
     from netdesign.edge.given_files import find_resource
@@ -120,7 +120,7 @@ def copy_profile(name: str, folder: Path, *, language: Language) -> None:
     )
     files = {folder / name: text.encode("utf-8") for name, text in texts.items()}
     write_files(files, overwrite=False)
-    tell(_summarise(load_standard(folder)), language)
+    tell(_summarise(load_standard(folder)))
 
 
 def _summarise(profile: Standard) -> Message:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.site_input import reopen_site, temporary_example
+from netdesign.commands.usage import speak
 from netdesign.outcome import NetDesignError, StudyError
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -114,9 +115,8 @@ _SHOWN = 10  # contradictions; more help nobody
 def require_sound(
     study: Study,
     study_file: Path,
-    site_file: Path | None,
-    standard: str | None,
-    language: Language,
+    site_file: Path | None = None,
+    standard: str | None = None,
 ) -> None:
     """Refuse a study that cannot be true; say what it was not compared with.
 
@@ -127,8 +127,6 @@ def require_sound(
     site_file, standard
         Its site file and its limit profile, where somebody gives them; else they are
         looked for by their names.
-    language
-        Of what is said.
 
     Raises
     ------
@@ -138,8 +136,8 @@ def require_sound(
     from netdesign.study.document import compute_digest
     from netdesign.study.rejudge import rejudge
 
-    site = _find_site(study, study_file, site_file, language)
-    profile = _find_profile(study, study_file, standard, language)
+    site = _find_site(study, study_file, site_file)
+    profile = _find_profile(study, study_file, standard)
     found = [say("stored.command", reason=one) for one in contradict_command(study)]
     found += rejudge(study, profile, site)
     if study.digest and study.digest != compute_digest(study):
@@ -150,29 +148,27 @@ def require_sound(
         raise StudyError(say("stored.contradicts", study=str(study_file), lines=lines))
 
 
-def _find_site(
-    study: Study, study_file: Path, site_file: Path | None, language: Language
-) -> Site | None:
+def _find_site(study: Study, study_file: Path, site_file: Path | None) -> Site | None:
     """Site of the study, where its file is at hand; one that is given has to be it."""
     try:
         site = read_own_site(study, study_file, site_file)
     except NetDesignError as error:
         if site_file is not None:
             raise
-        first = render(error.message, language).partition("\n")[0]
-        _describe_uncompared(study_file, "stored.site_uncompared", first, language)
+        first = render(error.message, speak()).partition("\n")[0]
+        _describe_uncompared(study_file, "stored.site_uncompared", first)
         return None
     if site.sha256 == study.provenance.site_sha256:
         return site
     if site_file is not None:
         raise StudyError(say("stored.not_the_site", file=str(site_file)))
     reason = say("stored.other_site")
-    _describe_uncompared(study_file, "stored.site_uncompared", reason, language)
+    _describe_uncompared(study_file, "stored.site_uncompared", reason)
     return None
 
 
 def _find_profile(
-    study: Study, study_file: Path, standard: str | None, language: Language
+    study: Study, study_file: Path, standard: str | None
 ) -> Standard | None:
     """Profile of the study, where it is at hand; one that is given has to be it."""
     from netdesign.study.record_provenance import load_own_profile
@@ -183,21 +179,19 @@ def _find_profile(
         if standard is not None:
             raise
         reason = error.message
-        _describe_uncompared(study_file, "stored.profile_uncompared", reason, language)
+        _describe_uncompared(study_file, "stored.profile_uncompared", reason)
         return None
     if profile.sha256 == study.profile.sha256:
         return profile
     if standard is not None:
         raise StudyError(say("stored.not_the_profile", profile=standard))
     reason = say("stored.other_profile")
-    _describe_uncompared(study_file, "stored.profile_uncompared", reason, language)
+    _describe_uncompared(study_file, "stored.profile_uncompared", reason)
     return None
 
 
-def _describe_uncompared(
-    study_file: Path, key: str, reason: Message | str, language: Language
-) -> None:
+def _describe_uncompared(study_file: Path, key: str, reason: Message | str) -> None:
     from netdesign.edge.given_files import make_printable
 
     told = say("text.at_place", place=str(study_file), text=say(key, reason=reason))
-    click.echo(make_printable(render(told, language)), err=True)
+    click.echo(make_printable(render(told, speak())), err=True)

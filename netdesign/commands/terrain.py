@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
-    example_option,
-    force_option,
-    json_option,
-    language_option,
-    quiet_option,
     refuse_without,
+    take_options,
 )
-from netdesign.commands.running import print_document
-from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.words.catalogue import Language
+from netdesign.commands.running import (
+    follow,
+    print_document,
+    require_places,
+    write_outputs,
+)
+from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from netdesign.terrain.coverage import Coverage
     from netdesign.terrain.geojson import Feature
+    from netdesign.terrain.grid import Grid
     from netdesign.terrain.measure import MeasuredRow
     from netdesign.terrain.plan import Plan
     from netdesign.terrain.site_lines import Lines
@@ -34,56 +35,13 @@ if TYPE_CHECKING:
 
 _SITE = "site.xlsx"
 _GUIDELINE = "swiss-guideline-2007"
-_ROWS = "rows.geojson"
+ROWS_FILE = "rows.geojson"
 
 
 @click.command()
 @click.argument("grid", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.argument("rows", required=False, type=click.Path(path_type=Path, dir_okay=False))
-@example_option("Made-up starting zone; its grid, rows and types stand beside.")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help=f"Workbook; beside it rows.geojson and terrain.html [{_SITE}].",
-)
-@click.option(
-    "--types",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="SITE",
-    help="Workbook whose other sheets are taken over: types, row ends, ranges.",
-)
-@click.option(
-    "--verdicts",
-    "study_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="STUDY",
-    help="Put the verdicts of a study on the map instead; with --rows and --out.",
-)
-@click.option(
-    "--rows",
-    "places_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="ROWS",
-    help="The rows.geojson of that study's site, with --verdicts.",
-)
-@click.option(
-    "--most",
-    type=click.FloatRange(1.0, 500.0),
-    default=50.0,
-    show_default=True,
-    help="Largest upslope length that is looked for [m].",
-)
-@click.option(
-    "--standard",
-    metavar="ID",
-    default=_GUIDELINE,
-    show_default=True,
-    help="Limit profile of the distance of rows, for the zone's coverage.",
-)
-@language_option("Of workbook and messages.")
-@json_option("rows on the terrain")
-@force_option
-@quiet_option
+@take_options("terrain")
 def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     """Read slope, length and posts of net rows off an elevation grid.
 
@@ -101,11 +59,10 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     GeoPackage or a drawing (.dxf). All but ASCII grid and GeoJSON need
     pip install "netdesign[terrain]".
     """
-    language: Language = asked["language"]
     if asked["study_file"] is not None:
-        _map_study(asked["study_file"], asked["places_file"], asked, language)
+        _map_study(asked["study_file"], asked["places_file"], asked)
         return
-    refuse_without(("places_file",), ("--verdicts",), language)
+    refuse_without(("places_file",), "--verdicts")
     folder, site = _place(asked)
     if asked["example"]:
         if grid is not None or folder is None:
@@ -116,18 +73,14 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
         grid, rows, asked["types"], _ = files
     if grid is None or rows is None:
         raise UsageRefusal(say("terrain.no_input"))
-    _measure(grid, rows, folder, site, asked, language)
+    _measure(grid, rows, folder, site, asked)
 
 
 def _map_study(
-    study_file: Path,
-    places_file: Path | None,
-    asked: Mapping[str, Any],
-    language: Language,
+    study_file: Path, places_file: Path | None, asked: Mapping[str, Any]
 ) -> None:
     """Verdicts and anchors of a stored study on the map."""
     from netdesign.commands.stored_study import read_own_site, require_sound
-    from netdesign.edge.output import require_free, write_files
     from netdesign.files.rows_map import read_places
     from netdesign.files.verdict_map import (
         map_verdicts,
@@ -138,28 +91,23 @@ def _map_study(
     from netdesign.study.record_provenance import load_own_profile
     from netdesign.terrain.plan import read_text
 
-    out = asked["out"]
+    out, language = asked["out"], speak()
     if places_file is None or out is None:
         raise UsageRefusal(say("terrain.verdicts_need"))
     require_format(out.name)
     study = load_study(study_file)
-    require_sound(study, study_file, None, None, language)
+    require_sound(study, study_file)
     site = read_own_site(study, study_file, None)
     places, crs = read_places(read_text(places_file), places_file.name)
     profile = load_own_profile(study.profile)
     features = map_verdicts(study, site, profile, places, language)
     contents = write_verdicts(features, out.name, crs, language)
-    files = {out.parent / name: content for name, content in contents.items()}
-    require_free(list(files), overwrite=asked["force"])
-    write_files(files, overwrite=asked["force"])
-    if not asked["quiet"]:
-        for path in files:
-            tell(say("cli.wrote", path=str(path)), language, err=True)
+    require_places(out.parent, contents, asked)
+    write_outputs(out.parent, contents, asked)
 
 
 def _place(asked: Mapping[str, Any]) -> tuple[Path | None, str]:
     """Folder of the outputs, None of none, and the workbook's name."""
-    from netdesign.edge.output import require_free
     from netdesign.report.page.terrain_page import PAGE_FILE
 
     if asked["as_json"] and asked["out"] is None:
@@ -167,8 +115,7 @@ def _place(asked: Mapping[str, Any]) -> tuple[Path | None, str]:
     site = asked["out"] or Path(_SITE)
     if site.suffix.lower() != ".xlsx":
         raise UsageRefusal(say("terrain.no_xlsx", file=site.name))
-    names = (site.name, _ROWS, PAGE_FILE)
-    require_free([site.parent / one for one in names], overwrite=asked["force"])
+    require_places(site.parent, (site.name, ROWS_FILE, PAGE_FILE), asked)
     return site.parent, site.name
 
 
@@ -178,54 +125,83 @@ def _measure(
     folder: Path | None,
     name: str,
     asked: Mapping[str, Any],
-    language: Language,
 ) -> None:
     """Measure the rows, tell what was found, and write it."""
-    from netdesign.edge.output import write_files
-    from netdesign.edge.progress import show_progress
-    from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
-    from netdesign.terrain.crs import require_same
-    from netdesign.terrain.geojson import list_row_features, write_features
-    from netdesign.terrain.grid import read_grid
     from netdesign.terrain.measure import measure_plan
     from netdesign.terrain.plan import read_plan
     from netdesign.terrain.site_lines import write_workbook
 
-    ground, plan = read_grid(grid), read_plan(rows)
-    require_same(ground.crs, plan.crs)
-    for note in (*ground.notes, *plan.notes):
-        tell(note, language, err=True)
-    others = _read_types(asked["types"], plan, language)
-    with show_progress(
-        len(plan.lines), "rows", quiet=asked["quiet"], language=language
-    ) as on_row:
+    plan = read_plan(rows)
+    ground = read_ground(grid, plan)
+    others = _read_types(asked["types"], plan)
+    with follow(len(plan.lines), "rows", asked) as on_row:
         surface, measured = measure_plan(
             ground, plan, most=asked["most"], on_row=on_row
         )
     coverage = _cover(surface, plan, measured, asked["standard"])
-    sha256 = hashlib.sha256(grid.read_bytes()).hexdigest()
-    features = list_row_features(measured, plan.zones, grid.name, sha256)
+    features = _list_features(grid, plan, measured)
     if asked["as_json"]:
         print_document(_describe(features, coverage, surface.noise))
     else:
-        _tell_rows(measured, coverage, surface.noise, language)
-    if folder is None:
-        return
-    page = render_terrain(
-        *(surface, plan, measured, coverage, (grid.name, sha256), language)
-    )
-    places = {
-        folder / name: write_workbook(measured, grid.name, others, language),
-        folder / _ROWS: write_features(features, ground.crs or plan.crs),
-        folder / PAGE_FILE: page,
+        _tell_rows(measured, coverage, surface.noise)
+    if folder is not None:
+        workbook = write_workbook(measured, grid.name, others, speak())
+        crs = ground.crs or plan.crs
+        files = render_measured(grid, crs, surface, plan, measured, coverage)
+        write_outputs(folder, {name: workbook, **files}, asked)
+
+
+def read_ground(grid: Path, plan: Plan) -> Grid:
+    """Elevation grid of a plan; what was noted in reading either is told.
+
+    Raises
+    ------
+    TerrainError
+        If it is none, or in another reference system.
+    """
+    from netdesign.terrain.crs import require_same
+    from netdesign.terrain.grid import read_grid
+
+    ground = read_grid(grid)
+    require_same(ground.crs, plan.crs)
+    for note in (*ground.notes, *plan.notes):
+        tell(note, err=True)
+    return ground
+
+
+def _hash_grid(grid: Path) -> str:
+    return hashlib.sha256(grid.read_bytes()).hexdigest()
+
+
+def _list_features(
+    grid: Path, plan: Plan, measured: Sequence[MeasuredRow]
+) -> list[Feature]:
+    from netdesign.terrain.geojson import list_row_features
+
+    return list_row_features(measured, plan.zones, grid.name, _hash_grid(grid))
+
+
+def render_measured(
+    grid: Path,
+    crs: str,
+    surface: Surface,
+    plan: Plan,
+    measured: Sequence[MeasuredRow],
+    coverage: Coverage,
+) -> dict[str, bytes]:
+    """Map and page of rows measured on a grid, by the names of their files."""
+    from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
+    from netdesign.terrain.geojson import write_features
+
+    origin = (grid.name, _hash_grid(grid))
+    shown = (surface, plan, measured, coverage, origin, speak())
+    return {
+        ROWS_FILE: write_features(_list_features(grid, plan, measured), crs),
+        PAGE_FILE: render_terrain(*shown),
     }
-    write_files(places, overwrite=asked["force"])
-    if not asked["quiet"]:
-        for path in places:
-            tell(say("cli.wrote", path=str(path)), language, err=True)
 
 
-def _read_types(path: Path | None, plan: Plan, language: Language) -> Lines | None:
+def _read_types(path: Path | None, plan: Plan) -> Lines | None:
     """Lines of the other sheets; what names rows that the plan lacks is told."""
     from netdesign.terrain.site_lines import read_other_sheets
 
@@ -234,7 +210,7 @@ def _read_types(path: Path | None, plan: Plan, language: Language) -> Lines | No
     lines, left_out = read_other_sheets(path, [one.id for one in plan.lines])
     if left_out:
         told = say("terrain.ends_left", file=path.name, rows=left_out)
-        tell(say("cli.note", text=told), language, err=True)
+        tell(say("cli.note", text=told), err=True)
     return lines
 
 
@@ -243,18 +219,14 @@ def _cover(
 ) -> Coverage:
     """Coverage of the zones by the profile's distance of rows."""
     from netdesign.checks import load_standard
-    from netdesign.checks.geometry import compute_largest_row_spacing
-    from netdesign.checks.schema import GROUND_FRICTION
+    from netdesign.checks.geometry import read_reach
     from netdesign.terrain.coverage import find_coverage
 
-    friction = load_standard(standard).find(GROUND_FRICTION)
-    if friction is None:
+    find_reach = read_reach(load_standard(standard))
+    if find_reach is None:
         raise UsageRefusal(say("terrain.no_friction", profile=standard))
     reach = {
-        row.line.id: compute_largest_row_spacing(
-            row.slope.high, row.line.net_height, friction.value
-        )
-        for row in rows
+        row.line.id: find_reach(row.slope.high, row.line.net_height) for row in rows
     }
     return find_coverage(surface, plan, rows, reach)
 
@@ -275,16 +247,14 @@ def _describe(
     }
 
 
-def _tell_rows(
-    rows: Sequence[MeasuredRow], coverage: Coverage, noise: float, language: Language
-) -> None:
+def _tell_rows(rows: Sequence[MeasuredRow], coverage: Coverage, noise: float) -> None:
     from netdesign.terrain.measure import (
         LEAST_LENGTH,
         describe_kinks,
         describe_steep_above,
     )
 
-    tell(say("terrain.noise", noise=noise), language)
+    tell(say("terrain.noise", noise=noise))
     for row in rows:
         end = say(f"terrain.end_{row.upslope.end}", row=row.upslope.row)
         tell(
@@ -298,13 +268,12 @@ def _tell_rows(
                 posts=len(row.posts),
                 upslope=row.upslope.length.value,
                 end=end,
-            ),
-            language,
+            )
         )
         if row.upslope.length.value < LEAST_LENGTH:
-            tell(say("terrain.flat_row", row=row.line.id), language)
+            tell(say("terrain.flat_row", row=row.line.id))
         for told in filter(None, (describe_kinks(row), describe_steep_above(row))):
-            tell(told, language)
+            tell(told)
     if coverage.area:
         tell(
             say(
@@ -312,6 +281,5 @@ def _tell_rows(
                 area=coverage.area,
                 uncovered=coverage.uncovered,
                 share=100.0 * coverage.share,
-            ),
-            language,
+            )
         )

@@ -15,9 +15,18 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 
-def tell(message: Message | str, language: Language, *, err: bool = False) -> None:
-    """Print a message."""
-    click.echo(render(message, language), err=err)
+def speak() -> Language:
+    """Language of the command that runs; English outside of any."""
+    context = click.get_current_context(silent=True)
+    found: Language = context.params.get("language", "en") if context else "en"
+    return found
+
+
+def tell(
+    message: Message | str, language: Language | None = None, *, err: bool = False
+) -> None:
+    """Print a message in the language of the command, unless it is another one."""
+    click.echo(render(message, language or speak()), err=err)
 
 
 class UsageRefusal(click.UsageError):

@@ -12,29 +12,15 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
-    FIT_PARAMETERS,
-    accuracy_option,
-    example_option,
-    fit_options,
-    flag,
-    force_option,
-    json_option,
-    language_option,
-    median_option,
-    model_option,
-    out_option,
-    quiet_option,
     refuse_without,
-    site_options,
-    solving_options,
+    take_options,
 )
 from netdesign.commands.running import (
     EXIT_CODES,
     open_phases,
-    place_outputs,
     print_document,
     print_faults,
-    report_places,
+    require_places,
     write_outputs,
 )
 from netdesign.commands.site_input import (
@@ -63,33 +49,7 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
 
 @click.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
-@example_option("Built-in site, made-up winter.")
-@site_options
-@click.option(
-    "--heights",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE.csv",
-    help="Snow heights of a station, instead of sheet Winter.",
-)
-@model_option("Settling model of the curves; the others give their annual maxima.")
-@click.option("--row", "rows", multiple=True, metavar="ID", help="Rows [all].")
-@click.option(
-    "--every",
-    type=click.IntRange(1, 60),
-    default=4,
-    show_default=True,
-    help="Days between those of a curve.",
-)
-@median_option
-@flag("--accept-heights", help="However little or much snow that is.")
-@fit_options
-@accuracy_option("Relative error allowed in every end force.", default=0.01)
-@solving_options
-@out_option(f"Folder of the outputs [{_FOLDER}; with --json none].")
-@language_option("Of page and messages.")
-@json_option("winters")
-@force_option
-@quiet_option
+@take_options("winter")
 def winter(site_file: Path | None, **asked: Any) -> None:
     """Follow a station's snow heights on the net rows of a site.
 
@@ -115,7 +75,7 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     language: Language = asked["language"]
     _refuse_idle(site_file, asked)
     folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
-    names = place_outputs(folder, (DOCUMENT_FILE, PAGE_FILE), overwrite=asked["force"])
+    require_places(folder, (DOCUMENT_FILE, PAGE_FILE), asked)
     site = read_asked_site(site_file, asked)
     station = _find_heights(site, asked)
     chosen = choose_rows(site, asked["rows"])
@@ -125,13 +85,14 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     with open_phases(phases, asked) as (runner, progress):
         progress.enter("winters")
         run = fit_rows(_solve(chosen, station, runner, asked), asked, runner)
-    failed = print_faults(runner.faults, language)
+    failed = print_faults(runner.faults)
     document = write_winter_document(run, language)
     if folder:
-        pages = render_winter(document, language)
-        write_outputs(folder, pages, overwrite=asked["force"])
-    _show(document, language, as_json=asked["as_json"])
-    report_places([names], language, quiet=asked["quiet"] or asked["as_json"])
+        write_outputs(folder, render_winter(document, language), asked)
+    if asked["as_json"]:
+        print_document(document)
+    else:
+        _show(document)
     sys.exit(failed or (0 if _is_proven(document) else EXIT_CODES[Verdict.NOT_PROVEN]))
 
 
@@ -140,7 +101,7 @@ def _refuse_idle(site_file: Path | None, asked: Mapping[str, Any]) -> None:
     given = [] if asked["heights"] is None else [asked["heights"]]
     require_source(site_file, asked, *given)
     if not asked["fit"]:
-        refuse_without(FIT_NAMES, ("--fit",), asked["language"])
+        refuse_without(FIT_NAMES, "--fit")
 
 
 def _is_proven(document: dict[str, Any]) -> bool:
@@ -160,18 +121,15 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     from netdesign.site.snow_sheets import complete_by_sheet, read_height_file
     from netdesign.snowpack.series import smooth
 
-    found, language = site.winter, asked["language"]
+    found = site.winter
     if asked["heights"] is not None:
-        text_format = build_text_format(
-            delimiter=asked["delimiter"], decimal_mark=asked["decimal_mark"]
-        )
-        ids = [row.id for row in site.rows]
-        found, remarks = read_height_file(asked["heights"], text_format, ids)
+        ids, form = [row.id for row in site.rows], build_text_format(asked)
+        found, remarks = read_height_file(asked["heights"], form, ids)
         for remark in remarks:
-            tell(remark.message, language, err=True)
+            tell(remark.message, err=True)
         found, note = complete_by_sheet(found, site.winter)
         if note:
-            tell(note, language, err=True)
+            tell(note, err=True)
     elif found is None and asked["example"]:
         with as_file(files("netdesign.examples") / EXAMPLE_HEIGHTS) as path:
             found, _ = read_height_file(path)
@@ -234,10 +192,7 @@ def _solve(
     )
 
 
-def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> None:
-    if as_json:
-        print_document(document)
-        return
+def _show(document: dict[str, Any]) -> None:
     for row in document["rows"]:
         for one in row["winters"]:
             tell(
@@ -249,17 +204,16 @@ def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> Non
                     head=one["head_peak_kN_per_m"] or 0.0,
                     day=one["governing_date"] or "-",
                     why=one["why"],
-                ),
-                language,
+                )
             )
             if one["days_without_force"]:
-                tell(_count_failed(row["id"], one), language)
+                tell(_count_failed(row["id"], one))
         if row["equivalent_density"]:
-            tell(row["equivalent_density"]["justification"], language)
+            tell(row["equivalent_density"]["justification"])
         for told in _list_statistics(row):
-            tell(told, language)
+            tell(told)
         if row["fit"]:
-            print_fit(row["id"], row["fit"], language)
+            print_fit(row["id"], row["fit"])
 
 
 def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
@@ -290,6 +244,13 @@ def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
 
 
 SOLVES = 600  # of a fit, about
+FIT_PARAMETERS = {
+    "slip": "slip_length",
+    "density": "density_factor",
+    "height": "height_factor",
+    "slack": "slack",
+    "friction": "friction_angle",
+}
 FIT_NAMES = ("noise", "cell_error", "rope_kelvin", "known")  # of its parameters
 
 
@@ -337,7 +298,7 @@ def fit_rows(run: WinterRun, asked: Mapping[str, Any], runner: Runner) -> Winter
     return replace(run, fits=fits)
 
 
-def print_fit(row: str, fit: Mapping[str, Any], language: Language) -> None:
+def print_fit(row: str, fit: Mapping[str, Any]) -> None:
     """Print what a fit says, and the bands that follow from it."""
     tell(
         say(
@@ -347,8 +308,7 @@ def print_fit(row: str, fit: Mapping[str, Any], language: Language) -> None:
             readings=fit["readings"],
             days=fit["days"],
             why=fit["why"],
-        ),
-        language,
+        )
     )
     for force in fit["forces"] if fit["outcome"] == "fitted" else ():
         tell(
@@ -361,6 +321,5 @@ def print_fit(row: str, fit: Mapping[str, Any], language: Language) -> None:
                 before_high=force["before_kN"]["high"],
                 after_low=force["after_kN"]["low"],
                 after_high=force["after_kN"]["high"],
-            ),
-            language,
+            )
         )

@@ -7,9 +7,8 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from dataclasses import dataclass
 from multiprocessing import get_context
-from statistics import median, quantiles
+from statistics import quantiles
 from types import TracebackType
 from typing import TypeVar
 
@@ -26,19 +25,10 @@ SINGLE_THREADED = dict.fromkeys(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Time:
-    """Processor and wall time of one run [s].
-
-    Processor time tells of the work even where other programs keep the machine busy.
-    """
-
-    cpu_s: float
-    wall_s: float
-
-
 class Clock:
     """Measures what runs within a ``with``; processes that have ended count too.
+
+    Processor time tells of the work even where other programs keep the machine busy.
 
     Attributes
     ----------
@@ -64,11 +54,6 @@ class Clock:
         self.wall_s = time.perf_counter() - self._wall
         self.cpu_s = _read_cpu() - self._cpu
 
-    @property
-    def time(self) -> Time:
-        """Both clocks at the end."""
-        return Time(self.cpu_s, self.wall_s)
-
 
 def _read_cpu() -> float:
     """Processor time of this process and of its ended children [s]."""
@@ -76,11 +61,11 @@ def _read_cpu() -> float:
     return time.process_time() + ended.children_user + ended.children_system
 
 
-def measure(work: Callable[[], Result]) -> tuple[Result, Time]:
-    """Result of a piece of work, and the time that it took."""
+def measure(work: Callable[[], object]) -> float:
+    """Wall time of a piece of work [s]."""
     with Clock() as clock:
-        result = work()
-    return result, clock.time
+        work()
+    return clock.wall_s
 
 
 def run_in_turns(
@@ -160,11 +145,6 @@ def summarise_times(times: Sequence[float]) -> dict[str, float | None]:
         return {"median_s": None, "p95_s": None}
     parts = quantiles(times, n=20, method="inclusive")
     return {"median_s": parts[9], "p95_s": parts[18]}
-
-
-def describe_times(times: Sequence[float]) -> dict[str, float]:
-    """Median, least and most."""
-    return {"median": median(times), "least": min(times), "most": max(times)}
 
 
 def fit_order(sizes: Sequence[float], values: Sequence[float]) -> float:

@@ -30,12 +30,7 @@ AREA = "bench_value"
 _WIDTH = 58  # of a name before its value
 _GAP, _LEAST = 2, 24  # between columns; of the longest texts where there is no room
 _DIGITS = {"expected": 5, "got": 5, "error": 2}  # of the others four
-# Words of yes and no, and keys of which a no is bad news.
 _ANSWERS = ("bench.yes", "bench.no")
-_JUDGED = {
-    "pass": ("verify_table.passes", "verify_table.fails"),
-    "reached": ("against.reached", "against.not_reached"),
-}
 
 Row = Mapping[str, Any]
 
@@ -102,9 +97,9 @@ def show_lines(lines: Iterable[str], console: Console) -> None:
 def _show(key: str, value: object, words: Words, area: str) -> Text:
     from rich.text import Text
 
-    if isinstance(value, bool) and key in _JUDGED:
-        good, bad = _JUDGED[key]
-        return Text(words(good), "green") if value else Text(words(bad), "bold red")
+    if isinstance(value, bool) and key == "pass":
+        good, bad = (words(f"verify_table.{one}") for one in ("passes", "fails"))
+        return Text(good, "green") if value else Text(bad, "bold red")
     return Text(_write(key, value, words, area))
 
 

@@ -1,5 +1,6 @@
 """What to do when a row fails: told where one does, in every language."""
 
+import click
 import pytest
 
 from netdesign.commands.running import list_next_steps, print_next_steps
@@ -31,11 +32,13 @@ def test_the_command_can_be_copied():
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_they_are_told_in_the_language_of_the_run(language, capsys):
     verdicts = {row.verdict for row in build_study().rows}
-    print_next_steps(verdicts, "site.xlsx", language, is_sized=False)
+    with click.Context(click.Command("check")) as context:
+        context.params["language"] = language
+        print_next_steps(verdicts, "site.xlsx", is_sized=False)
     told = capsys.readouterr()
     assert told.out == ""
     texts = load_texts(language)
     for key in ("next.inputs", "next.again"):
         assert texts[key] in told.err
-    print_next_steps({Verdict.PASS}, "site.xlsx", language, is_sized=False)
+    print_next_steps({Verdict.PASS}, "site.xlsx", is_sized=False)
     assert capsys.readouterr().err == ""

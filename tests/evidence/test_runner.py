@@ -1,6 +1,6 @@
 """The runner: turns, and what a piece of work takes."""
 
-from netdesign.evidence.runner import describe_times, measure, run_in_turns
+from netdesign.evidence.runner import measure, run_in_turns
 
 
 def test_the_last_begins_in_every_second_repeat():
@@ -16,12 +16,7 @@ def test_the_last_begins_in_every_second_repeat():
     assert results == {"a": [1, 6, 7], "b": [2, 5, 8], "c": [3, 4, 9]}
 
 
-def test_a_result_comes_with_its_times():
-    result, time = measure(lambda: sum(range(10**5)))
-    assert result == 4999950000
-    assert time.cpu_s > 0.0
-    assert time.wall_s > 0.0
-
-
-def test_median_least_and_most():
-    assert describe_times([3.0, 5.0, 4.0]) == {"median": 4.0, "least": 3.0, "most": 5.0}
+def test_a_piece_of_work_takes_time():
+    done = []
+    assert measure(lambda: done.append(sum(range(10**5)))) > 0.0
+    assert done == [4999950000]

@@ -10,7 +10,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from netdesign.commands.options import SETTLING_MODELS as COMMAND_MODELS
+from netdesign.commands.snow import snowpack
 from netdesign.evidence.verification.winters import (
     list_snow_heights,
     measure_imbalance,
@@ -69,8 +69,9 @@ def test_default_model_errs_least_to_the_unsafe_side():
         mean[name] = float(np.mean((masses / series.measured[near]) ** 1.2))
     default, *others = mean
     assert near.size == 35
-    assert default == COMMAND_MODELS[0]
-    assert tuple(mean) == COMMAND_MODELS
+    (model,) = (one for one in snowpack.params if one.name == "model")
+    assert default == model.default
+    assert tuple(mean) == tuple(model.type.choices)
     assert mean == pytest.approx(
         {"delta-snow-ageing": 0.984, "hs2swe": 0.966, "delta-snow": 0.885}, abs=1e-3
     )

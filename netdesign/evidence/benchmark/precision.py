@@ -124,7 +124,7 @@ def _measure(
             path=path,
             elements=solution.cost.elements,
             degrees_of_freedom=solution.cost.degrees_of_freedom,
-            wall_s=min(time.wall_s for _, time in timed[path]),
+            wall_s=min(timed[path]),
             error=truth.compare(solution),
             stated_error=state_error(solution),
             linear_solves=solution.cost.linear_solves,

@@ -1,43 +1,17 @@
-"""Script for another version's Python: it times that version from within.
+"""Script for another version's Python: it times commands of that version from within.
 
 It is run by its path, with any version, so it imports nothing of this one: only the
-command line and the two names that every version has, wherever they were.
-
-``probe.py scenes FILE... REPEATS`` prints the times of warm solves of each scene;
-``probe.py command WARMING TIMED``, with a command's words as JSON lists, prints the
-time of the second in a process that has loaded what it needs for the first.
+command line, which every version has. Of two lists of commands, given as JSON, it runs
+the first for what the second one needs, and prints the times of the second as JSON.
 """
 
 import contextlib
-import importlib
 import io
 import json
 import os
 import sys
 import time
 from collections.abc import Sequence
-from pathlib import Path
-from statistics import median
-from typing import Any
-
-_READ = (
-    ("netdesign", "read_scene"),
-    ("netdesign.files.scene", "read_scene"),
-    ("netdesign.scene_file", "read_scene"),
-)
-_SOLVE = (
-    ("netdesign", "solve_steady"),
-    ("netdesign.coupling.steady.solve", "solve_steady"),
-    ("netdesign.coupling.steady", "solve_steady"),
-)
-
-
-def find(places: Sequence[tuple[str, str]]) -> Any:
-    """First of some names that this version has."""
-    for module, name in places:
-        with contextlib.suppress(ImportError, AttributeError):
-            return getattr(importlib.import_module(module), name)
-    raise SystemExit(f"none of {', '.join('.'.join(place) for place in places)}")
 
 
 def read_clocks() -> tuple[float, float]:
@@ -47,26 +21,7 @@ def read_clocks() -> tuple[float, float]:
     return time.perf_counter(), cpu
 
 
-def time_scenes(paths: Sequence[str], repeats: int) -> dict[str, Any]:
-    """Times by scene: the median of warm solves; None of a scene without a result."""
-    read, solve = find(_READ), find(_SOLVE)
-    found: dict[str, Any] = {}
-    for path in paths:
-        scene, settings = read(Path(path))
-        if type(solve(scene, settings)).__name__ == "FailedSolution":
-            found[Path(path).stem] = None
-            continue
-        times = []
-        for _ in range(repeats):
-            before = read_clocks()
-            solve(scene, settings)
-            times.append([b - a for a, b in zip(before, read_clocks(), strict=True)])
-        wall, cpu = (median(column) for column in zip(*times, strict=True))
-        found[Path(path).stem] = {"wall_s": wall, "cpu_s": cpu}
-    return found
-
-
-def run_command(words: Sequence[str]) -> object:
+def run(words: Sequence[str]) -> object:
     """Exit code of a command; what it prints is not shown."""
     from netdesign.cli import main
 
@@ -78,19 +33,11 @@ def run_command(words: Sequence[str]) -> object:
             return end.code or 0
 
 
-def time_command(warming: Sequence[str], timed: Sequence[str]) -> dict[str, Any]:
-    """Times of a command that follows another one, and its exit code."""
-    run_command(warming)
-    before = read_clocks()
-    code = run_command(timed)
-    wall, cpu = (b - a for a, b in zip(before, read_clocks(), strict=True))
-    return {"wall_s": wall, "cpu_s": cpu, "exit_code": code}
-
-
 if __name__ == "__main__":
-    kind, *rest = sys.argv[1:]
-    if kind == "scenes":
-        told = time_scenes(rest[:-1], int(rest[-1]))
-    else:
-        told = time_command(*map(json.loads, rest))
-    sys.stdout.write(json.dumps(told))
+    warming, timed = json.loads(sys.argv[1])
+    codes = [run(one) for one in warming]
+    before = read_clocks()
+    codes += [run(one) for one in timed]
+    wall, cpu = (b - a for a, b in zip(before, read_clocks(), strict=True))
+    times = {"wall_s": wall, "cpu_s": cpu}
+    sys.stdout.write(json.dumps({"times": times, "codes": codes}))

@@ -7,18 +7,15 @@ from pathlib import Path
 import pytest
 
 from netdesign import __version__
-from netdesign.evidence.benchmark import against, probe
 from netdesign.evidence.benchmark.against import (
-    Bench,
-    RunFailure,
+    Figure,
     Size,
+    list_figures,
     open_version,
     read_version,
-    time_scenes,
-    time_solve,
+    time_figure,
 )
 from netdesign.evidence.benchmark.scenes import (
-    INPUTS,
     NAMED,
     NAMES,
     load_scenes,
@@ -29,30 +26,30 @@ from netdesign.outcome import ModelError
 from netdesign.site.reader import read_site
 
 THIS = Path(sys.executable)
-SMALL = Size(scenes=("flat-light",), solves=1, samples=2, rows=9)
+SMALL = Size(repeats=1, scenes=("flat-light",), samples=2, rows=9)
 
 
-@pytest.fixture(scope="module")
-def bench(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("bench")
-    write_site(folder / "site", SMALL.rows)
-    return Bench(folder, SMALL, has_core=True)
+@pytest.mark.parametrize("name", ["scenes", "grid"])
+def test_a_figure_is_timed_in_a_process_of_the_version(tmp_path, name):
+    figure = list_figures(SMALL, tmp_path)[name]
+    found = time_figure(THIS, figure, tmp_path)
+    assert 0.0 < found["cpu_s"] < 60.0
+    assert found["wall_s"] > 0.0
+    if name == "scenes":  # warm: the same commands with the program's start take longer
+        cold = time_figure(THIS, Figure(figure.timed), tmp_path)
+        assert found["cpu_s"] < cold["cpu_s"]
 
 
-def test_scenes_are_solved_in_a_process_of_the_version(bench):
-    middle, high = time_scenes(bench, THIS)
-    assert 0.0 < middle.cpu_s <= middle.wall_s * 1.5
-    assert middle == high  # of one scene
-
-
-def test_a_scene_without_a_result_fails(tmp_path, monkeypatch):
-    (tmp_path / "spoilt.toml").write_text("[slope]\n")
-    monkeypatch.setattr(against, "NAMED", tmp_path)
-    spoilt = Bench(tmp_path, Size(scenes=("spoilt",)), has_core=True)
-    with pytest.raises(RunFailure, match="1"):
-        time_scenes(spoilt, THIS)
-    with pytest.raises(RunFailure, match="3"):  # its exit code
-        time_solve(spoilt, THIS)
+def test_what_a_version_cannot_do_is_told_with_its_exit_code(tmp_path):
+    spoilt = tmp_path / "spoilt.toml"
+    spoilt.write_text("[slope]\n")
+    told = time_figure(THIS, Figure([["solve", str(spoilt)]]), tmp_path)
+    assert "spoilt.toml" in told
+    assert told.endswith("(3)")
+    script = tmp_path / "python"
+    script.write_text("#!/bin/sh\necho its own words >&2\nexit 7\n")
+    script.chmod(0o755)
+    assert time_figure(script, Figure([[]]), tmp_path) == "its own words (7)"
 
 
 def test_every_named_scene_is_a_scene_file():
@@ -61,8 +58,9 @@ def test_every_named_scene_is_a_scene_file():
     assert len(NAMES) == 16
 
 
-def test_the_site_is_read(bench):
-    site = read_site(bench.folder / "site")
+def test_the_site_is_read(tmp_path):
+    write_site(tmp_path / "site", 9)
+    site = read_site(tmp_path / "site")
     assert [row.id for row in site.rows][-3:] == ["R7.1", "R1.2", "R2.2"]
     first, again = (row for row in site.rows if row.id in ("R1.1", "R1.2"))
     assert again.snow_thickness == pytest.approx(0.97 * first.snow_thickness)
@@ -72,16 +70,6 @@ def test_rows_of_the_site_are_all_different(tmp_path):
     write_site(tmp_path / "site", 20)
     rows = read_site(tmp_path / "site").rows
     assert len({(row.snow_thickness, row.upslope_length) for row in rows}) == 20
-
-
-def test_a_command_in_a_process_that_has_loaded_what_it_needs(monkeypatch):
-    monkeypatch.chdir(INPUTS)
-    monkeypatch.setattr(sys, "argv", [])
-    words = ["envelope", "short.toml", "--density", "300:310:2", "--confirm", "none"]
-    words += ["--no-cache", "--json", "--quiet", "--jobs", "1"]
-    found = probe.time_command(words, words)
-    assert found["exit_code"] == 0
-    assert found["cpu_s"] > 0.0
 
 
 def test_python_of_a_venv():

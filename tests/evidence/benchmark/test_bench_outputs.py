@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 from rich.console import Console
 
+from netdesign.evidence.benchmark.against import _describe
 from netdesign.evidence.benchmark.attempts import Attempt, write_errors, write_stress
 from netdesign.evidence.benchmark.lines import write_lines
 from netdesign.evidence.benchmark.precision import (
@@ -20,6 +21,9 @@ from netdesign.words.catalogue import load_texts
 from netdesign.words.message import say
 from tests.words.english import list_vocabulary, list_words
 
+AGAINST = dict.fromkeys(("this", "other", "core", "python", "processors")) | {
+    "rows": [_describe("row", "wall", {"this": ["why"], "other": ["why"]})]
+}
 ROWS = [
     Row(
         scene=scene,
@@ -138,6 +142,7 @@ def test_every_key_of_a_document_has_a_name():
         {key: one for key, one in LINES.items() if key != "of_lines"},
         *write_bench(ROWS)["rows"],
         write_bench(ROWS)["summary"],
+        AGAINST,
     ]
     named = {key for key in load_texts("en") if key.startswith("bench_value.")}
     assert {f"bench_value.{key}" for key in list_keys(documents)} == named
