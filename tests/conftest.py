@@ -7,10 +7,16 @@ order of a threaded sum must not decide a last digit.
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 
 for _library in ("OPENBLAS", "OMP", "MKL"):
     os.environ[f"{_library}_NUM_THREADS"] = "1"
+
+# Compiled modules are kept, whatever the shell says: else every program that a test
+# starts compiles the package again, and each worker all tests.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # Runs of the program must neither use nor fill the user's store of finished cases.
 if "NETDESIGN_STORE" not in os.environ:

@@ -2,6 +2,9 @@
 
 import os
 import shutil
+import subprocess
+import tempfile
+from functools import cache
 
 import pytest
 
@@ -20,3 +23,22 @@ def require_program(*names: str) -> str:
     if os.environ.get(REQUIRED):
         pytest.fail(message)
     pytest.skip(message)
+
+
+@cache
+def make_profile() -> str:
+    """Folder of LibreOffice's settings, made once in each process."""
+    return tempfile.mkdtemp(prefix="netdesign-tests-office-")
+
+
+def convert(kind, folder, *sources) -> None:
+    """Files written by LibreOffice as another kind into a folder, all in one run."""
+    soffice = require_program("soffice")
+    profile = f"-env:UserInstallation=file://{make_profile()}"
+    options = ("--headless", "--convert-to", kind, "--outdir", str(folder))
+    subprocess.run(
+        [soffice, profile, *options, *map(str, sources)],
+        check=True,
+        capture_output=True,
+        timeout=180,
+    )

@@ -1,8 +1,7 @@
 """The example site with some of its net rows, as a workbook that is soon solved."""
 
-import pytest
-
 from netdesign.site.template import workbook as template
+from tests.site_lines import write_lines
 
 
 def write_short_example(path, rows, *, is_grid=True, leans=True):
@@ -21,9 +20,7 @@ def write_short_example(path, rows, *, is_grid=True, leans=True):
                 line["high"] = line["low"]
     if not leans:
         lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(path, example=True)
+    write_lines(path, lines)
 
 
 def _cut(line):

@@ -7,8 +7,7 @@ import re
 import tomllib
 from collections.abc import Iterator
 
-import pytest
-
+from tests.each import each
 from tests.sources import PACKAGE, parse_package
 
 ROOT = PACKAGE.parent
@@ -26,7 +25,12 @@ ANY_QUANTITY = {("judge", "low, high")}
 Documented = ast.Module | ast.ClassDef | ast.FunctionDef
 
 
-MODULES = parse_package()
+def list_physics() -> list[str]:
+    return [name for name in parse_package() if name.startswith(PHYSICS)]
+
+
+def list_numerical() -> list[str]:
+    return [name for name in parse_package() if name.startswith(NUMERICAL)]
 
 
 def public(node: Documented, name: str = "") -> Iterator[tuple[str, Documented]]:
@@ -75,32 +79,30 @@ def unstated(function: str, docstring: str) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("module", MODULES)
+@each("module", parse_package)
 def test_every_public_name_has_a_docstring(module):
     missing = [
-        name for name, node in public(MODULES[module]) if not ast.get_docstring(node)
+        name
+        for name, node in public(parse_package()[module])
+        if not ast.get_docstring(node)
     ]
     assert missing == []
 
 
-@pytest.mark.parametrize(
-    "module", [name for name in MODULES if name.startswith(PHYSICS)]
-)
+@each("module", list_physics)
 def test_parameters_of_the_physics_state_their_unit(module):
     found = [
         fault
-        for name, node in public(MODULES[module])
+        for name, node in public(parse_package()[module])
         if isinstance(node, ast.FunctionDef)
         for fault in unstated(name, ast.get_docstring(node) or "")
     ]
     assert found == []
 
 
-@pytest.mark.parametrize(
-    "module", [name for name in MODULES if name.startswith(PHYSICS)]
-)
+@each("module", list_physics)
 def test_documented_parameters_are_those_of_the_function(module):
-    for name, node in public(MODULES[module]):
+    for name, node in public(parse_package()[module]):
         documented = sections(ast.get_docstring(node) or "").get("Parameters")
         if documented and isinstance(node, ast.FunctionDef):
             names = [one for entry in entries(documented) for one in split(entry[0])]
@@ -115,7 +117,7 @@ def test_documented_parameters_are_those_of_the_function(module):
 def test_tests_named_in_docstrings_exist():
     named = {
         (module, line.removeprefix("tests/"))
-        for module, tree in MODULES.items()
+        for module, tree in parse_package().items()
         for _, node in public(tree)
         for line in re.findall(
             r"[\w/]+\.py",
@@ -135,7 +137,7 @@ def test_the_physics_documents_its_parameters():
     """Otherwise the tests above would pass on nothing."""
     documented = [
         name
-        for module, tree in MODULES.items()
+        for module, tree in parse_package().items()
         if module.startswith(PHYSICS)
         for name, node in public(tree)
         if "Parameters" in sections(ast.get_docstring(node) or "")
@@ -205,26 +207,24 @@ def returns(docstring: str) -> list[tuple[str, str, str]]:
     return [("", f"{name} {kind}", text) for name, kind, text in found]
 
 
-@pytest.mark.parametrize(
-    "module", [name for name in MODULES if name.startswith(NUMERICAL)]
-)
+@each("module", list_numerical)
 def test_numbers_of_the_numerical_rooms_state_unit_or_shape(module):
     """Of functions their arguments and arrays returned, of classes their fields."""
     found = [
         fault
-        for name, node in public(MODULES[module])
+        for name, node in public(parse_package()[module])
         if isinstance(node, ast.FunctionDef | ast.ClassDef)
         for fault in silent(name, node)
     ]
     assert found == []
 
 
-@pytest.mark.parametrize("module", [name for name in MODULES if name not in OPEN])
+@each("module", lambda: [name for name in parse_package() if name not in OPEN])
 def test_docstrings_begin_with_their_noun(module):
     documented = ast.Module | ast.ClassDef | ast.FunctionDef
     found = [
         docstring.splitlines()[0]
-        for node in ast.walk(MODULES[module])
+        for node in ast.walk(parse_package()[module])
         if isinstance(node, documented) and (docstring := ast.get_docstring(node))
         if AROUND_THE_NOUN.match(docstring)
     ]
@@ -244,13 +244,11 @@ def is_call(node: ast.AST) -> bool:
     return isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
 
 
-@pytest.mark.parametrize(
-    "module", [name for name in MODULES if name.startswith(NUMERICAL)]
-)
+@each("module", list_numerical)
 def test_functions_of_the_numerical_rooms_tell_what_they_refuse(module):
     found = [
         name
-        for name, node in public(MODULES[module])
+        for name, node in public(parse_package()[module])
         if isinstance(node, ast.FunctionDef) and refuses(node)
     ]
     assert found == []
@@ -339,7 +337,7 @@ def test_examples_of_the_package_are_collected_as_tests():
     parser = doctest.DocTestParser()
     examples = [
         example
-        for tree in MODULES.values()
+        for tree in parse_package().values()
         for _, node in public(tree)
         for example in parser.get_examples(ast.get_docstring(node) or "")
     ]

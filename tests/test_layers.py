@@ -12,9 +12,8 @@ from fnmatch import fnmatch
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 import netdesign
+from tests.each import each
 from tests.sources import PACKAGE, walk_package
 
 # Rooms, from the ground up. A room is a package, or the modules beside them. Each row
@@ -257,7 +256,7 @@ def judge_own(room: str, target: str) -> str:
     return ""
 
 
-@pytest.mark.parametrize("module", MODULES)
+@each("module", MODULES)
 def test_module_keeps_to_its_row(module):
     assert faults(MODULES[module].read_text(encoding="utf-8"), module) == []
 
@@ -279,7 +278,7 @@ def test_the_package_itself_imports_next_to_nothing():
     ]
 
 
-@pytest.mark.parametrize("module", [m for m in MODULES if m.startswith("examples.")])
+@each("module", [m for m in MODULES if m.startswith("examples.")])
 def test_an_example_uses_public_names_only(module):
     imports = find_imports(MODULES[module].read_text(encoding="utf-8"), module)
     own = {one.target for one in imports if one.target.startswith("netdesign")}
@@ -337,8 +336,8 @@ def test_no_module_imports_by_name_at_run_time():
         assert "__import__" not in text, module
 
 
-@pytest.mark.parametrize(
-    ("module", "source", "fault"),
+@each(
+    "module, source, fault",
     [
         ("snow.flow", "import netdesign.cli", "above"),
         ("snow.flow", "from netdesign import coupling", "above"),
@@ -371,8 +370,8 @@ def test_the_walk_finds_what_is_forbidden(module, source, fault):
     assert fault in found
 
 
-@pytest.mark.parametrize(
-    ("module", "source"),
+@each(
+    "module, source",
     [
         ("snow.flow", "from netdesign.snow import mesh\nfrom . import kernel"),
         ("snow.flow", "import math\nimport numpy.typing"),

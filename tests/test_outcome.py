@@ -34,6 +34,7 @@ from netdesign.outcome import (
 )
 from netdesign.snow import mesh
 from netdesign.solving.workers import Job, solve_job
+from tests.each import each
 from tests.solving.small_scene import COARSE
 from tests.sources import PACKAGE
 
@@ -59,7 +60,7 @@ ROWS = [
 ]
 
 
-@pytest.mark.parametrize(("parts", "whole"), ROWS)
+@each("parts, whole", ROWS)
 def test_every_row_of_the_table_in_every_order(parts, whole):
     for order in permutations(parts):
         assert merge_verdicts(order) is whole
@@ -87,7 +88,7 @@ def test_words_are_those_of_the_interface():
     assert Outcome.CONVERGED.value == "converged"
 
 
-@pytest.mark.parametrize("outcome", Outcome)
+@each("outcome", Outcome)
 def test_every_outcome_owns_a_sentence(outcome):
     assert outcome.sentence[0].isupper()
     assert outcome.sentence.endswith(".")
@@ -97,8 +98,8 @@ def test_no_two_outcomes_say_the_same():
     assert len({outcome.sentence for outcome in Outcome}) == len(Outcome)
 
 
-@pytest.mark.parametrize(
-    ("kind", "exit_code"),
+@each(
+    "kind, exit_code",
     [
         (NetDesignError, 5),
         (ModelError, 3),
@@ -236,7 +237,7 @@ def test_positive_numbers_are_taken(value):
     assert require_positive("slack", value) is None
 
 
-@pytest.mark.parametrize("value", [0.0, -0.0, -math.ulp(0.0), -1, *NO_NUMBERS])
+@each("value", [0.0, -0.0, -math.ulp(0.0), -1, *NO_NUMBERS])
 def test_anything_else_is_not_positive(value):
     with pytest.raises(
         ModelError, match=r"^slack = .*: must be a finite number above 0"
@@ -288,7 +289,7 @@ def test_counts_are_accepted(value):
     assert require_count("rounds", value) is None
 
 
-@pytest.mark.parametrize("value", [0, -1, 1.5, 2.0, math.nan, math.inf, "3", None])
+@each("value", [0, -1, 1.5, 2.0, math.nan, math.inf, "3", None])
 def test_what_is_no_count_is_refused(value):
     with pytest.raises(ModelError, match=r"rounds = .* a whole number above 0"):
         require_count("rounds", value)

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import netdesign
+from tests.each import each
 
 PUBLIC = Path(netdesign.__file__).with_name("public.py")
 
@@ -23,7 +24,7 @@ def test_the_list_of_names_is_that_of_the_module_that_imports_them():
     assert sorted(netdesign.__all__) == list(netdesign.__all__)
 
 
-@pytest.mark.parametrize("name", netdesign.__all__)
+@each("name", netdesign.__all__)
 def test_a_public_name_is_found_documented_and_listed(name):
     found = getattr(netdesign, name)
     assert found.__name__ == name

@@ -11,6 +11,7 @@ import openpyxl
 import pytest
 
 from netdesign.words.catalogue import load_texts
+from tests.each import each
 from tests.short_example import write_short_example
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -267,7 +268,7 @@ LINKS = [
 ]
 
 
-@pytest.mark.parametrize(("page", "link"), [(page, a or b) for page, (a, b) in LINKS])
+@each("page, link", [(page, a or b) for page, (a, b) in LINKS])
 def test_links_lead_somewhere(page, link):
     assert (page.parent / link).exists()
 

@@ -1,9 +1,12 @@
 """What is cited is listed in REFERENCES.md; documents that are named exist."""
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
+
+from tests.each import each
 
 ROOT = Path(__file__).resolve().parent.parent
 REFERENCES = ROOT / "netdesign" / "REFERENCES.md"
@@ -46,9 +49,22 @@ def list_texts():
     yield "README.md", ROOT / "README.md"
 
 
-TEXTS = {name: read(path) for name, path in list_texts()}
-CITING = {n: text for n, text in TEXTS.items() if n != "netdesign/REFERENCES.md"}
-DOCUMENTS = {Path(name).name for name in TEXTS} | {"licences.md"}  # of .ci
+DOCUMENTS_ELSEWHERE = {"licences.md"}  # of .ci
+
+
+@cache
+def read_texts():
+    """Texts of all files by name."""
+    return {name: read(path) for name, path in list_texts()}
+
+
+@cache
+def read_citing():
+    """Texts by name without the list itself, each with what it cites."""
+    texts = {n: x for n, x in read_texts().items() if n != "netdesign/REFERENCES.md"}
+    return {name: (text, find_citations(text)) for name, text in texts.items()}
+
+
 ENTRIES = [
     re.sub(r"\s+", " ", entry)
     for entry in re.findall(
@@ -68,27 +84,27 @@ def find_citations(text):
     return (by_authors - NO_AUTHORS) | set(DESIGNATION.findall(text))
 
 
-CITED = set().union(*(find_citations(text) for text in CITING.values()))
+def test_every_citation_is_listed():
+    unknown = {name: cited - KEYS for name, (_, cited) in read_citing().items()}
+    assert {name: one for name, one in unknown.items() if one} == {}
 
 
-@pytest.mark.parametrize("name", [n for n in CITING if find_citations(CITING[n])])
-def test_every_citation_is_listed(name):
-    assert find_citations(CITING[name]) <= KEYS
+def test_every_page_that_data_rest_on_is_listed():
+    unknown = {
+        name: set(ADDRESS.findall(text)) - KEYS
+        for name, (text, _) in read_citing().items()
+        if name.endswith(".toml")
+    }
+    assert {name: one for name, one in unknown.items() if one} == {}
 
 
-@pytest.mark.parametrize(
-    "name", [n for n in CITING if n.endswith(".toml") and ADDRESS.search(CITING[n])]
-)
-def test_every_page_that_data_rest_on_is_listed(name):
-    assert set(ADDRESS.findall(CITING[name])) <= KEYS
+def test_every_entry_is_cited():
+    cited = set().union(*(cited for _, cited in read_citing().values()))
+    texts = [text for text, _ in read_citing().values()]
+    assert [x for x in KEYS - cited if not any(x in text for text in texts)] == []
 
 
-@pytest.mark.parametrize("key", sorted(KEYS))
-def test_every_entry_is_cited(key):
-    assert key in CITED or any(key in text for text in CITING.values())
-
-
-@pytest.mark.parametrize("entry", ENTRIES)
+@each("entry", ENTRIES)
 def test_every_entry_says_its_doi_or_that_there_is_none(entry):
     assert re.search(r"DOI 10\.\d{4,}/\S|DOI unknown|No DOI", entry)
 
@@ -107,14 +123,20 @@ def test_citations_are_found(text, found):
     assert find_citations(text) == found
 
 
-@pytest.mark.parametrize("name", [n for n in TEXTS if DOCUMENT.search(TEXTS[n])])
-def test_every_document_that_is_named_is_in_the_repository(name):
-    assert set(DOCUMENT.findall(TEXTS[name])) - NO_DOCUMENT <= DOCUMENTS
+def test_every_document_that_is_named_is_in_the_repository():
+    there = {Path(name).name for name in read_texts()} | DOCUMENTS_ELSEWHERE
+    lost = {
+        name: set(DOCUMENT.findall(text)) - NO_DOCUMENT - there
+        for name, text in read_texts().items()
+    }
+    assert {name: one for name, one in lost.items() if one} == {}
 
 
-@pytest.mark.parametrize("name", [n for n in TEXTS if "FACTS.md" in TEXTS[n]])
-def test_every_section_of_the_facts_that_is_cited_is_there(name):
+def test_every_section_of_the_facts_that_is_cited_is_there():
     headings = re.findall(r"^## (\d+) ", FACTS.read_text("utf-8"), flags=re.MULTILINE)
     assert headings == [str(k + 1) for k in range(len(headings))]
-    cited = {one for pair in SECTIONS.findall(TEXTS[name]) for one in pair if one}
-    assert cited <= set(headings)
+    lost = {
+        name: {one for pair in SECTIONS.findall(text) for one in pair} - {"", *headings}
+        for name, text in read_texts().items()
+    }
+    assert {name: one for name, one in lost.items() if one} == {}

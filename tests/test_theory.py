@@ -15,9 +15,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 import netdesign
+from tests.each import each
 
 PACKAGE = Path(netdesign.__file__).parent
 ROOT = PACKAGE.parent
@@ -162,13 +161,13 @@ def top_names(source: str) -> set[str]:
     return names
 
 
-@pytest.mark.parametrize("room", PAGES)
+@each("room", PAGES)
 def test_a_page_has_a_letter_of_its_own(room):
     (letter,) = {label[0] for label in defined(PAGES[room])}
     assert [other for other in PAGES if LETTER[other] == letter] == [room]
 
 
-@pytest.mark.parametrize("room", PAGES)
+@each("room", PAGES)
 def test_labels_ascend(room):
     labels = defined(PAGES[room])
     assert len(labels) >= 2
@@ -176,7 +175,7 @@ def test_labels_ascend(room):
     assert strays(labels) == []
 
 
-@pytest.mark.parametrize("room", PAGES)
+@each("room", PAGES)
 def test_a_page_cites_what_there_is(room):
     page = PAGES[room]
     assert list_cited(page, every_word=True) - LABELS == set()
@@ -186,7 +185,7 @@ def test_a_page_cites_what_there_is(room):
     assert set(FILE.findall(page)) - names == set()
 
 
-@pytest.mark.parametrize("place", SOURCES)
+@each("place", SOURCES)
 def test_code_and_tests_cite_what_there_is(place):
     is_numerical = place.startswith(tuple(f"netdesign/{room}/" for room in NUMERICAL))
     for prose in read_prose(SOURCES[place]):
@@ -208,7 +207,7 @@ def test_every_file_of_the_verification_has_its_table():
     assert sorted(named) == sorted(path.name for path in folder.glob("test_*.py"))
 
 
-@pytest.mark.parametrize("room", PAGES)
+@each("room", PAGES)
 def test_constants_are_what_the_page_says(room):
     for name, printed in CONSTANT.findall(PAGES[room]):
         values = find_values(name, room)

@@ -4,6 +4,7 @@ import random
 import pytest
 
 from netdesign import units
+from tests.each import each
 
 PAIRS = [
     (units.newton_from_kilonewton, units.kilonewton_from_newton),
@@ -13,8 +14,8 @@ PAIRS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("convert", "given", "expected"),
+@each(
+    "convert, given, expected",
     [
         (units.newton_from_kilonewton, 2.5, 2500.0),
         (units.kilonewton_from_newton, 2500.0, 2.5),
@@ -40,8 +41,8 @@ def test_known_values(convert, given, expected):
     assert convert(given) == pytest.approx(expected, rel=1e-15, abs=0.0)
 
 
-@pytest.mark.parametrize(("there", "back"), PAIRS)
-@pytest.mark.parametrize("value", [-40.0, 0.0, 1e-9, 1.0, 366.8, 1e7])
+@each("there, back", PAIRS)
+@each("value", [-40.0, 0.0, 1e-9, 1.0, 366.8, 1e7])
 def test_there_and_back(there, back, value):
     assert back(there(value)) == pytest.approx(value, rel=1e-12, abs=1e-12)
     assert there(back(value)) == pytest.approx(value, rel=1e-12, abs=1e-12)

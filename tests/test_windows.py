@@ -19,6 +19,7 @@ from netdesign.edge.streams import _spell_sign
 from netdesign.outcome import OutputError, SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, load_texts
+from tests.each import each
 from tests.sources import parse_package
 from tests.tiny_site import write_site
 
@@ -180,8 +181,8 @@ def test_a_sharing_violation_is_an_open_file():
     assert locks.is_held(error, Path("report.xlsx"))
 
 
-@pytest.mark.parametrize("page", ["cp850", "cp437", "cp1252"])
-@pytest.mark.parametrize("language", LANGUAGES)
+@each("page", ["cp850", "cp437", "cp1252"])
+@each("language", LANGUAGES)
 def test_code_pages_show_every_text_without_a_question_mark(page, language):
     for key, text in load_texts(language).items():
         for sign in set(text):

@@ -6,6 +6,7 @@ import pytest
 
 from netdesign.cable.closed_form import compute_capstan_ratio, compute_parabola_sag
 from netdesign.outcome import ModelError
+from tests.each import each
 
 
 def test_sag_of_a_taut_cable():
@@ -21,8 +22,8 @@ def test_sag_of_an_inextensible_cable():
     assert sag == pytest.approx(2.0 * math.sqrt(3 * 0.06 / 8), rel=1e-10)
 
 
-@pytest.mark.parametrize("load", [1e-6, 1.0, 1e3])
-@pytest.mark.parametrize("slack", [0.0, 1e-9, 1e-3, 0.1, 1.0])
+@each("load", [1e-6, 1.0, 1e3])
+@each("slack", [0.0, 1e-9, 1e-3, 0.1, 1.0])
 def test_sag_satisfies_its_equation(load, slack):
     chord, stiffness = 3.0, 50.0
     sag = compute_parabola_sag(load, chord, stiffness, slack)
@@ -30,8 +31,8 @@ def test_sag_satisfies_its_equation(load, slack):
     assert 8 / 3 * (sag / chord) ** 2 == pytest.approx(slack + stretch, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "name"),
+@each(
+    "arguments, name",
     [
         ((0.0, 1.0, 1.0, 0.0), "load"),
         ((math.nan, 1.0, 1.0, 0.0), "load"),

@@ -5,6 +5,7 @@ import pytest
 
 from netdesign.cable.funicular import solve_funicular
 from netdesign.outcome import Outcome
+from tests.each import each
 
 HEAD = np.array([0.6, 0.8])  # chord 1
 ACROSS = np.array([0.8, -0.6])
@@ -28,8 +29,8 @@ def random_pressure(seed: int, lengths):
     return np.outer(ACROSS, shares) + np.outer(HEAD, shear)
 
 
-@pytest.mark.parametrize("slack", [0.0, 0.02, 0.3])
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@each("slack", [0.0, 0.02, 0.3])
+@each("seed", [1, 2, 3])
 def test_equilibrium_of_the_whole(seed, slack):
     lengths = np.diff(np.linspace(0.0, 1.0, 9) ** 1.5) * (1.0 + slack)
     forces = random_pressure(seed, lengths)

@@ -19,6 +19,7 @@ from netdesign.cable.tension import (
     compute_turning_angles,
 )
 from netdesign.outcome import ModelError, Outcome
+from tests.each import each
 
 STIFFNESS = 2e7
 FRICTION = math.tan(math.radians(15.0))
@@ -156,7 +157,7 @@ def test_many_increments_tend_to_exact_sliding_at_first_order():
     np.testing.assert_allclose(orders, 1.0, atol=0.02)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@each("seed", range(60))
 def test_gliding_nodes_are_found_for_random_nets(seed):
     """To 1 % of the exact tensions, strains of 1 % changing by up to a tenth."""
     rng = np.random.default_rng(seed)

@@ -12,6 +12,7 @@ from netdesign.cable.net import (
     Net,
 )
 from netdesign.outcome import ModelError
+from tests.each import each
 
 SOUND = {
     "height_normal": 3.0,
@@ -57,7 +58,7 @@ ACCEPTED = [
 ]
 
 
-@pytest.mark.parametrize(("field", "value"), ACCEPTED)
+@each("field, value", ACCEPTED)
 def test_bounds_are_accepted(field, value):
     assert getattr(a_net(**{field: value}), field) == value
 
@@ -76,14 +77,14 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("field", "value", "name"), REFUSED)
+@each("field, value, name", REFUSED)
 def test_beyond_the_bounds_is_refused(field, value, name):
     with pytest.raises(ModelError, match=rf"{name} = .*: must"):
         a_net(**{field: value})
 
 
-@pytest.mark.parametrize("field", SOUND)
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+@each("field", SOUND)
+@each("value", [math.nan, math.inf, -math.inf])
 def test_nonfinite_is_refused(field, value):
     with pytest.raises(ModelError, match=str(value)):
         a_net(**{field: value})

@@ -7,6 +7,7 @@ import pytest
 
 from netdesign.cable.funicular import solve_funicular
 from netdesign.cable.parted import CableParts, find_part_lengths
+from tests.each import each
 
 STIFFNESS, SLACK = 400.0, 0.06
 PARTS = 4
@@ -62,7 +63,7 @@ def guess_pull(cable, forces):
     return hang(cable, forces, even, np.array([0.1, 1.0])).pull
 
 
-@pytest.mark.parametrize("seed", range(8))
+@each("seed", range(8))
 def test_parts_end_at_their_heights(seed):
     """The cable hung with these lengths, and with no others, is the one asked for."""
     cable, forces = draw_cable(seed)

@@ -8,6 +8,7 @@ import pytest
 from netdesign.cable import response
 from netdesign.cable.response import hold_net, measure_arcs, respond
 from netdesign.outcome import ModelError, Outcome, SolveError
+from tests.each import each
 
 STIFFNESS = 50.0
 
@@ -33,8 +34,8 @@ def strained(points, strain, *, spread=0.0):
     return measure_arcs(points) / (1.0 + strain * (1.0 + spread * places))
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.2, 0.8])
-@pytest.mark.parametrize("spread", [0.0, 0.5])
+@each("friction", [0.0, 0.2, 0.8])
+@each("spread", [0.0, 0.5])
 def test_forces_and_pulls_are_in_balance(friction, spread):
     """Sum of forces, and of their moments about the foot."""
     points = bulged(arc_points(9), size=0.02)

@@ -19,6 +19,7 @@ from netdesign.cable.tension import (
     compute_turning_angles,
 )
 from netdesign.outcome import ModelError, Outcome
+from tests.each import each
 
 STIFFNESS = 2e7
 SEEDS = range(200)
@@ -70,7 +71,7 @@ def largest_breach(case: Case, step: SlidingStep) -> float:
     return float(np.where(glides, gliding, sticking).max(initial=0.0))
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_optimality_of_random_nets(seed):
     case = random_case(seed)
     step = case.solve(max_iterations=10)
@@ -245,7 +246,7 @@ def test_no_stall_at_any_friction_angle(n):
 STEPS_HALVED = [848, 1334, 1531]
 
 
-@pytest.mark.parametrize("seed", [*range(100), *STEPS_HALVED])
+@each("seed", [*range(100), *STEPS_HALVED])
 def test_far_beyond_any_net(seed):
     """Grading 1e-6, strains of tens, ratios to exp(37): still solved."""
     rng = np.random.default_rng(seed)
@@ -281,7 +282,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("message", "change"), REFUSED)
+@each("message, change", REFUSED)
 def test_impossible_input_is_refused(message, change):
     sound = {"final": [1.1, 1.0], "old": [1.0, 1.0], "bounds": [0.1]} | change
     case = Case(**{name: np.array(values) for name, values in sound.items()})

@@ -14,6 +14,7 @@ from netdesign.cable.tension import (
     compute_turning_angles,
 )
 from netdesign.outcome import ModelError
+from tests.each import each
 
 BULGED = np.array([[0.0, 0.4, 0.7, 0.5, 0.6], [0.0, 0.6, 1.3, 2.1, 3.0]])
 STRAIGHT = np.array([[0.0, 0.5, 1.5], [0.0, 1.0, 3.0]])
@@ -30,7 +31,7 @@ def test_coinciding_nodes_are_refused():
         compute_segment_lengths(twice)
 
 
-@pytest.mark.parametrize("angle", [-2.0, -0.1, 0.0, 1e-9, 0.3, 3.0])
+@each("angle", [-2.0, -0.1, 0.0, 1e-9, 0.3, 3.0])
 def test_turning_angle_of_one_node(angle):
     """Up the slope's normal, then towards the snow by the angle."""
     points = np.array([[0.0, 0.0, -math.sin(angle)], [0.0, 1.0, 1.0 + math.cos(angle)]])

@@ -12,6 +12,7 @@ from netdesign.cable.response import measure_arcs, respond
 from netdesign.cable.tension import compute_ratio_bounds, compute_turning_angles
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.outcome import Outcome, SolveError
+from tests.each import each
 
 STIFFNESS = 300.0
 HEAD = np.array([0.4, 1.0])
@@ -72,8 +73,8 @@ def breach(place, response, lengths, friction):
     return max(held.max(initial=0.0), gliding.max(initial=0.0))
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.05, 0.3, 0.8])
-@pytest.mark.parametrize("spread", [-0.6, 0.0, 0.4])
+@each("friction", [0.0, 0.05, 0.3, 0.8])
+@each("spread", [-0.6, 0.0, 0.4])
 def test_nodes_that_hardly_yield_are_those_of_a_rigid_snow(friction, spread):
     """Compliance to 0: the friction problem of given nodes, solved another way."""
     place = bulge(9)
@@ -90,8 +91,8 @@ def test_nodes_that_hardly_yield_are_those_of_a_rigid_snow(friction, spread):
     )
 
 
-@pytest.mark.parametrize("softness", [1e-5, 1e-4, 1e-3])
-@pytest.mark.parametrize("friction", [0.0, 0.1, 0.6, 1.0])
+@each("softness", [1e-5, 1e-4, 1e-3])
+@each("friction", [0.0, 0.1, 0.6, 1.0])
 def test_forces_positions_and_friction_agree(friction, softness):
     """Snow that is stiffer than the net, and softer."""
     for seed in range(12):

@@ -31,6 +31,7 @@ from tests.calculation.drawn import (
     list_leaves,
     work_out,
 )
+from tests.each import each
 
 SEEDS = st.integers(0, 2**40)
 SIZES = st.floats(0.01, 1e4)
@@ -163,8 +164,8 @@ def test_nothing_is_divided_by_what_may_be_zero(ends):
     ]
 
 
-@pytest.mark.parametrize(
-    ("operation", "ends"),
+@each(
+    "operation, ends",
     [
         *((name, (-1.0, 1.0, 2.0)) for name in ("*", "/")),
         *((name, (30.0, 60.0, 90.001)) for name in ("sin", "cos", "tan")),
@@ -176,8 +177,8 @@ def test_beyond_its_range_an_operation_gives_no_number(operation, ends):
     is_angle = operation in ("sin", "cos", "tan")
     odd = make("x", ends, "deg" if is_angle else "kN")
     operands = [[odd]] if is_angle else [[odd, 2.0], [2.0, odd]]
-    for each in operands:
-        made = apply(operation, *each)
+    for pair in operands:
+        made = apply(operation, *pair)
         assert not made.is_known
         assert "x lies outside the range of" in str(made.lacks[0])
 
@@ -203,8 +204,8 @@ UNFIT = [
 ]
 
 
-@pytest.mark.parametrize("fault", UNFIT)
-@pytest.mark.parametrize("is_missing", [False, True])
+@each("fault", UNFIT)
+@each("is_missing", [False, True])
 def test_units_that_do_not_fit_are_refused(fault, is_missing):
     """Also of what has no number yet."""
     force = given("E", None if is_missing else 3.0, "kN", "")
@@ -218,8 +219,8 @@ def test_nothing_has_any_unit():
     assert (force + 0.0).value == (0.0 + force).value == 2.0
 
 
-@pytest.mark.parametrize(
-    ("low", "value", "high"),
+@each(
+    "low, value, high",
     [
         *((2.0, 1.0, 3.0), (1.0, 3.0, 2.0), (math.nan, 1.0, 1.0)),
         *((1.0, math.nan, 1.0), (1.0, 1.0, math.inf), (-math.inf, 0.0, 1.0)),
@@ -235,7 +236,7 @@ def test_a_number_with_a_reason_for_its_lack_is_refused():
         given("E", 1.0, "kN", "", lack=say("text.as_given", text="odd"))
 
 
-@pytest.mark.parametrize("operation", sorted(OPERATIONS))
+@each("operation", sorted(OPERATIONS))
 def test_a_result_beyond_all_numbers_is_refused(operation):
     huge = given("E", 1e308, "-", "")
     if operation in ("+", "*"):

@@ -21,6 +21,7 @@ from netdesign.calculation.steps import (
 from netdesign.edge.json_text import read_json, write_json
 from netdesign.outcome import ContentError, ModelError
 from tests.calculation.drawn import draw_calculation, find_size
+from tests.each import each
 
 SEEDS = st.integers(0, 2**40)
 
@@ -118,7 +119,7 @@ FAULTS = [
 ]
 
 
-@pytest.mark.parametrize("fault", FAULTS)
+@each("fault", FAULTS)
 def test_steps_that_are_no_calculation_are_refused(fault):
     force, width = given("E", 3.0, "kN", ""), given("b", 2.0, "m", "Nets!L5")
     steps = list_steps((force / width).named("q", "kN/m"))

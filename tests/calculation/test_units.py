@@ -1,14 +1,13 @@
 """Units of a calculation: products, roots, names."""
 
-import pytest
-
 from netdesign.calculation.units import PURE, find_dimension, name_dimension
+from tests.each import each
 
 KN, M = find_dimension("kN"), find_dimension("m")
 
 
-@pytest.mark.parametrize(
-    ("unit", "dimension"),
+@each(
+    "unit, dimension",
     [
         ("-", PURE),
         ("", PURE),
@@ -39,6 +38,6 @@ def test_a_unit_in_words():
     assert name_dimension(PURE) == "-"
 
 
-@pytest.mark.parametrize("unit", ["m" + "9" * 5000, "9", "/", "//", "m/s/s", "²", "м2"])
+@each("unit", ["m" + "9" * 5000, "9", "/", "//", "m/s/s", "²", "м2"])
 def test_any_text_is_some_unit(unit):
     assert find_dimension(unit) == find_dimension(unit)

@@ -19,6 +19,7 @@ from netdesign.checks.geometry import check_height
 from netdesign.outcome import Verdict
 from netdesign.words.names import as_given
 from tests.checks.entries import a_force, a_resistance, a_value
+from tests.each import each
 
 PROFILE = load_standard("nf-p-95-304-style")
 BARE = replace(
@@ -107,9 +108,9 @@ def test_information_proves_nothing_either_way(low, high):
     assert str(found.reason) == "Not proven: snow overtops the net."
 
 
-@pytest.mark.parametrize("ratio", [None, 0.83, 1.0])
-@pytest.mark.parametrize(
-    ("height", "verdict"),
+@each("ratio", [None, 0.83, 1.0])
+@each(
+    "height, verdict",
     [
         (math.nextafter(2.7, 0.0), Verdict.FAIL),
         (1.9, Verdict.FAIL),

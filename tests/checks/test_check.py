@@ -23,6 +23,7 @@ from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from netdesign.words.names import as_given, name, name_mode
 from tests.checks.entries import a_force, a_resistance, a_value, no_force
+from tests.each import each
 
 KN = 1e3
 ABOVE_1 = math.nextafter(1.0, 2.0)
@@ -53,8 +54,8 @@ def verdict_of(action, resistance=None, standard=None, gap=None) -> Verdict:
     ).verdict
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "verdict"),
+@each(
+    "low, high, verdict",
     [
         (0.0, 0.0, Verdict.PASS),
         (0.5, BELOW_1, Verdict.PASS),
@@ -99,8 +100,8 @@ def test_incomplete_band_can_fail_and_cannot_pass():
     assert incomplete(ABOVE_1, 2.0) is Verdict.FAIL
 
 
-@pytest.mark.parametrize(
-    ("low", "value", "high"),
+@each(
+    "low, value, high",
     [
         (2.0, 1.0, 3.0),
         (1.0, 3.0, 2.0),
@@ -232,10 +233,10 @@ def test_declared_pull_out_has_no_factor_in_the_nf_style_profile():
     assert "give tests of the site" in str(result.reason)
 
 
-@pytest.mark.parametrize(("_", "mode"), [*MEMBER_MODES, *DEPENDENT_MODES])
-@pytest.mark.parametrize("basis", ["", "tested", "declared"])
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_every_lack_of_a_factor_names_its_mode_in_words(_, mode, basis, language):
+@each("mode", [mode for _, mode in (*MEMBER_MODES, *DEPENDENT_MODES)])
+@each("basis", ["", "tested", "declared"])
+@each("language", LANGUAGES)
+def test_every_lack_of_a_factor_names_its_mode_in_words(mode, basis, language):
     """Of a profile with a factor of the action only."""
     resistance = a_resistance(mode=mode, basis=basis)
     bare = a_standard(a_value("action.snow", 1.0))
@@ -315,8 +316,8 @@ def just_above(degrees: float) -> float:
     return math.nextafter(math.radians(degrees), 2.0)
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "verdict"),
+@each(
+    "low, high, verdict",
     [
         (math.radians(25), math.radians(35), Verdict.PASS),
         (math.radians(30), math.radians(30), Verdict.PASS),
@@ -365,8 +366,8 @@ def reason_of(action, resistance=None, standard=None, gap=None) -> str:
 NO_RESISTANCE = "resistance missing: type GEWI 25, cell Anchors!B4"
 
 
-@pytest.mark.parametrize(
-    ("told", "expected"),
+@each(
+    "told, expected",
     [
         (
             {"action": a_force(0.5)},

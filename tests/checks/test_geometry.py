@@ -16,6 +16,7 @@ from netdesign.checks import (
 from netdesign.checks.geometry import check_slope, compute_largest_row_spacing
 from netdesign.checks.schema import SPACING_CAP
 from netdesign.outcome import Verdict
+from tests.each import each
 
 SWISS = load_standard("swiss-guideline-2007")
 ROW = RowGeometry(
@@ -40,8 +41,8 @@ def test_sound_row_passes_all_five():
     )
 
 
-@pytest.mark.parametrize(
-    ("changes", "mode", "verdict"),
+@each(
+    "changes, mode, verdict",
     [
         ({"slope_angle": math.radians(30)}, "slope", Verdict.PASS),
         ({"slope_angle": math.radians(29.9)}, "slope", Verdict.FAIL),
@@ -177,7 +178,7 @@ REASONS = [
 ]
 
 
-@pytest.mark.parametrize(("mode", "changes", "reason"), REASONS)
+@each("mode, changes, reason", REASONS)
 def test_each_check_says_what_it_compared(mode, changes, reason):
     (check,) = (
         c for c in check_geometry(replace(ROW, **changes), SWISS) if c.mode == mode

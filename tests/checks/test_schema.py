@@ -15,6 +15,7 @@ from netdesign.checks.schema import (
 )
 from netdesign.outcome import StandardError
 from netdesign.site.model import MEMBER_MODES
+from tests.each import each
 
 
 def an_entry(**changes: object) -> dict[str, object]:
@@ -95,7 +96,7 @@ def test_an_unknown_key_further_in_is_refused_with_those_of_its_place():
     assert message.endswith("'valeu': unknown key; accepted are from, to, value")
 
 
-@pytest.mark.parametrize("key", list(an_entry()))
+@each("key", list(an_entry()))
 def test_every_key_of_an_entry_is_needed(key):
     entry = an_entry()
     del entry[key]
@@ -103,16 +104,14 @@ def test_every_key_of_an_entry_is_needed(key):
     assert f"my.toml: 'factor' entry 1 '{key}': is missing" in message
 
 
-@pytest.mark.parametrize("key", ["clause", "text", "source"])
-@pytest.mark.parametrize("blank", ["", "   "])
+@each("key", ["clause", "text", "source"])
+@each("blank", ["", "   "])
 def test_blank_text_is_refused(key, blank):
     message = refusal(FactorsFile, {"factor": [an_entry(**{key: blank})]})
     assert f"'{key}' = {blank!r}: " in message
 
 
-@pytest.mark.parametrize(
-    "value", [0.0, -0.0, -1.5, math.nan, math.inf, -math.inf, "1.5", True, None]
-)
+@each("value", [0.0, -0.0, -1.5, math.nan, math.inf, -math.inf, "1.5", True, None])
 def test_value_must_be_a_positive_finite_number(value):
     message = refusal(FactorsFile, {"factor": [an_entry(value=value)]})
     assert f"my.toml: 'factor' entry 1 'value' = {value!r}: " in message
@@ -127,8 +126,8 @@ BELOW_1 = math.nextafter(1.0, 0.0)
 FACTORS = ["action.snow", "resistance.rope", "resistance.pull_out.tested"]
 
 
-@pytest.mark.parametrize("blank", [{}, {"reason_below_one": " "}])
-@pytest.mark.parametrize("name", FACTORS)
+@each("blank", [{}, {"reason_below_one": " "}])
+@each("name", FACTORS)
 def test_factor_below_1_is_refused_by_name_unless_it_says_why(name, blank):
     entries = [an_entry(id=name, value=BELOW_1), an_entry(id=name, value=0.37)]
     for entry in entries:
@@ -248,7 +247,7 @@ def test_profile_that_says_nothing_of_the_floor_has_the_guideline_as_floor():
     assert without.load.floor == "none"
 
 
-@pytest.mark.parametrize("floor", ["margreth", "", "None", "GUIDELINE", 1, False])
+@each("floor", ["margreth", "", "None", "GUIDELINE", 1, False])
 def test_floor_that_nobody_knows_is_one_finding_with_place_and_words(floor):
     text = refusal(DocumentFile, a_document(load={"floor": floor}))
     assert text.count("\n") == 0

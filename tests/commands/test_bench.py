@@ -9,6 +9,7 @@ from netdesign.commands.bench import bench
 from netdesign.evidence.benchmark import attempts, lines, precision
 from netdesign.evidence.benchmark.attempts import Attempt
 from netdesign.outcome import ModelError, OutputError
+from tests.each import each
 
 
 def run(*arguments):
@@ -63,7 +64,7 @@ def test_a_short_line(monkeypatch):
     assert "jumps beyond the stated errors" in shown.stdout
 
 
-@pytest.mark.parametrize(
+@each(
     "arguments",
     [
         ["--stress", "1", "--errors", "1"],

@@ -2,7 +2,6 @@ import json
 import sys
 from dataclasses import replace
 
-import openpyxl
 import pytest
 
 from netdesign import cli
@@ -10,8 +9,7 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import Project
 from netdesign.study.document import read_document, write_document
 from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, Study
-from netdesign.words.catalogue import LANGUAGES
-from tests.short_example import write_short_example
+from tests.tiny_site import write_site
 
 STUDY = Study(
     schema=SCHEMA,
@@ -67,6 +65,10 @@ def test_what_is_no_study_ends_with_3(call, files, content):
     assert call("diff", files / "old.json", path).code == 3
 
 
+def weaken(sheets):
+    sheets["Posts"][1][2] = 5.0  # [kN], bearing resistance
+
+
 @pytest.fixture(scope="module")
 def real(tmp_path_factory):
     """Folder with two sites, whose net row passes and fails, and their studies."""
@@ -74,11 +76,8 @@ def real(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         patch.setenv("NETDESIGN_STORE", str(folder / "cases.sqlite"))
-        write_short_example(folder / "passes.xlsx", ["R1"])
-        book = openpyxl.load_workbook(folder / "passes.xlsx")
-        heading = {cell.value: cell.column for cell in book["Posts"][1]}
-        book["Posts"].cell(2, heading["bearing resistance [kN]"]).value = 50
-        book.save(folder / "fails.xlsx")
+        write_site(folder / "passes.xlsx")
+        write_site(folder / "fails.xlsx", weaken)
         for name in ("passes", "fails"):
             words = ["--out", name, "--no-html", "--no-excel", "--jobs", "1"]
             asked = ["netdesign", "check", f"{name}.xlsx", "--accuracy", "0.05"]
@@ -90,16 +89,16 @@ def real(tmp_path_factory):
 
 def test_a_turned_verdict_ends_with_1_in_text_and_document(call, real):
     passes, fails = (real / name / "study.json" for name in ("passes", "fails"))
-    for options in ((), ("--json",)):
-        assert call("diff", passes, fails, *options).code == 1
-        assert call("diff", fails, passes, *options).code == 1
+    assert call("diff", fails, passes, "--json").code == 1
     shown = call("diff", passes, fails)
+    assert shown.code == 1
     assert shown.out.splitlines()[:2] == ["verdict", "  verdict: pass -> fail"]
     assert shown.err == ""  # both were compared with their sites and profiles
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("is_sealed", [True, False])
+@pytest.mark.parametrize(
+    ("language", "is_sealed"), [("en", True), ("fr", False), ("de", True)]
+)
 def test_an_altered_study_is_refused_as_by_report(call, real, language, is_sealed):
     path = real / "fails" / "study.json"
     document = json.loads(path.read_text(encoding="utf-8"))

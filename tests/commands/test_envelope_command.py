@@ -10,6 +10,7 @@ import time
 
 import pytest
 
+from tests.program import call_program
 from tests.small_scene import SMALL_SCENE
 
 RANGES = ("--density", "250:450", "--friction", "15:45")
@@ -30,23 +31,18 @@ def store(tmp_path_factory):
 
 
 def environment(store):
-    return os.environ | {
-        "NETDESIGN_STORE": str(store),
-        "SOURCE_DATE_EPOCH": "1700000000",
-    }
+    return {"NETDESIGN_STORE": str(store), "SOURCE_DATE_EPOCH": "1700000000"}
 
 
-def run(*arguments, store, cwd=None):
-    return subprocess.run(
-        [*PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False,
-        env=environment(store), cwd=cwd, timeout=120,
-    )  # fmt: skip
+def run(*arguments, store):
+    where = () if "--executor" in arguments else ("--jobs", "1")
+    return call_program(*arguments, *where, **environment(store))
 
 
 def document(*arguments, store):
     result = run("envelope", *arguments, "--json", "--quiet", store=store)
-    assert result.returncode == 0, result.stderr
-    return json.loads(result.stdout)
+    assert result.code == 0, result.err
+    return json.loads(result.out)
 
 
 def without_run(found):
@@ -113,17 +109,17 @@ def test_a_damaged_store_is_set_aside_said_so_and_costs_nothing(scene, tmp_path)
     store = tmp_path / "cases.sqlite"
     store.write_bytes(b"spoilt" * 999)
     result = run("envelope", scene, "--density", "250:450", store=store)
-    assert result.returncode == 0
-    assert "set aside as cases.sqlite.aside-1" in result.stderr
-    assert "nowhere above" in result.stdout
+    assert result.code == 0
+    assert "set aside as cases.sqlite.aside-1" in result.err
+    assert "nowhere above" in result.out
 
 
 def test_a_place_without_a_store_is_said_and_costs_nothing(scene, tmp_path):
     (tmp_path / "file").write_text("")
     store = tmp_path / "file" / "cases.sqlite"
     result = run("envelope", scene, "--density", "250:450", store=store)
-    assert result.returncode == 0
-    assert "going on without it" in result.stderr
+    assert result.code == 0
+    assert "going on without it" in result.err
 
 
 def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
@@ -147,19 +143,19 @@ def test_a_grid_never_exceeds_the_bound_of_the_search(scene, store):
 
 def test_outputs_are_written_whole_and_never_over_others(scene, store, tmp_path):
     arguments = ("envelope", scene, *RANGES, "--out", tmp_path / "o", "--quiet")
-    assert run(*arguments, store=store).returncode == 0
+    assert run(*arguments, store=store).code == 0
     written = {path.name for path in (tmp_path / "o").iterdir()}
     assert written == {"envelope.json", "maps.svg", "lines.svg", "drivers.svg"}
     for path in (tmp_path / "o").glob("*.svg"):
         assert path.read_text().startswith("<svg")
     again = run(*arguments, store=store)
-    assert again.returncode == 2
-    assert "exists already" in again.stderr
+    assert again.code == 2
+    assert "exists already" in again.err
 
 
 def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
     result = run("envelope", scene, *RANGES, store=tmp_path / "cases.sqlite")
-    lines = result.stderr.splitlines()
+    lines = result.err.splitlines()
     assert re.fullmatch(
         r"search: \d+ solved, about \d+ to go; "
         r"gap [\d.e+-]+ %, 1 row open; about \d+ s left",
@@ -198,9 +194,9 @@ def test_bad_input_is_refused_by_name_and_nothing_is_written(
     result = run(
         "envelope", scene, *arguments, "--out", tmp_path / "o", store=tmp_path / "s"
     )
-    assert result.returncode == code
-    assert told in result.stderr
-    assert result.stdout == ""
+    assert result.code == code
+    assert told in result.err
+    assert result.out == ""
     assert not (tmp_path / "o").exists()
 
 
@@ -209,8 +205,8 @@ def test_an_unreachable_cluster_is_named_and_ends_with_2(scene, tmp_path):
         "envelope", scene, *RANGES, "--executor", "dask://127.0.0.1:9",
         store=tmp_path / "s",
     )  # fmt: skip
-    assert result.returncode == 2
-    assert "dask://127.0.0.1:9: no Dask scheduler answers there" in result.stderr
+    assert result.code == 2
+    assert "dask://127.0.0.1:9: no Dask scheduler answers there" in result.err
 
 
 def test_a_rigid_wall_is_refused(tmp_path, store):
@@ -220,8 +216,8 @@ def test_a_rigid_wall_is_refused(tmp_path, store):
     )
     walled.write_text(rigid)
     result = run("envelope", walled, "--density", "250:450", store=store)
-    assert result.returncode == 3
-    assert "rigid wall" in result.stderr
+    assert result.code == 3
+    assert "rigid wall" in result.err
 
 
 # --- kills and interrupts ------------------------------------------------------------
@@ -232,7 +228,7 @@ def start(scene, store, out):
         [*PROGRAM, "envelope", str(scene), *RANGES, "--inclination", "25:35",
          "--out", str(out), "--force"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env=environment(store), start_new_session=True,
+        env=os.environ | environment(store), start_new_session=True,
         # a shell that runs tests in the background lets its children ignore SIGINT
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
@@ -284,7 +280,7 @@ def test_ctrl_c_stops_within_two_seconds_and_tells_how_to_continue(scene, tmp_pa
     assert not (tmp_path / "o").exists()
     again = run("envelope", scene, *RANGES, "--inclination", "25:35", "--json",
                 "--quiet", store=store)  # fmt: skip
-    assert json.loads(again.stdout)["cases"]["reused"] >= 9
+    assert json.loads(again.out)["cases"]["reused"] >= 9
 
 
 @pytest.mark.parametrize(
@@ -295,5 +291,5 @@ def test_a_support_that_is_not_used_is_told(tmp_path, store, language, said):
     path.write_text(SMALL_SCENE + "\n[support]\npost_spacing_m = 3.37\n")
     options = ("--density", "250:310", "--accuracy", "0.05", "--language", language)
     result = run("envelope", path, *options, store=store)
-    assert result.returncode == 0, result.stderr
-    assert said in result.stderr
+    assert result.code == 0, result.err
+    assert said in result.err

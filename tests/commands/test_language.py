@@ -9,6 +9,7 @@ import pytest
 
 from netdesign.checks import list_standards
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS, SHEETS
+from tests.program import call_program
 from tests.short_example import write_short_example
 from tests.small_scene import SMALL_SCENE
 from tests.words.english import find_words
@@ -25,25 +26,38 @@ def find_english(text):
     return find_words(TYPED.sub(" ", text), ["en"])
 
 
-@pytest.fixture(params=LANGUAGES)
+@pytest.fixture(params=LANGUAGES, scope="module")
 def language(request):
     return request.param
 
 
+@pytest.fixture(scope="module")
+def book(language, tmp_path_factory):
+    path = tmp_path_factory.mktemp("example") / "site.xlsx"
+    ended = call_program("init", path, "--example", "--language", language)
+    assert ended.code == 0
+    book = openpyxl.load_workbook(path)
+    for sheet in book.worksheets:
+        sheet._images.clear()  # else it can be saved but once
+    return book
+
+
 @pytest.fixture
-def spoil(call, tmp_path, language):
+def spoil(call, tmp_path, book, language):
     """Spoils cells of the example in a language, and checks it: ``spoil({...})``."""
 
     def check(changes, *options):
-        path = tmp_path / "site.xlsx"
-        assert call("init", path, "--example", "--force", "--language", language)
-        book = openpyxl.load_workbook(path)
+        cells, kept = {}, {}
         for place, value in changes.items():
             plan, _, cell = place.partition("!")
             name = next(one for one in SHEETS if one.name == plan).name_in(language)
-            book[name][cell] = value
-        book.save(path)
-        return call("check", path, "--language", language, *options)
+            cells[place] = book[name][cell]
+            kept[place] = cells[place].value
+            cells[place].value = value
+        book.save(tmp_path / "site.xlsx")
+        for place, value in kept.items():
+            cells[place].value = value
+        return call("check", "site.xlsx", "--language", language, *options)
 
     return check
 

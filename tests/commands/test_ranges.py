@@ -2,6 +2,7 @@ import click
 import pytest
 
 from netdesign.commands.options import RANGE
+from tests.each import each
 
 
 @pytest.mark.parametrize(
@@ -18,8 +19,8 @@ def test_ranges_are_read(text, expected):
     assert (found.low, found.high, found.count) == expected
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
+@each(
+    "text, told",
     [
         ("450:250", "is reversed: accepted is low:high"),
         ("300:300", "is empty: accepted is low below high"),

@@ -5,16 +5,20 @@ import os
 import re
 import subprocess
 import sys
+from functools import lru_cache
 
 import pytest
 
 from netdesign import cli
+from netdesign.solving import workers
+from netdesign.solving.solve import solve_scene
 from netdesign.study.document import read_document, write_document
 from tests.short_example import write_short_example
 from tests.study.rejudge.alterations import scale_demand
 from tests.words.english import find_words
 
 DIFFERS, REFUSED, UNPROVEN, FAULT = 1, 3, 4, 5
+solve_once = lru_cache(maxsize=None)(solve_scene)
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 
 
@@ -35,8 +39,12 @@ def home(tmp_path_factory):
 
 
 @pytest.fixture
-def verify(home, call, tmp_path):
-    """Verifies the study after it, or its site, was changed by hand."""
+def verify(home, call, tmp_path, monkeypatch):
+    """Verifies the study after it, or its site, was changed by hand.
+
+    Each case is solved again once, not for each of the tests.
+    """
+    monkeypatch.setattr(workers, "solve_scene", solve_once)
     text = (home / "netdesign-out" / "study.json").read_text(encoding="utf-8")
 
     def run(change=lambda _: None, *options):

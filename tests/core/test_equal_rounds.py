@@ -22,6 +22,7 @@ from netdesign.coupling.steady.round import OffMeshError, take_round
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.shared_mesh import share_template
+from tests.each import each
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
 
@@ -107,7 +108,7 @@ def assert_alike(one, other):
     np.testing.assert_allclose(one, other, rtol=0.0, atol=CLOSE * max(size, 1e-300))
 
 
-@pytest.mark.parametrize("number", range(len(PROBLEMS)))
+@each("number", range(len(PROBLEMS)))
 def test_a_round_is_the_same_in_one_call(number):
     problem = PROBLEMS[number]
     core, net = begin(problem)
@@ -193,7 +194,7 @@ def test_forces_of_the_stresses_are_the_same_in_one_call(number, monkeypatch):
     assert_alike(settled.cable.curve, hung.cable.curve)
 
 
-@pytest.mark.parametrize("number", range(0, len(PROBLEMS), 4))
+@each("number", range(0, len(PROBLEMS), 4))
 def test_a_round_goes_on_from_results_as_from_what_they_say(number):
     problem = PROBLEMS[number]
     core, net = begin(problem)

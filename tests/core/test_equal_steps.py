@@ -12,6 +12,7 @@ from netdesign.snow.contact import net_components
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import compute_residual, condense_to_net
 from tests.core.drawn import CLOSE, NUMBERS, FlowInCore, assert_alike, draw_case
+from tests.each import each
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")
 
@@ -23,7 +24,7 @@ def step(take, problem, mesh, state):
     return one.state, one.change, two.state.contact
 
 
-@pytest.mark.parametrize("number", NUMBERS)
+@each("number", NUMBERS)
 def test_a_step_is_that_of_numpy(number):
     problem, mesh, state = draw_case(number)
     found, left, wanted = step(FlowInCore, problem, mesh, state)
@@ -47,7 +48,7 @@ def test_a_step_is_that_of_numpy(number):
     np.testing.assert_array_equal(wanted.is_lifted, follows.is_lifted)
 
 
-@pytest.mark.parametrize("number", NUMBERS[:12])
+@each("number", NUMBERS[:12])
 def test_the_derivative_of_a_round_is_that_of_numpy(number):
     problem, mesh, state = draw_case(number)
     found = FlowInCore(problem, mesh, state, tolerance=1e9, max_iterations=1)

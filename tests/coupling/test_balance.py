@@ -17,6 +17,7 @@ from netdesign.coupling.balance import (
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance
 from netdesign.outcome import Outcome, SolveError
+from tests.each import each
 
 TOLERANCE = 1e-8
 
@@ -46,7 +47,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("field", "value", "reason"), REFUSED)
+@each("field, value, reason", REFUSED)
 def test_breaches_are_refused(field, value, reason):
     with pytest.raises(SolveError, match=reason) as raised:
         check_balance(replace(SOUND, **{field: value}), TOLERANCE)

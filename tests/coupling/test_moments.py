@@ -23,6 +23,7 @@ from netdesign.coupling.moments import (
     largest_pull,
     select_counted,
 )
+from tests.each import each
 
 TIMES = np.geomspace(1e-4, 1e3, 700)
 STEP = 1.03  # more than the ratio of two neighbouring times
@@ -229,7 +230,7 @@ def test_no_history_has_no_plateau():
     assert not find_plateau([moment(1.0, 1.0)]).reached
 
 
-@pytest.mark.parametrize("field", ["foot", "head", "on_net", "speed", "way", "strain"])
+@each("field", ["foot", "head", "on_net", "speed", "way", "strain"])
 def test_what_is_no_number_is_no_plateau(field):
     moments = [
         replace(m, **{field: getattr(m, field) * np.nan})

@@ -20,6 +20,7 @@ from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.creep_law import PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
+from tests.each import each
 
 FRICTIONS = [float(phi) for phi in range(46)]
 INCLINATIONS = [0.0, 10.0, 20.0, 30.0, 40.0]
@@ -90,8 +91,8 @@ def test_steady_thinned(a_scene):
     assert explained(wrong), wrong
 
 
-@pytest.mark.parametrize("friction_deg", [2.0, 6.0, 10.0])
-@pytest.mark.parametrize("rows", [2, 10])
+@each("friction_deg", [2.0, 6.0, 10.0])
+@each("rows", [2, 10])
 def test_steady_on_plain_meshes(a_scene, friction_deg, rows):
     """The frictions and meshes on which a prototype stalled (FACTS.md, section 10)."""
     levels = (MESH_LEVELS[0], uniform(rows))

@@ -16,6 +16,7 @@ from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.coupling.drawn_scenes import draw_smooth_site
+from tests.each import each
 
 DAY = 86400.0
 STARTS = ("steady", "sagged", "straight")
@@ -55,7 +56,7 @@ def put_on(scene, glide_factor):
     return replace(scene, ground=ground)
 
 
-@pytest.mark.parametrize("seed", range(24))
+@each("seed", range(24))
 def test_a_smooth_site_is_solved(seed):
     assert_pulls(draw_smooth_site(seed))
 

@@ -22,6 +22,7 @@ from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
 from netdesign.solving.solve import solve_scene
+from tests.each import each
 
 SETTINGS = SolverSettings(
     accuracy=0.1,
@@ -61,8 +62,8 @@ def test_equal_layers_are_uniform_snow(a_scene):
         assert apart <= first.error + second.error
 
 
-@pytest.mark.parametrize("tops", [(0.5,), (0.1, 0.3, 0.8), (0.02, 0.98)])
-@pytest.mark.parametrize("level", MESH_LEVELS[1:3])
+@each("tops", [(0.5,), (0.1, 0.3, 0.8), (0.02, 0.98)])
+@each("level", MESH_LEVELS[1:3])
 def test_no_triangle_crosses_an_interface_and_no_mass_is_lost(tops, level):
     template = build_template(3.0, level, tops)
     heights = template.nodes[1, template.triangles[:3]]
@@ -106,8 +107,8 @@ def draw_layers(seed):
     ]
 
 
-@pytest.mark.parametrize("ground", ["free", "no-slip"])
-@pytest.mark.parametrize("seed", range(3))
+@each("ground", ["free", "no-slip"])
+@each("seed", range(3))
 def test_layers_lie_at_their_heights_up_to_the_hanging_net(a_scene, ground, seed):
     """Straight, parallel to the ground: no triangle of the placed mesh crosses one."""
     scene = layered(

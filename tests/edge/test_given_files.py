@@ -7,12 +7,13 @@ import pytest
 from netdesign.edge.given_files import decode_utf8, parse_toml
 from netdesign.outcome import ContentError
 from netdesign.words.catalogue import render
+from tests.each import each
 
 INVALID = "kein gültiges TOML (Zahlen mit Dezimalpunkt, Texte in Anführungszeichen)"
 
 
-@pytest.mark.parametrize(
-    ("content", "told"),
+@each(
+    "content, told",
     [
         ("a = 1.37\nb = 2 3\n", f"in Zeile 2, Spalte 7: {INVALID}"),
         ("a =", f"am Ende: {INVALID}"),

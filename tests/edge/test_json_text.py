@@ -12,6 +12,7 @@ from netdesign.edge.json_text import (
     write_part,
 )
 from netdesign.outcome import Verdict
+from tests.each import each
 
 
 @dataclass(frozen=True)
@@ -40,9 +41,7 @@ WHOLE = Whole(
 )
 
 
-@pytest.mark.parametrize(
-    "document", [WHOLE, WHOLE.parts, 1.5, "text", None, [], {}, [1], [[1]], {"a": 1}]
-)
+@each("document", [WHOLE, WHOLE.parts, 1.5, "text", None, [], {}, [1], [[1]], {"a": 1}])
 def test_the_text_is_that_of_json(document):
     plain = asdict(document) if document is WHOLE else document
     if document is WHOLE.parts:

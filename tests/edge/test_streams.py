@@ -12,6 +12,7 @@ import pytest
 
 from netdesign.edge.streams import _SPELLED, _Lasting, guard_streams
 from netdesign.words.catalogue import LANGUAGES, load_texts
+from tests.each import each
 from tests.program import QUICK, start_program
 from tests.tiny_site import write_site
 
@@ -104,7 +105,12 @@ def test_a_standard_error_that_nobody_can_write_to_changes_nothing(sites, tmp_pa
 
 
 @pytest.mark.parametrize(
-    ("language", "encoding"), [("en", "cp850"), ("fr", "ascii"), ("de", "cp437")]
+    ("language", "encoding"),
+    [
+        ("fr", "ascii"),
+        pytest.param("en", "cp850", marks=pytest.mark.long),
+        pytest.param("de", "cp437", marks=pytest.mark.long),
+    ],
 )
 def test_no_code_page_ends_a_check(sites, tmp_path, encoding, language):
     result = subprocess.run(
@@ -192,10 +198,8 @@ class _Failing(io.RawIOBase):
         return len(part)
 
 
-@pytest.mark.parametrize("after", [0, 1, 700, 8192, 20_001])
-@pytest.mark.parametrize(
-    "error", [BrokenPipeError(32, "Broken pipe"), OSError(28, "No space left")]
-)
+@each("after", [0, 1, 700, 8192, 20_001])
+@each("error", [BrokenPipeError(32, "Broken pipe"), OSError(28, "No space left")])
 def test_a_lost_stream_takes_all_that_follows(error, after):
     raw = _Failing(error, after)
     lasting = _Lasting(raw)

@@ -19,6 +19,7 @@ from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.words.message import say
+from tests.each import each
 from tests.solving.made_up_workers import Recording, Spoiling
 from tests.solving.small_scene import LAYOUT, build_scene, solve_case
 
@@ -168,7 +169,7 @@ def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
     )
 
 
-@pytest.mark.parametrize("seed", range(6))
+@each("seed", range(6))
 def test_signed_errors_bound_what_errors_of_the_pulls_do(seed):
     rng = np.random.default_rng(seed)
     result = solve_case(build_point_task(TASK, tuple(rng.uniform(size=2).tolist())))

@@ -11,6 +11,7 @@ from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.ranges import Interval, Ranges, build_cases
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
+from tests.each import each
 
 
 def run(force, *, count=3, failed=()):
@@ -33,7 +34,7 @@ def run(force, *, count=3, failed=()):
     return find_extremes(results)["post"], results
 
 
-@pytest.mark.parametrize("top", [0.15, 0.3, 0.5, 0.62, 0.75, 0.95])
+@each("top", [0.15, 0.3, 0.5, 0.62, 0.75, 0.95])
 def test_parabola_never_rises_above_the_estimate(top):
     def force(x):
         return 100.0 - 40.0 * (x - top) ** 2

@@ -11,6 +11,7 @@ from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError, Outcome
+from tests.each import each
 
 
 def solved(density, **forces):
@@ -73,7 +74,7 @@ def test_only_converged_cases_count():
     assert extreme.governing is results[0]
 
 
-@pytest.mark.parametrize("outcome", [o for o in Outcome if o != Outcome.CONVERGED])
+@each("outcome", [o for o in Outcome if o != Outcome.CONVERGED])
 def test_no_failed_outcome_takes_part(outcome):
     assert find_extremes([failed(300.0, outcome)]) == {}
 
@@ -83,8 +84,8 @@ def test_a_failed_first_case_does_not_hide_the_members():
     assert extremes["foot"].force.value == 2.0
 
 
-@pytest.mark.parametrize(
-    ("low", "value", "high"),
+@each(
+    "low, value, high",
     [
         (math.nan, 1.0, 2.0),
         (0.0, math.nan, 2.0),

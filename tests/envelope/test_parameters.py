@@ -10,6 +10,7 @@ from netdesign.snow.ground import GROUND_KINDS, GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.each import each
 from tests.solving.small_scene import build_scene
 
 FREE = build_scene(Case(density=300.0, friction_angle=0.4, inclination=0.5))
@@ -72,7 +73,7 @@ def test_layers_keep_their_proportions_as_their_thickness_ranges():
     assert placed.layers[0].temperature == 271.0
 
 
-@pytest.mark.parametrize("name", PARAMETERS)
+@each("name", PARAMETERS)
 def test_values_go_to_the_unit_of_their_key_and_back(name):
     one = PARAMETERS[name]
     scale = {"deg": math.pi / 180.0, "kN_per_m": 1e3}
@@ -122,8 +123,8 @@ def test_unknown_and_repeated_names_are_refused(names):
         Ranges(intervals=spans)
 
 
-@pytest.mark.parametrize(
-    ("spans", "told"),
+@each(
+    "spans, told",
     [
         ({"density": (250.0, 950.0)}, "snow density = 950.0"),
         ({"friction_angle": (0.1, 1.6)}, "friction"),
@@ -162,8 +163,8 @@ OUTSIDE = {
 }
 
 
-@pytest.mark.parametrize("name", PARAMETERS)
-@pytest.mark.parametrize("language", LANGUAGES)
+@each("name", PARAMETERS)
+@each("language", LANGUAGES)
 def test_a_refusal_has_the_number_as_given_and_its_unit(name, language):
     one, given = PARAMETERS[name], OUTSIDE[name]
     with pytest.raises(ModelError) as caught:

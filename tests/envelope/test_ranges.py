@@ -4,6 +4,7 @@ import pytest
 
 from netdesign.envelope.ranges import Case, Interval, Ranges, build_cases
 from netdesign.outcome import ModelError
+from tests.each import each
 
 
 def test_samples_are_equally_spaced_and_hold_both_ends_exactly():
@@ -29,8 +30,8 @@ def test_no_sample_at_all_is_refused(count):
         Interval(low=0.5, high=0.5, count=count)
 
 
-@pytest.mark.parametrize(
-    ("low", "high"),
+@each(
+    "low, high",
     [
         (1.0, math.nextafter(1.0, 0.0)),
         (math.nan, 1.0),

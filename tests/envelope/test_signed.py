@@ -9,6 +9,7 @@ from netdesign.envelope.signed import choose_watched, name_sources
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport, resolve_signed
 from netdesign.structure.layout import SupportLayout, place_support
+from tests.each import each
 
 HEAD = (1.5, 3.0)
 
@@ -25,7 +26,7 @@ def draw(seed):
     return layout, (math.cos(angle), math.sin(angle))
 
 
-@pytest.mark.parametrize("seed", range(300))
+@each("seed", range(300))
 def test_members_are_the_largest_of_the_signed_forces_behind_them(seed):
     layout, pull = draw(seed)
     points = place_support(layout, HEAD)

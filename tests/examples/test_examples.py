@@ -2,6 +2,8 @@
 
 import ast
 import csv
+import importlib
+import io
 import math
 import re
 import struct
@@ -9,6 +11,7 @@ import subprocess
 import sys
 import tomllib
 import xml.etree.ElementTree as ET
+from contextlib import redirect_stdout
 from dataclasses import replace
 from importlib.resources import files
 from itertools import pairwise, product
@@ -19,6 +22,7 @@ import pytest
 from netdesign import GroundLaw, Scene, Snowpack, solve_rigid, solve_steady
 from netdesign.examples import envelope, fit, history, panel, wall, winter
 from netdesign.winter.fit_inputs import vary_day, vary_row
+from tests.each import each
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "netdesign" / "examples"
@@ -28,18 +32,13 @@ LARGEST_PICTURE = 40_000  # bytes
 GRAVITY = 9.81
 
 
-def run(name, folder, *arguments):
+def run(name, folder):
     """Lines that an example prints; a warning is an error."""
-    result = subprocess.run(
-        [sys.executable, "-W", "error", "-m", f"netdesign.examples.{name}", *arguments],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert result.returncode == 0, result.stderr
-    assert result.stderr == ""
-    return result.stdout.splitlines()
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as said:
+        patch.chdir(folder)
+        patch.setattr(sys, "argv", [name])
+        importlib.import_module(f"netdesign.examples.{name}").main()
+    return said.getvalue().splitlines()
 
 
 def read_section(name):
@@ -67,7 +66,7 @@ def read_size(picture):
     return struct.unpack(">II", head[16:24])
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_the_page_says_what_the_example_says(name):
     told = " ".join(read_section(name).replace("`", "").split()).lower()
     text = ast.get_docstring(ast.parse((FOLDER / f"{name}.py").read_text("utf-8")))
@@ -113,8 +112,13 @@ def test_one_net(tmp_path):
 
 def test_a_picture_goes_where_it_is_asked_for(tmp_path):
     picture = tmp_path / "profiles.svg"
-    lines = run("limit_profile", tmp_path, str(picture))
-    assert lines[-1] == f"wrote {picture}"
+    result = subprocess.run(
+        [sys.executable, "-W", "error", "-m", "netdesign.examples.limit_profile",
+         str(picture)],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (result.returncode, result.stderr) == (0, "")
+    assert result.stdout.splitlines()[-1] == f"wrote {picture}"
     assert [one.name for one in tmp_path.iterdir()] == ["profiles.svg"]
     text = picture.read_text(encoding="utf-8")
     assert ET.fromstring(text).tag == "{http://www.w3.org/2000/svg}svg"

@@ -17,6 +17,7 @@ from netdesign.winter.fit import ForceBand, SeasonFit
 from netdesign.winter.fit_inputs import FitReading, Noise
 from netdesign.winter.gauss_newton import Parameter, fit_gauss_newton
 from netdesign.words.catalogue import LANGUAGES
+from tests.each import each
 
 SERIES = HeightSeries(first_day=date(2011, 1, 7), heights=(1.3,) * 40)
 READINGS = tuple(
@@ -60,8 +61,8 @@ def fitted(ending, response=None):
     )
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("ending", ["fitted", "misfit", "far", "unsettled"])
+@each("language", LANGUAGES)
+@each("ending", ["fitted", "misfit", "far", "unsettled"])
 def test_every_ending_is_written_and_shown(ending, language):
     document = write_fit(fitted(ending), SERIES, language)
     json.dumps(document, allow_nan=False)

@@ -18,7 +18,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from tests.fuzz.targets import TARGETS, Target, time_limit
 
-IN_THE_SUITE = 450
+IN_THE_SUITE = 200
 EXAMPLES = int(os.environ.get("NETDESIGN_FUZZ_EXAMPLES", "100000"))
 SEED = int(os.environ.get("NETDESIGN_FUZZ_SEED", "20261121"))
 _COMMON = {

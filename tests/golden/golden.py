@@ -21,7 +21,8 @@ from netdesign.study.check_run import CheckRun
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
 from tests.golden.former import state_document
-from tests.study.knowing_less.drawn_site import draw_lines, write_lines
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import draw_lines
 
 STORED = Path(__file__).with_name("numbers.json.xz")
 SEEDS = range(9000, 9040)

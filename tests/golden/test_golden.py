@@ -5,12 +5,13 @@ import math
 import pytest
 
 from tests.golden.former import MISSING, may_differ
-from tests.golden.golden import SEEDS, judge_seed, load_stored
+from tests.golden.golden import FOLLOWED, SEEDS, judge_seed, load_stored
 
 TOLERANCE = 1e-9
 # Of a residual, or a small difference of forces: it follows the order of a sum, and so
 # the machine.
 NOTHING = 1e-8
+SOON = {*SEEDS[::3], *FOLLOWED}
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +25,14 @@ def is_same(one, other):
     return one == other
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+# Every third site, with both that are followed in time; all forty in the long run.
+@pytest.mark.parametrize(
+    "seed",
+    [
+        pytest.param(seed, marks=() if seed in SOON else pytest.mark.long)
+        for seed in SEEDS
+    ],
+)
 def test_every_number_is_what_it_was(stored, seed):
     then, now = stored[str(seed)], judge_seed(seed)
     keys = {**then, **now}

@@ -29,6 +29,7 @@ from netdesign.structure.anchors import compute_many_forces
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.catalogue import render
+from tests.each import each
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
 DOWNHILL = Member.DOWNHILL_GUY
@@ -480,7 +481,7 @@ def test_states_of_the_spans_bring_what_the_head_says():
     assert seen == {True, False}
 
 
-@pytest.mark.parametrize("seed", range(12))
+@each("seed", range(12))
 def test_floor_lies_well_between_its_two_ends(seed):
     """The grid alone misses a tenth of what the upper end has for it, at most."""
     ranges = draw_ranges(random.Random(f"ends{seed}"))

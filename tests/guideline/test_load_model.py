@@ -13,6 +13,7 @@ from netdesign.guideline.load_model import (
     read_load_model,
 )
 from netdesign.outcome import ModelError, StandardError
+from tests.each import each
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
 STEEP = math.radians(45.0)
@@ -45,8 +46,8 @@ def test_creep_factor_follows_the_sine_of_twice_the_slope():
     assert at_30 == pytest.approx(at_45 * math.sin(math.radians(60.0)), rel=1e-14)
 
 
-@pytest.mark.parametrize(
-    ("height", "density", "glide", "expected"),
+@each(
+    "height, density, glide, expected",
     [
         (2.0, 270, 1.2, 4.8),
         (3.0, 270, 2.6, 23.4),

@@ -7,6 +7,7 @@ import pytest
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.guideline.net_pull import compute_net_pull
 from netdesign.outcome import ModelError
+from tests.each import each
 
 
 def a_pull(resultant=(40e3, 0.0), **changes):
@@ -37,8 +38,8 @@ def test_even_load_gives_the_parabola(slack):
     assert pull.chord_tension == pytest.approx(1e4 * chord**2 / (8 * sag), rel=1e-9)
 
 
-@pytest.mark.parametrize("inclination", [0.0, 0.3, 0.6])
-@pytest.mark.parametrize("loaded", [0.5, 0.77, 1.0])
+@each("inclination", [0.0, 0.3, 0.6])
+@each("loaded", [0.5, 0.77, 1.0])
 def test_pulls_sum_up_to_the_load_and_turn_about_its_point(inclination, loaded):
     load, chord = (30e3, -8e3), 3.5
     pull = a_pull(load, inclination=inclination, chord=chord, loaded_share=loaded)

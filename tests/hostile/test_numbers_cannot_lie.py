@@ -29,6 +29,7 @@ from netdesign.study.cases import search_site, solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from tests import small_site
+from tests.each import each
 from tests.small_site import RANGES as GRID
 from tests.small_site import STRONG, WEAK, build_row, resist
 from tests.solving.made_up_workers import Spoiling
@@ -130,32 +131,36 @@ FAULTS = {
 }
 
 
-@pytest.fixture(params=FAULTS.values(), ids=FAULTS)
-def fault(request):
-    return request.param
-
-
 @pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])
 def test_the_sound_site_passes(ranges):
     assert judge(build_site(ranges)).verdict is Verdict.PASS
 
 
-@pytest.mark.parametrize("hit", range(9))
+def list_hits(places, count):
+    """Each fault in some of these places, and in each place some of the faults."""
+    return [
+        (fault, places[(number + turn * 4) % len(places)])
+        for number, fault in enumerate(FAULTS)
+        for turn in range(count)
+    ]
+
+
+@each("fault, hit", list_hits(range(9), 2))
 def test_a_fault_in_any_case_of_a_grid_is_no_pass(spoil, fault, hit):
-    calls = spoil(fault, lambda call: call == hit)
+    calls = spoil(FAULTS[fault], lambda call: call == hit)
     row = judge(build_site()).rows[0]
     assert len(calls) == 9
     assert row.verdict is Verdict.NOT_PROVEN
     assert "1 of 9 cases failed" in str(row.reasons[0])
 
 
-@pytest.mark.parametrize("hit", [0, 7, -1])
+@each("fault, hit", list_hits((0, 7, -1), 1))
 def test_a_fault_in_any_case_of_a_search_is_no_pass(spoil, fault, hit):
     """The last solves are those that confirm the governing cases."""
-    sound = spoil(fault, lambda _: False)
+    sound = spoil(FAULTS[fault], lambda _: False)
     judge(build_site(SEARCHED))
     place = hit % len(sound)
-    calls = spoil(fault, lambda call: call == place)
+    calls = spoil(FAULTS[fault], lambda call: call == place)
     row = judge(build_site(SEARCHED)).rows[0]
     assert len(calls) > place
     assert row.verdict is Verdict.NOT_PROVEN
@@ -163,21 +168,23 @@ def test_a_fault_in_any_case_of_a_search_is_no_pass(spoil, fault, hit):
     assert "failed" in told or "could not be calculated again" in told
 
 
-@pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])
+@each("fault", FAULTS)
+@each("ranges", [GRID, SEARCHED])
 def test_a_fault_in_every_case_is_no_pass(spoil, fault, ranges):
-    spoil(fault, lambda _: True)
+    spoil(FAULTS[fault], lambda _: True)
     assert judge(build_site(ranges)).verdict is Verdict.NOT_PROVEN
 
 
+@each("fault", FAULTS)
 def test_a_fault_does_not_hide_a_sure_failure(spoil, fault):
-    spoil(fault, lambda call: call == 0)
+    spoil(FAULTS[fault], lambda call: call == 0)
     assert judge(build_site(strength=WEAK)).verdict is Verdict.FAIL
 
 
 # --- limits that are missing ---------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", [f"{member}__{mode}" for member, mode in MEMBER_MODES])
+@each("name", [f"{member}__{mode}" for member, mode in MEMBER_MODES])
 def test_no_resistance_is_no_pass_even_of_a_slack_member(name):
     study = judge(build_site(**{name: None}))
     check = next(
@@ -205,7 +212,7 @@ LIMITS = {
 }
 
 
-@pytest.mark.parametrize("left_out", sorted(LIMITS))
+@each("left_out", sorted(LIMITS))
 def test_a_limit_that_is_left_out_is_no_pass_where_a_check_needs_it(left_out):
     standard = load_standard(PROFILE)
     kept = tuple(one for one in standard.values if not one.id.startswith(left_out))
@@ -285,9 +292,9 @@ class Shuffled(OwnProcess):
         return iter(self._draw.sample(ends, len(ends)))
 
 
-@pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("strength", [STRONG, WEAK])
+@each("ranges", [GRID, SEARCHED])
+@each("seed", range(3))
+@each("strength", [STRONG, WEAK])
 def test_the_order_in_which_cases_end_changes_nothing(ranges, seed, strength):
     site = build_site(ranges, strength=strength)
     assert judge(site, Runner(workers=Shuffled(seed))) == judge(site)

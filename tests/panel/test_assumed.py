@@ -17,6 +17,7 @@ from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.layout import SupportLayout
+from tests.each import each
 from tests.solving.small_scene import COARSE
 
 SEEDS = (203, 204, 207, 211, 216, 218)
@@ -94,7 +95,7 @@ def find_excess(seed):
     return found
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_no_panel_as_it_may_be_built_loads_a_member_more(seed):
     assert max(find_excess(seed).values()) < 1.002
 

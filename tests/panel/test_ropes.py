@@ -13,6 +13,7 @@ from netdesign.panel.ropes import (
     measure_lengths,
 )
 from netdesign.panel.stations import ROPE_POINTS
+from tests.each import each
 from tests.panel.one_rope import find_force_along
 
 
@@ -29,8 +30,8 @@ def test_flat_parabola_keeps_its_digits():
     assert compute_excess_length(0.0) == 0.0
 
 
-@pytest.mark.parametrize("sag", [0.0, 0.051, 0.15])
-@pytest.mark.parametrize("stiffness", [1.3e6, 1.8e7, 1e13])
+@each("sag", [0.0, 0.051, 0.15])
+@each("stiffness", [1.3e6, 1.8e7, 1e13])
 def test_rope_has_its_length(stiffness, sag):
     """The length under tension, integrated by other means."""
     rope = Rope(stiffness=stiffness, sag=sag)

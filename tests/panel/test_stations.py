@@ -5,6 +5,7 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from netdesign.panel.stations import ROPE_POINTS, build_stations
+from tests.each import each
 
 COUNTS = [1, 2, 4, 6]
 
@@ -24,8 +25,8 @@ def deflect(load, *, is_held):
     return twice + Polynomial([-twice(1.0) - slope, slope])
 
 
-@pytest.mark.parametrize("has_mid_anchors", [False, True])
-@pytest.mark.parametrize("count", COUNTS)
+@each("has_mid_anchors", [False, True])
+@each("count", COUNTS)
 def test_spans_integrate_exactly(count, has_mid_anchors):
     stations = build_stations(count, has_mid_anchors=has_mid_anchors)
     load = draw_load(count, is_even=not has_mid_anchors)
@@ -41,8 +42,8 @@ def test_spans_integrate_exactly(count, has_mid_anchors):
         np.testing.assert_allclose(span.end_shear @ values, ends, atol=1e-12)
 
 
-@pytest.mark.parametrize("has_mid_anchors", [False, True])
-@pytest.mark.parametrize("count", COUNTS)
+@each("has_mid_anchors", [False, True])
+@each("count", COUNTS)
 def test_supports_take_the_whole_load(count, has_mid_anchors):
     stations = build_stations(count, has_mid_anchors=has_mid_anchors)
     load = draw_load(count, is_even=not has_mid_anchors)

@@ -21,6 +21,7 @@ from netdesign.panel.strips import (
     take_strip,
 )
 from netdesign.snow.snowpack import Layer, Snowpack
+from tests.each import each
 
 QUICK = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
 
@@ -95,8 +96,8 @@ def test_only_a_net_at_rest_has_strips(solved):
         take_strip(history)
 
 
-@pytest.mark.parametrize("mid", [False, True])
-@pytest.mark.parametrize("cut", ["uniform", "upper", "fitted"])
+@each("mid", [False, True])
+@each("cut", ["uniform", "upper", "fitted"])
 def test_cut_follows_the_ropes(solved, cut, mid):
     strip = take_strip(solved(inclination_deg=30.0, slack=0.04, ground="no-slip"))
     panel = Panel(

@@ -12,6 +12,7 @@ from netdesign.outcome import ModelError
 from netdesign.planview.end_effect import compute_end_effect
 from netdesign.planview.scales import compute_scales
 from netdesign.planview.waves import WIDEST_HALF
+from tests.each import each
 
 SLAB = Slab(thickness=2.7, slope_angle=math.radians(38.5), density=283.0)
 
@@ -97,8 +98,8 @@ def test_lengths_of_a_slab_by_hand():
     assert scales.retarded_share == pytest.approx(share, rel=2e-5)
 
 
-@pytest.mark.parametrize(
-    ("changed", "named"),
+@each(
+    "changed, named",
     [
         ({"gap": -0.1}, "gap to the next work"),
         ({"gap": math.nan}, "gap to the next work"),

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.planview import special
+from tests.each import each
 
 FUNCTIONS = ("erf", "erfc", "eval_gegenbauer", "gamma", "gammaln", "iti0k0", "jv")
 FUNCTIONS += ("k1", "psi", "rgamma")
@@ -29,6 +30,6 @@ def test_powers_are_integrated_exactly(count, order, data):
     assert (weights * places ** (2 * half)).sum() == pytest.approx(exact, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@each("name", FUNCTIONS)
 def test_functions_are_those_of_scipy(name):
     assert getattr(special, name) is getattr(scipy.special, name)

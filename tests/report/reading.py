@@ -2,7 +2,6 @@
 
 import io
 import re
-import subprocess
 import warnings
 import zipfile
 from html.parser import HTMLParser
@@ -11,7 +10,7 @@ from pathlib import Path
 import openpyxl
 from openpyxl.worksheet.worksheet import Worksheet
 
-from tests.programs import require_program
+from tests.programs import convert
 
 
 class PageReader(HTMLParser):
@@ -93,26 +92,11 @@ def recalculate(books: dict[str, bytes], folder: Path) -> dict[str, bytes]:
 
     All in one run: most of its time goes into the start.
     """
-    soffice = require_program("soffice")
     (folder / "in").mkdir()
     sources = [folder / "in" / f"{name}.xlsx" for name in books]
     for source, content in zip(sources, books.values(), strict=True):
         source.write_bytes(_strip_cached(content))
-    subprocess.run(
-        [
-            soffice,
-            f"-env:UserInstallation=file://{folder}/profile",
-            "--headless",
-            "--convert-to",
-            "xlsx",
-            "--outdir",
-            str(folder / "out"),
-            *map(str, sources),
-        ],
-        check=True,
-        capture_output=True,
-        timeout=180,
-    )
+    convert("xlsx", folder / "out", *sources)
     return {path.stem: (folder / "out" / path.name).read_bytes() for path in sources}
 
 

@@ -14,6 +14,7 @@ from netdesign.study.document import read_document, write_document
 from netdesign.study.parts import PartRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
+from tests.each import each
 from tests.report.build_study import build_independent, build_study
 
 UNTOLD = (
@@ -274,8 +275,8 @@ def change_much():
     )
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("way", [1, -1])
+@each("language", LANGUAGES)
+@each("way", [1, -1])
 def test_changes_are_told_in_words_and_differ_as_told(language, way):
     """Of a study; what is told in sum only has its place in the document."""
     changes = compare_studies(*change_much()[::way])

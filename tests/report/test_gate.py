@@ -8,27 +8,29 @@ from netdesign.outcome import NetDesignError, Verdict
 from netdesign.report.gate import require_consistent
 from netdesign.study.records import IndependentRecord
 from netdesign.words.catalogue import render
+from tests.each import each
 from tests.report.build_study import build_study
 from tests.words.english import find_words
+
+STUDY = build_study()
 
 
 def spoil(row_number, check_number, **changes):
     """Study with one check changed and the verdicts above it left alone."""
-    study = build_study()
-    rows = list(study.rows)
+    rows = list(STUDY.rows)
     checks = list(rows[row_number].checks)
     checks[check_number] = replace(checks[check_number], **changes)
     rows[row_number] = replace(rows[row_number], checks=checks)
-    return replace(study, rows=rows)
+    return replace(STUDY, rows=rows)
 
 
 def test_the_sound_study_passes():
-    assert require_consistent(build_study()) is None
+    assert require_consistent(STUDY) is None
 
 
 def alter(row_number, check_number, symbol, **changes):
     """Study with one step of one check's calculation changed."""
-    steps = build_study().rows[row_number].checks[check_number].steps
+    steps = STUDY.rows[row_number].checks[check_number].steps
     changed = [replace(x, **changes) if x.symbol == symbol else x for x in steps]
     return spoil(row_number, check_number, steps=changed)
 
@@ -36,8 +38,8 @@ def alter(row_number, check_number, symbol, **changes):
 NOTHING = {"value": None, "low": None, "high": None}
 
 
-@pytest.mark.parametrize(
-    ("study", "message"),
+@each(
+    "study, message",
     [
         (spoil(0, 0, utilisation=0.5), "utilisation is 0.5, but .* follows"),
         (spoil(0, 0, utilisation=None), "utilisation is None, but .* follows"),
@@ -63,8 +65,8 @@ NOTHING = {"value": None, "low": None, "high": None}
         (alter(0, 0, "E_c", formula="E_s * 7 ** 2"), "no formula of the quantities"),
         (spoil(2, 3, verdict=Verdict.PASS), "high end of its utilisation is None"),
         (spoil(0, 0, verdict=Verdict.FAIL), "says PASS, but its parts give FAIL"),
-        (replace(build_study(), verdict=Verdict.PASS), "says PASS, but its parts"),
-        (replace(build_study(), verdict=Verdict.NOT_PROVEN), "its parts give FAIL"),
+        (replace(STUDY, verdict=Verdict.PASS), "says PASS, but its parts"),
+        (replace(STUDY, verdict=Verdict.NOT_PROVEN), "its parts give FAIL"),
     ],
 )
 def test_a_contradiction_is_refused(study, message):

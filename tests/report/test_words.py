@@ -10,6 +10,7 @@ from netdesign.report import words
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.study.record_provenance import name_law
 from netdesign.words.catalogue import LANGUAGES
+from tests.each import each
 from tests.report.build_study import build_check, build_extreme, build_row
 
 
@@ -58,7 +59,7 @@ def test_a_no_break_space_stays_between_words():
     assert "\u00a0" in told
 
 
-@pytest.mark.parametrize("key", QUANTITIES)
+@each("key", QUANTITIES)
 def test_number_format_writes_as_many_decimals_as_the_text(key):
     quantity, code = QUANTITIES[key], words.number_format(key)
     if quantity.decimals is None:

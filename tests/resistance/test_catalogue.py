@@ -11,10 +11,11 @@ from netdesign.resistance.catalogue import (
     pick,
 )
 from netdesign.words.message import say
+from tests.each import each
 
 
-@pytest.mark.parametrize(
-    ("find", "given", "told"),
+@each(
+    "find, given, told",
     [
         (find_bond_stress, ("gravle", "A"), "ground = 'gravle': must be one of "),
         (find_bond_stress, ("gravel", "F"), "grouting in gravel = 'F': must be "),

@@ -13,6 +13,7 @@ from netdesign.resistance.fractile import (
     find_fractile_of_known_scatter,
 )
 from netdesign.resistance.pull_out import SingleTest
+from tests.each import each
 
 
 def pull(*loads, held=()):
@@ -45,7 +46,7 @@ def test_three_tests_by_hand():
     assert find_fractile(tests).median / 1e3 == pytest.approx(median, rel=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@each("seed", range(6))
 def test_held_tests_have_the_likelihood_of_scipy(seed):
     rng = random.Random(seed)
     pulled = [rng.uniform(200.0, 500.0) for _ in range(rng.randint(2, 6))]
@@ -60,7 +61,7 @@ def test_held_tests_have_the_likelihood_of_scipy(seed):
     assert math.log(found.factor) == pytest.approx(quantile * deviation, rel=2e-3)
 
 
-@pytest.mark.parametrize("seed", range(200))
+@each("seed", range(200))
 def test_known_scatter_never_gains_by_a_pull_out_at_the_same_load(seed):
     """So that a result that is not said counts as pulled out."""
     rng = random.Random(seed)

@@ -15,6 +15,7 @@ from netdesign.resistance.product_data import join, list_constructions, load_pro
 from netdesign.resistance.products import find_product
 from netdesign.resistance.sections import compute_box, compute_tube
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.each import each
 
 SERIES = load_products()["section"]["series"]
 BEAMS = [f"{name}{size}" for name, one in SERIES.items() for size in one["sizes"]]
@@ -64,7 +65,7 @@ def compute_beam_side(h, b, web, flange, root):
     return plates + 4.0 * (own * root**4 + fillet * lever**2)
 
 
-@pytest.mark.parametrize("name", BEAMS)
+@each("name", BEAMS)
 def test_tables_of_beams_are_what_their_dimensions_give(name):
     words = ("depth", "width", "web_thickness", "flange_thickness", "root_radius")
     h, b, web, flange, root = (one(name, word) for word in words)
@@ -104,8 +105,8 @@ def test_values_known_from_elsewhere(name, area, strong, weak, modulus):
     assert one(name, "section_modulus_strong", 1e-6) == pytest.approx(modulus, rel=5e-3)
 
 
-@pytest.mark.parametrize(
-    ("name", "quantity", "cold", "hot"),
+@each(
+    "name, quantity, cold, hot",
     [  # EN 10219-2 and EN 10210-2 as mills print them, cm2, cm4
         ("SHS 80x4", ("area", 1e-4), 11.7, 12.0),
         ("SHS 80x4", ("second_moment_strong", 1e-8), 111, 114),
@@ -154,7 +155,7 @@ def test_a_tube_has_the_radius_of_gyration_of_a_ring():
     assert tube["depth"] == tube["width"] == 0.1
 
 
-@pytest.mark.parametrize(("bar", "size"), BARS)
+@each("bar, size", BARS)
 def test_a_bar_is_its_area_times_its_strength(bar, size):
     name = {"B500": "B500B Ø", "950/1050": "950/1050 Ø"}.get(bar["id"], bar["id"])
     found = find_product(f"{name} {size:g} mm")
@@ -193,7 +194,7 @@ def test_grades_that_share_a_name_are_a_range():
     assert (low / 1e3, high / 1e3) == pytest.approx((57, 981), rel=0.01)
 
 
-@pytest.mark.parametrize("name", HOLLOW)
+@each("name", HOLLOW)
 def test_a_hollow_bar_is_a_ring_of_its_area(name):
     found = find_product(name)
     assert found.family == "hollow bar"
@@ -296,8 +297,8 @@ def test_every_product_has_sources_in_every_language():
             assert all(render(source, language) for language in LANGUAGES)
 
 
-@pytest.mark.parametrize(
-    ("name", "meant"),
+@each(
+    "name, meant",
     [
         ("HEB120", "HEB120"),
         ("heb-120", "HEB120"),
@@ -388,7 +389,7 @@ def test_a_name_is_read_as_offices_write_it(name, meant):
     assert find_product(name).id.casefold() == meant.casefold()
 
 
-@pytest.mark.parametrize(
+@each(
     "name",
     [
         *("", "A1", "P1", "G18", "R1", "R7", "T1", "P32", "R32", "T76", "R38", "HE120"),
@@ -448,7 +449,7 @@ def test_a_thousand_names_that_are_none_give_none():
         assert find_product(name) is None, name
 
 
-@pytest.mark.parametrize(
+@each(
     "part",
     ["b500 ", "b 500 b ", "1x", "76.1x", "Ø ", "seil", "d=", "l=1", "gewi ", "9.9"],
 )

@@ -10,6 +10,7 @@ from netdesign.resistance.pull_out import (
     PullOutTests,
     compute_pull_out_from_bond,
 )
+from tests.each import each
 
 
 @pytest.mark.parametrize(
@@ -81,8 +82,8 @@ def test_unknown_ground_or_grouting_names_what_is_known(ground, grouting, named)
         find_bond_stress(ground, grouting)
 
 
-@pytest.mark.parametrize("factor", [0.0, -1.2, -1e-9])
-@pytest.mark.parametrize("place", ["on_mean", "on_least"])
+@each("factor", [0.0, -1.2, -1e-9])
+@each("place", ["on_mean", "on_least"])
 def test_a_factor_that_is_not_above_zero_gives_no_resistance(place, factor):
     factors = {"on_mean": 1.3, "on_least": 1.2} | {place: factor}
     assert correlate(mean=400.0, least=300.0, **factors) is None

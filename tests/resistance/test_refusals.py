@@ -21,6 +21,7 @@ from netdesign.resistance.steel import (
     compute_bent_bar_resistance,
     compute_rope_resistance,
 )
+from tests.each import each
 
 POST = {
     "width": 0.137,
@@ -146,9 +147,7 @@ def ids(cases):
     return [f"{case[0].__name__}-{case[2]}" for case in cases]
 
 
-@pytest.mark.parametrize(
-    ("build", "given", "argument", "low", "high", "unit"), WITHIN, ids=ids(WITHIN)
-)
+@each("build, given, argument, low, high, unit", WITHIN)
 def test_what_lies_outside_is_refused_and_both_ends_are_not(
     build, given, argument, low, high, unit
 ):
@@ -161,10 +160,8 @@ def test_what_lies_outside_is_refused_and_both_ends_are_not(
         assert told.endswith(f"must lie between {low:.6g} and {high:.6g}{unit}")
 
 
-@pytest.mark.parametrize(
-    ("build", "given", "argument", "unit"), POSITIVE, ids=ids(POSITIVE)
-)
-@pytest.mark.parametrize("value", [0.0, -1e-9, math.nan, math.inf])
+@each("build, given, argument, unit", POSITIVE)
+@each("value", [0.0, -1e-9, math.nan, math.inf])
 def test_what_is_not_above_zero_is_refused(build, given, argument, unit, value):
     told = refuse(build, given, argument, value)
     assert told.startswith(f"{name_of(build, argument)} = ")

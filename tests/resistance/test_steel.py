@@ -10,10 +10,11 @@ from netdesign.resistance.steel import (
     compute_bar_resistance,
     compute_rope_resistance,
 )
+from tests.each import each
 
 
-@pytest.mark.parametrize(
-    ("diameter_mm", "construction", "grade", "published_kN"),
+@each(
+    "diameter_mm, construction, grade, published_kN",
     [
         # API 9A, 6x7 with fibre core
         (8, "6x7-FC", 1770, 37.6),

@@ -14,6 +14,7 @@ from netdesign.search.maxima import (
 )
 from netdesign.search.questions import list_first_design
 from netdesign.search.upper_bound import Bounds
+from tests.each import each
 from tests.search.synthetic import (
     answer,
     drive,
@@ -47,7 +48,7 @@ def test_bound_holds_and_is_closed(family, seed):
     assert np.all(gaps <= 0.005 * np.array(found.maximum) * (1 + 1e-6))
 
 
-@pytest.mark.parametrize("seed", FEW)
+@each("seed", FEW)
 def test_smooth_responses_take_few_cases(seed):
     assert len(drive(smooth(seed), 3).points) <= 80
 
@@ -66,8 +67,8 @@ def test_a_peak_as_narrow_as_is_resolved_is_never_missed(seed):
     assert_covers(found, true_maxima(response, 3))
 
 
-@pytest.mark.parametrize("seed", FEW)
-@pytest.mark.parametrize("family", [smooth, valley])
+@each("seed", FEW)
+@each("family", [smooth, valley])
 def test_the_bound_holds_where_small_values_are_known_roughly(family, seed):
     """Wrong by up to 2 %, four times the gap."""
     response = family(seed)
@@ -89,7 +90,7 @@ def test_no_family_is_missed_at_length(seed):
             assert_covers(found, truth)
 
 
-@pytest.mark.parametrize("dimension", [1, 2, 3, 4, 5, 6])
+@each("dimension", [1, 2, 3, 4, 5, 6])
 def test_every_number_of_parameters_is_searched(dimension):
     """A bowl with its top inside: 10 less the squares of the distances."""
     top = np.linspace(0.3, 0.6, dimension)

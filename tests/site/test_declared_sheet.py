@@ -12,6 +12,7 @@ from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.names import name_check
+from tests.each import each
 from tests.small_site import build_row, build_site, resist
 
 HEADINGS = ["net row", "check", "document", "author", "date"]
@@ -108,8 +109,8 @@ def test_what_stands_on_no_support_has_no_end(sheets, save, language, subject):
     assert "..., end of the row" in str(finding.accepted)
 
 
-@pytest.mark.parametrize(("member", "mode"), [*MEMBER_MODES, *DEPENDENT_MODES])
-@pytest.mark.parametrize("other", [None, "other"])
+@each("member, mode", [*MEMBER_MODES, *DEPENDENT_MODES])
+@each("other", [None, "other"])
 def test_a_declaration_holds_at_the_end_for_the_same_type_only(member, mode, other):
     """Another type has another resistance, which nobody has proven."""
     general = Declaration(

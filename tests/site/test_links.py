@@ -5,7 +5,7 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
-from tests.study.knowing_less.drawn_site import write_lines
+from tests.site_lines import write_lines
 
 
 def read(path, links, ropes=()):

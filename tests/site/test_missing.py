@@ -7,7 +7,7 @@ import pytest
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
-from tests.study.knowing_less.drawn_site import write_lines
+from tests.site_lines import write_lines
 
 NAMES = {(plan.name, one.key): one.label for plan in SHEETS for one in plan.fields}
 FORCES = ("uphill_anchor_distance", "downhill_anchor_distance", "snow_layers")

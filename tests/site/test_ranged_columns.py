@@ -10,6 +10,7 @@ from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
 from netdesign.site.columns.fields import convert_unit
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from tests.each import each
 from tests.small_site import build_row
 
 # Nets column by the line of sheet Ranges that takes its place
@@ -109,7 +110,7 @@ FURTHER = [one.key for one in FURTHER_QUANTITIES]
 GLIDE = {"slip_length", "glide_factor"}
 
 
-@pytest.mark.parametrize("name", FURTHER)
+@each("name", FURTHER)
 def test_every_quantity_that_ranges_changes_a_row(name):
     ground = build_ground_from_glide_factor(1.4, 2.5)
     row = build_row("R", ground=ground, glide_factor=1.4, snow_thickness=2.5)

@@ -5,6 +5,7 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.declared_sheet import split_replacement, write_replacement
 from netdesign.site.reader import read_site
+from tests.each import each
 from tests.short_example import write_short_example
 from tests.tiny_site import SHEETS
 
@@ -16,8 +17,8 @@ def workbook(tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize(
-    ("text", "found"),
+@each(
+    "text, found",
     [
         ("Nets.P8=A40-tested", ("Nets!P8", "A40-tested")),
         ("Nets!p8= 3,0 m ", ("Nets!P8", "3,0 m")),

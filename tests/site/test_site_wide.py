@@ -8,7 +8,8 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.reader import read_site
-from tests.study.knowing_less.drawn_site import draw_lines, write_lines
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import draw_lines
 
 KEYS = [one.key for one in NETS.list_site_wide()]
 FIELDS = {one.key: one for one in NETS.fields}

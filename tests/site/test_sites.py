@@ -1,7 +1,6 @@
 """Three whole sites, in every kind of file that they may come in."""
 
 import math
-import subprocess
 
 import openpyxl
 import pytest
@@ -11,7 +10,7 @@ from netdesign.site.model import MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.snow.ground import build_ground_from_glide_factor
-from tests.programs import require_program
+from tests.programs import convert
 from tests.site.cells.ods_files import write_ods
 from tests.site.whole_sites import (
     DAMAGED_FINDINGS,
@@ -30,16 +29,9 @@ def merge_german_headings(workbook):
         workbook["Netze"].merge_cells(place)
 
 
-def convert(path, kind):
+def save_again(path, kind):
     """The same workbook, written by LibreOffice."""
-    profile = f"-env:UserInstallation=file://{path.parent}/profile"
-    command = (require_program("soffice"), profile, "--headless", "--convert-to", kind)
-    subprocess.run(
-        [*command, "--outdir", str(path.parent), str(path)],
-        check=True,
-        capture_output=True,
-        timeout=100,
-    )
+    convert(kind, path.parent, path)
     return path.with_suffix(f".{kind}")
 
 
@@ -111,12 +103,14 @@ def test_the_french_site_saved_by_libreoffice(save, tmp_path, kind):
     (tmp_path / "typed").mkdir()
     typed = tmp_path / "typed" / "site.xlsx"
     save(french_site()).rename(typed)
-    source = typed if kind == "ods" else convert(typed, "ods")
-    assert_french(read_site(convert(source, kind)))
+    source = typed if kind == "ods" else save_again(typed, "ods")
+    assert_french(read_site(save_again(source, kind)))
 
 
 def test_the_german_site_saved_by_libreoffice(save):
-    assert_german(read_site(convert(save(german_site(), merge_german_headings), "ods")))
+    assert_german(
+        read_site(save_again(save(german_site(), merge_german_headings), "ods"))
+    )
 
 
 def test_a_damaged_site_gives_every_finding_at_once(save, refused):

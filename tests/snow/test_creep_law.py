@@ -16,6 +16,7 @@ from netdesign.snow.creep_law import (
     compute_strain_rate,
     require_admissible,
 )
+from tests.each import each
 
 LAW = BOUTILLIER_2004
 
@@ -113,7 +114,7 @@ def test_calibrated_range_includes_its_bounds():
     assert not LAW.is_calibrated(math.nan)
 
 
-@pytest.mark.parametrize("density", [0.1, 0.25, 0.4, 0.6, 0.8, 0.85, 0.95])
+@each("density", [0.1, 0.25, 0.4, 0.6, 0.8, 0.85, 0.95])
 def test_uniaxial_compression_does_not_shrink_the_section(density):
     """3 a >= 2 b: FACTS.md, section 2; the fit fulfils it above D = 0.097."""
     shear, bulk = compute_shear_factor(LAW, density), compute_bulk_factor(LAW, density)
@@ -127,8 +128,8 @@ def test_both_fall_with_density():
         assert values == sorted(values, reverse=True)
 
 
-@pytest.mark.parametrize("density", [0.0, -0.1, 1.0, 1.1, math.nan, math.inf])
-@pytest.mark.parametrize("compute", [compute_shear_factor, compute_bulk_factor])
+@each("density", [0.0, -0.1, 1.0, 1.1, math.nan, math.inf])
+@each("compute", [compute_shear_factor, compute_bulk_factor])
 def test_density_that_is_not_snow(compute, density):
     with pytest.raises(
         ModelError, match=r"relative density = .* at most 0\.99, that is 908 kg/m³"
@@ -183,7 +184,7 @@ def test_branch_beyond_the_densest_snow(branch):
         replace(LAW, branch=branch)
 
 
-@pytest.mark.parametrize(
+@each(
     "calibrated",
     [
         (0.6, 0.5),

@@ -27,6 +27,7 @@ from netdesign.snow.ground import (
 from netdesign.snow.law import linearise_sliding
 from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snow.wall import Wall
+from tests.each import each
 
 FLUIDITY = 2.6e-25  # [Pa^-3 s^-1]
 LAYERS = (
@@ -44,8 +45,8 @@ def invariant(law, density, stress):
     return math.sqrt((deviator**2).sum() / 2.0 + b / a * pressure**2)
 
 
-@pytest.mark.parametrize("name", ["boutillier-2004", "zwinger-2007"])
-@pytest.mark.parametrize("exponent", [1.0, 1.8, 2.15, 3.6])
+@each("name", ["boutillier-2004", "zwinger-2007"])
+@each("exponent", [1.0, 1.8, 2.15, 3.6])
 def test_strain_rates_are_alike_at_one_stress_at_every_density(name, exponent):
     law, size = CREEP_LAWS[name], 3.7e3
     other = derive_exponent(law, exponent)
@@ -102,7 +103,7 @@ def test_stated_densities():
     assert all(stated[2.15].is_stated_for(rho) for rho in (150.0, 500.0))
 
 
-@pytest.mark.parametrize("name", load_glide_tables_of_exponents())
+@each("name", load_glide_tables_of_exponents())
 def test_slip_length_at_the_entries_of_the_table(name):
     table = load_glide_tables_of_exponents()[name]
     assert name in DERIVED_LAWS or name.endswith("-slip1")

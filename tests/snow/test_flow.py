@@ -21,6 +21,7 @@ from netdesign.snow.law import (
 )
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
+from tests.each import each
 
 TIGHT = 1e-9
 
@@ -92,8 +93,8 @@ def strain_rate(law, stress):
     return size ** ((law.exponent - 1.0) / 2.0) * compliance @ stress
 
 
-@pytest.mark.parametrize("exponent", [1.0, 2.0, 3.0])
-@pytest.mark.parametrize("size", [1.0, 1e-3])
+@each("exponent", [1.0, 2.0, 3.0])
+@each("size", [1.0, 1e-3])
 def test_tangent_is_the_derivative_of_the_law(a_flow_problem, exponent, size):
     law = a_flow_problem(exponent=exponent)
     stress = size * np.array([0.7, -0.4, 0.9])
@@ -275,8 +276,8 @@ def test_with_much_friction_it_sticks(inclined, a_flow_problem):
     assert not state.contact.sign.any()
 
 
-@pytest.mark.parametrize("friction", [0.05, 0.15, 0.4])
-@pytest.mark.parametrize("inclination", [0.0, 30.0])
+@each("friction", [0.05, 0.15, 0.4])
+@each("inclination", [0.0, 30.0])
 def test_coulomb(a_mesh, a_flow_problem, inclination, friction):
     """(N14): at the limit and along the slip where it slips, below it elsewhere."""
     mesh = a_mesh(inclination_deg=inclination, sag=0.08)

@@ -12,11 +12,12 @@ from netdesign.snow.creep_law import (
     compute_settling_fluidity,
 )
 from netdesign.units import fluidity_from_mpa_year
+from tests.each import each
 
 
 # FACTS.md, section 4: B = 2A in MPa^-3 a^-1, three digits, from the same law.
-@pytest.mark.parametrize(
-    ("celsius", "expected"),
+@each(
+    "celsius, expected",
     [(-20, 10.5), (-15, 18.2), (-10, 30.9), (-5, 101), (-2, 202), (0, 317)],
 )
 def test_values_of_the_source(celsius, expected):

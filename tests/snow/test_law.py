@@ -21,6 +21,7 @@ from netdesign.snow.law import (
 )
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
+from tests.each import each
 
 RATIOS = [0.7, 1.8, 60.0]
 UNIT = np.array([1.0, 1.0, 0.0])
@@ -65,9 +66,9 @@ def test_invariant_is_the_same(a_flow_problem, ratio):
     )
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
-@pytest.mark.parametrize("exponent", [1.0, 3.0])
-@pytest.mark.parametrize("fluidity", [1.0, 7.0])
+@each("ratio", RATIOS)
+@each("exponent", [1.0, 3.0])
+@each("fluidity", [1.0, 7.0])
 def test_condensed_tangent_is_that_of_the_velocity_element(
     a_flow_problem, ratio, exponent, fluidity
 ):
@@ -217,8 +218,8 @@ def test_fluidity_of_all_layers_leaves_the_stress(a_flow_problem):
     )
 
 
-@pytest.mark.parametrize("exponent", [1.0, 3.0])
-@pytest.mark.parametrize("fluidity", [0.037, 1.0, 4.3])
+@each("exponent", [1.0, 3.0])
+@each("fluidity", [0.037, 1.0, 4.3])
 def test_ground_slips_by_the_fluidity_of_the_snow_on_it(
     a_flow_problem, exponent, fluidity
 ):

@@ -9,6 +9,7 @@ from netdesign.snow.element import list_dofs
 from netdesign.snow.kernel import assemble_base_stiffness, assemble_stiffness
 from netdesign.snow.linear import SingularError, find_order, solve_matrix, sum_blocks
 from netdesign.snow.mesh import build_template
+from tests.each import each
 
 MU = 0.6
 
@@ -71,8 +72,8 @@ def count_fill_in(matrix):
     return factors.L.nnz
 
 
-@pytest.mark.parametrize("is_mixed", [False, True])
-@pytest.mark.parametrize("level", [0, 1, 2])
+@each("is_mixed", [False, True])
+@each("level", [0, 1, 2])
 def test_order_of_least_degrees_fills_in_less_than_the_nodes_own(level, is_mixed):
     """A permutation, whose factor has less than that of the unknowns as numbered."""
     template = build_template(5.0, MESH_LEVELS[level])

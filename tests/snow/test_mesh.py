@@ -10,6 +10,7 @@ from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from tests.each import each
 
 COARSE = MESH_LEVELS[1]
 ASPECTS = [0.25, 0.3, 0.7, 1.0, 2.5, 5.0, 20.0]
@@ -20,8 +21,8 @@ def areas(nodes, triangles):
     return ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) / 2
 
 
-@pytest.mark.parametrize("size", MESH_LEVELS)
-@pytest.mark.parametrize("aspect", ASPECTS)
+@each("size", MESH_LEVELS)
+@each("aspect", ASPECTS)
 def test_triangles_fill_the_rectangle(aspect, size):
     template = build_template(aspect, size)
     sizes = np.abs(areas(template.nodes, template.triangles))
@@ -59,8 +60,8 @@ def draw_shape(seed):
     return aspect, tuple((np.cumsum(parts) / parts.sum())[:-1].tolist())
 
 
-@pytest.mark.parametrize("seed", UNTIDY)
-@pytest.mark.parametrize("size", [*MESH_LEVELS[:2], *TRANSIENT_LEVELS[:2]])
+@each("seed", UNTIDY)
+@each("size", [*MESH_LEVELS[:2], *TRANSIENT_LEVELS[:2]])
 def test_sides_hold_every_node_that_lies_on_them(seed, size):
     aspect, interfaces = draw_shape(seed)
     template = build_template(aspect, size, interfaces)
@@ -104,9 +105,9 @@ def largest_angles(corners):
     return np.max(angles, axis=0)
 
 
-@pytest.mark.parametrize("seed", range(20))
-@pytest.mark.parametrize("aspect", [3.0, 9.0, 60.0])
-@pytest.mark.parametrize("size", MESH_LEVELS[:4])
+@each("seed", range(20))
+@each("aspect", [3.0, 9.0, 60.0])
+@each("size", MESH_LEVELS[:4])
 def test_layers_have_sides_and_no_slivers(aspect, seed, size):
     """Long triangles are sound, angles close to 180 degrees are not.
 
@@ -267,7 +268,7 @@ SIZES_ACCEPTED = [
 ]
 
 
-@pytest.mark.parametrize("changes", SIZES_ACCEPTED, ids=str)
+@each("changes", SIZES_ACCEPTED)
 def test_bounds_of_sizes_are_accepted(changes):
     sizes = {**SOUND, **changes}
     assert asdict(MeshSize(**sizes)) == UNLESS_GIVEN | sizes
@@ -295,7 +296,7 @@ NONFINITE = [
 ]
 
 
-@pytest.mark.parametrize(("field", "value", "name"), SIZES_REFUSED + NONFINITE)
+@each("field, value, name", SIZES_REFUSED + NONFINITE)
 def test_sizes_are_refused(field, value, name):
     with pytest.raises(ModelError, match=name):
         MeshSize(**{**SOUND, field: value})

@@ -17,6 +17,7 @@ from netdesign.snow.snowpack import (
     compute_thickness,
 )
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.each import each
 
 SOUND = {
     "slope_angle": math.radians(30.0),
@@ -68,7 +69,7 @@ ACCEPTED = [
 ]
 
 
-@pytest.mark.parametrize(("field", "value"), ACCEPTED)
+@each("field, value", ACCEPTED)
 def test_bounds_are_accepted(field, value):
     assert getattr(a_pack(**{field: value}), field) == value
 
@@ -87,14 +88,14 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("field", "value", "name"), REFUSED)
+@each("field, value, name", REFUSED)
 def test_beyond_the_bounds_is_refused(field, value, name):
     with pytest.raises(ModelError, match=f"{name} = .*must"):
         a_pack(**{field: value})
 
 
-@pytest.mark.parametrize("field", SOUND)
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+@each("field", SOUND)
+@each("value", [math.nan, math.inf, -math.inf])
 def test_nonfinite_is_refused(field, value):
     with pytest.raises(ModelError, match=str(value)):
         a_pack(**{field: value})
@@ -171,8 +172,8 @@ def test_density_of_a_layer_at_its_bounds(density):
     assert Layer(thickness=1.0, density=density).density == density
 
 
-@pytest.mark.parametrize(
-    ("field", "value"),
+@each(
+    "field, value",
     [
         ("thickness", 0.0),
         ("thickness", -1.0),

@@ -6,6 +6,7 @@ import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.snow.wall import Wall
+from tests.each import each
 
 STEEPEST, ROUGHEST = math.radians(80.0), math.radians(60.0)
 
@@ -17,8 +18,8 @@ def test_friction():
     assert rough.friction == pytest.approx(1.0, rel=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("field", "value"),
+@each(
+    "field, value",
     [
         ("height_normal", 1e-9),
         ("inclination", 0.0),
@@ -33,8 +34,8 @@ def test_bounds_are_accepted(field, value):
     assert getattr(wall, field) == value
 
 
-@pytest.mark.parametrize(
-    ("field", "value", "name"),
+@each(
+    "field, value, name",
     [
         ("height_normal", 0.0, "wall height"),
         ("height_normal", -1.0, "wall height"),

@@ -10,6 +10,7 @@ import pytest
 
 from netdesign.solving import identity
 from netdesign.solving.identity import identify_solver, take_code
+from tests.each import each
 
 PACKAGE = Path(identity.__file__).parents[1]
 FILES = list(identity._list_files(identity._SOLVER_PARTS, PACKAGE))
@@ -56,7 +57,7 @@ def find_docstrings(text):
             yield node.body[0].lineno, node.body[0].col_offset
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.stem)
+@each("path", MODULES)
 def test_of_every_module_all_stays_but_docstrings_and_comments(path):
     text = path.read_text(encoding="utf-8")
     documented = set(find_docstrings(text))

@@ -13,6 +13,7 @@ from netdesign.structure.anchors import (
     compute_anchor_forces,
 )
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
+from tests.each import each
 
 SPACING = 4.0
 FOOT = (30e3, 10e3)  # net pulls the foot anchor downslope and out of the ground
@@ -91,8 +92,8 @@ def test_slack_guy_leaves_its_anchor_without_force_or_direction():
     assert anchor.direction is None
 
 
-@pytest.mark.parametrize(
-    ("x", "y", "degrees"),
+@each(
+    "x, y, degrees",
     [(1, 0, 0), (0, 1, 90), (-1, 0, 180), (0, -1, -90), (1, 1, 45), (-1, -1, -135)],
 )
 def test_direction_counts_from_downslope_positive_out_of_the_ground(x, y, degrees):

@@ -12,6 +12,7 @@ from netdesign.structure.axis import (
     turn_sideways,
 )
 from netdesign.structure.members import Member
+from tests.each import each
 
 UPHILL = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
 
@@ -46,8 +47,8 @@ def test_sideways_part_turns_the_pull_in_space(share):
     assert turn_sideways(angle, share) == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize("splay", [0.0, 0.31, 0.77])
-@pytest.mark.parametrize("inclination", [0.42, 1.57, 2.13])
+@each("splay", [0.0, 0.31, 0.77])
+@each("inclination", [0.42, 1.57, 2.13])
 def test_a_splayed_guy_is_flatter_than_its_section(inclination, splay):
     """Its line in space, from the vector itself; one that leans back stays so."""
     x, y = math.cos(inclination), math.sin(inclination)

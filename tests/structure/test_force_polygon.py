@@ -7,6 +7,7 @@ import pytest
 
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
+from tests.each import each
 
 DRAW = random.Random(20261121)
 
@@ -25,7 +26,7 @@ def draw_case():
     return layout, head, foot_pull, head_pull
 
 
-@pytest.mark.parametrize("case", [draw_case() for _ in range(60)])
+@each("case", [draw_case() for _ in range(60)])
 def test_head_and_ground_are_in_equilibrium(case):
     layout, head, foot_pull, head_pull = case
     points = place_support(layout, head)

@@ -13,6 +13,7 @@ from netdesign.structure.head import (
     compute_head_forces,
 )
 from netdesign.structure.layout import SupportPoints
+from tests.each import each
 
 KN = 1e3
 
@@ -232,8 +233,8 @@ def test_what_is_no_number_gives_no_forces(bad):
 SIZES = [one.name for one in fields(HeadForces) if one.name != "reason"]
 
 
-@pytest.mark.parametrize("bad", [-5e-324, math.nan, math.inf])
-@pytest.mark.parametrize(
+@each("bad", [-5e-324, math.nan, math.inf])
+@each(
     "member",
     ["post_compression", "post_tension", "uphill_guy_tension", "downhill_guy_tension"],
 )

@@ -6,6 +6,7 @@ import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.structure.layout import SupportLayout, place_support
+from tests.each import each
 
 ABOVE_45_DEG = math.nextafter(math.radians(45), 2)
 BELOW_MINUS_30_DEG = math.nextafter(math.radians(-30), -2)
@@ -58,8 +59,8 @@ def test_layout_accepts_the_ends_of_its_ranges(field, accepted):
         assert getattr(a_layout(**{field: value}), field) == value
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-@pytest.mark.parametrize(
+@each("bad", [math.nan, math.inf, -math.inf])
+@each(
     "field",
     [
         "post_spacing",
@@ -73,8 +74,8 @@ def test_layout_refuses_what_is_no_number(field, bad):
         a_layout(**{field: bad})
 
 
-@pytest.mark.parametrize(
-    ("field", "bad"),
+@each(
+    "field, bad",
     [
         ("post_spacing", 0.0),
         ("post_spacing", -4.0),

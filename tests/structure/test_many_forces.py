@@ -11,6 +11,7 @@ from netdesign.structure.axis import measure_pull
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.structure.members import CARRYING_MEMBERS, Member
+from tests.each import each
 
 COUNT = 90
 
@@ -60,7 +61,7 @@ def solve_each(layout, heads, feet, pulls):
     ]
 
 
-@pytest.mark.parametrize("seed", range(24))
+@each("seed", range(24))
 def test_forces_of_many_are_those_of_each(seed):
     layout, heads, feet, pulls = draw_supports(seed)
     many = compute_many_forces(

@@ -9,6 +9,7 @@ from netdesign.site.model import Resistance
 from netdesign.study.stronger_types import find_size
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
+from tests.each import each
 
 BAR = say("derivation.bar", diameter=25.0, strength=670.0)
 BOND = say(
@@ -81,9 +82,9 @@ def test_a_section_stays_in_its_series():
     assert find_size(unknown, 50.0) is None
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize(
-    ("mode", "how"),
+@each("language", LANGUAGES)
+@each(
+    "mode, how",
     [("tendon", BAR), ("pull_out", BOND), ("compression", BUCKLING), ("rope", None)],
 )
 def test_each_part_has_its_sentence(mode, how, language):

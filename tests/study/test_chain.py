@@ -19,7 +19,8 @@ from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
-from tests.study.knowing_less.drawn_site import write_lines
+from tests.each import each
+from tests.site_lines import write_lines
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))
 NF = load_standard("nf-p-95-304-style")
@@ -131,8 +132,8 @@ def test_bar_loses_the_share_that_its_ground_takes_over_the_years(solved, years)
     assert bent < judge(solved, design_life=1)[1]["foot_anchor.bending"].read("R_k")
 
 
-@pytest.mark.parametrize(
-    ("member", "wear", "said"),
+@each(
+    "member, wear, said",
     [
         ("foot_anchor", {"soil": ""}, "ground class for corrosion"),
         ("foot_anchor", {"protection": ""}, "corrosion protection"),
@@ -357,7 +358,7 @@ def test_pulls_added_as_numbers_are_said_and_never_less(solved):
     assert list(rejudge(as_vectors, scalar)) != []
 
 
-@pytest.mark.parametrize("seed", range(12))
+@each("seed", range(12))
 def test_a_topic_more_never_makes_a_verdict_better(solved, seed):
     draw = random.Random(seed)
     row = solved[0].rows[0]
@@ -409,8 +410,8 @@ def test_notes_say_what_snow_the_guys_bear_and_how_high_the_loaded_net_is(solved
     ]
 
 
-@pytest.mark.parametrize("basis", ["computed", "tested"])
-@pytest.mark.parametrize("axis", [-9.3, 14.1, 38.9, 41.2, 63.0])
+@each("basis", ["computed", "tested"])
+@each("axis", [-9.3, 14.1, 38.9, 41.2, 63.0])
 def test_a_bond_computed_for_a_borehole_that_rises_is_not_proven(solved, axis, basis):
     row = solved[0].rows[0]
     strong = change(

@@ -12,6 +12,7 @@ from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.study.check_by_case import CheckByCase, Setting
 from netdesign.study.effects import find_effects
 from netdesign.study.record_guideline import find_row_floor
+from tests.each import each
 from tests.small_site import build_row
 
 STANDARD = load_standard("swiss-guideline-2007")
@@ -54,8 +55,8 @@ def list_floor(row, ranges):
     return {one.member: one.force for one in floor.forces}
 
 
-@pytest.mark.parametrize("name", TYPED)
-@pytest.mark.parametrize("seed", [3, 11, 29])
+@each("name", TYPED)
+@each("seed", [3, 11, 29])
 def test_floor_of_a_moved_quantity_is_that_of_a_typed_one(name, seed):
     """Also of one that ranged: its range is gone."""
     row = draw_row(random.Random(seed))

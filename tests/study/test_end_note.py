@@ -12,6 +12,7 @@ from netdesign.planview.end_effect import compute_end_effect
 from netdesign.snow.creep_law import BOUTILLIER_2004, GAGLIARDINI_1997
 from netdesign.study.effects import find_effects, list_end_notes, record_end_effects
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.each import each
 from tests.small_site import build_row
 
 STANDARD = load_standard("swiss-guideline-2007")
@@ -63,8 +64,8 @@ def test_note_says_where_the_profile_gives_less(gap, key):
     assert (note.arguments["free_width"] > width) is key.endswith("larger")
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("gap", [0.5, math.inf])
+@each("language", LANGUAGES)
+@each("gap", [0.5, math.inf])
 def test_note_shows_its_numbers_in_every_language(language, gap):
     (note,) = notes(replace(ROW, gap=gap))
     shown = render(note, language).replace(",", ".")

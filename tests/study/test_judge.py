@@ -18,6 +18,7 @@ from netdesign.study.cases import count_cases, solve_site
 from netdesign.study.judge import judge_site
 from netdesign.words.message import say
 from netdesign.words.names import name_check
+from tests.each import each
 from tests.read_check import compare_support
 from tests.small_site import (
     RANGES,
@@ -171,8 +172,8 @@ def test_numbers_of_a_check_follow_from_each_other(judge):
     assert check.case == action.case
 
 
-@pytest.mark.parametrize(
-    ("first", "second", "whole"),
+@each(
+    "first, second, whole",
     [
         (STRONG, STRONG, Verdict.PASS),
         (STRONG, WEAK, Verdict.FAIL),

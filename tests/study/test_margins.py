@@ -16,6 +16,7 @@ from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.margins import find_margins, list_spans, solve_ends
+from tests.each import each
 from tests.small_site import build_row
 
 RANGES = Ranges.of(
@@ -311,10 +312,8 @@ def test_ends_are_solved_in_one_case_that_serves_all_members():
     assert solver.count == len(ends)
 
 
-@pytest.mark.parametrize("used", [0.57, 0.83, 0.94, 0.99, 1.03, 1.21])
-@pytest.mark.parametrize(
-    ("member", "at"), [("foot_anchor", GOVERNING), ("post", RIVAL)]
-)
+@each("used", [0.57, 0.83, 0.94, 0.99, 1.03, 1.21])
+@each("member, at", [("foot_anchor", GOVERNING), ("post", RIVAL)])
 def test_a_limit_followed_in_a_case_that_carries_less_holds_in_every_case(
     used, member, at
 ):

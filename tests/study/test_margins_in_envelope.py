@@ -15,7 +15,8 @@ from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
-from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines, write_lines
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines
 
 RUN = CheckRun(settings=SolverSettings())
 BY_KEY = {one.key: one for one in PARAMETERS.values()}

@@ -26,6 +26,7 @@ from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
+from tests.each import each
 from tests.read_check import bring, scale_force, scale_step
 from tests.small_site import (
     LASTS,
@@ -197,7 +198,7 @@ def _list_ends(check):
     return check.known["E_d"].ends
 
 
-@pytest.mark.parametrize("seed", range(6))
+@each("seed", range(6))
 def test_no_demand_falls_below_that_without_a_panel(seed):
     row, panel = draw_row(np.random.default_rng(700 + seed), seed)
     plain, both = (

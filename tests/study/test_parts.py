@@ -8,7 +8,8 @@ from netdesign.envelope.ranges import Interval
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.study.parts import list_parts
-from tests.study.knowing_less.drawn_site import draw_lines, write_lines
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import draw_lines
 
 INCLINATION = Interval(low=math.radians(25.0), high=math.radians(35.0))
 BARE = {

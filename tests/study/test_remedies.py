@@ -21,6 +21,7 @@ from netdesign.study.remedies import (
     find_height_remedy,
     find_spacing_remedy,
 )
+from tests.each import each
 from tests.small_site import build_row
 
 RANGES = Ranges.of(
@@ -358,8 +359,8 @@ def draw_peak(seed):
     return force, float(draw.uniform(0.9, 1.4))
 
 
-@pytest.mark.parametrize("name", ["thickness", "snow_height"])
-@pytest.mark.parametrize("seed", range(7))
+@each("name", ["thickness", "snow_height"])
+@each("seed", range(7))
 def test_no_thickness_is_told_up_to_which_some_solved_snow_fails(seed, name):
     force, scale = draw_peak(seed)
     steep = 1.0 / math.cos(ROW.slope_angle) if name == "snow_height" else 1.0

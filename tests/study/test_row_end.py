@@ -16,6 +16,7 @@ from netdesign.study.member_force import compute_end_factor
 from netdesign.study.rejudge import rejudge
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
+from tests.each import each
 from tests.read_check import scale_force, scale_step
 from tests.small_site import RANGES, RUN, build_row, name_force_checks, resist
 from tests.study.test_panel_study import (
@@ -199,7 +200,7 @@ def pull_rope(load, points, spacing, sag, stiffness):
     return math.exp(brentq(excess, 0.0, 30.0))
 
 
-@pytest.mark.parametrize("seed", range(12))
+@each("seed", range(12))
 def test_the_end_effect_raises_a_rope_s_pull_by_less_than_its_factor(seed):
     rng = np.random.default_rng(60 + seed)
     spacing, end_factor = rng.uniform(2.5, 5.0), rng.uniform(0.5, 4.0)

@@ -13,6 +13,7 @@ from netdesign.structure.members import Member
 from netdesign.study.effects import find_effects
 from netdesign.study.member_force import RowForces, _list_load_leaves
 from netdesign.study.support_records import HeldSidewaysRecord
+from tests.each import each
 from tests.small_site import RANGES, build_row
 
 DRAWN = [random.Random(seed) for seed in range(40)]
@@ -77,7 +78,7 @@ def grow(held, growth):
     )
 
 
-@pytest.mark.parametrize("random_numbers", DRAWN)
+@each("random_numbers", DRAWN)
 def test_rise_bounds_what_a_larger_pull_adds(random_numbers):
     """Also to a post that nothing is added to now: the guys' tension holds it yet."""
     now = draw(random_numbers)

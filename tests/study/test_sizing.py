@@ -16,8 +16,8 @@ from netdesign.study.check_site import solve_rows
 from netdesign.study.sizing import size_site
 from netdesign.words.catalogue import LANGUAGES
 from tests.short_example import write_short_example
+from tests.site_lines import write_lines
 from tests.small_site import ROWS, RUN, build_site
-from tests.study.knowing_less.drawn_site import write_lines
 
 PROFILE = load_standard("nf-p-95-304-style")
 

@@ -14,6 +14,7 @@ from netdesign.study.check_by_case import (
     list_near,
 )
 from netdesign.study.remedies import find_height_remedy
+from tests.each import each
 from tests.study.test_remedies import ROW, MadeUpSolver, a_check
 
 STEP = 0.01  # of three digits
@@ -53,7 +54,7 @@ def draw_bent_force(seed):
     return force
 
 
-@pytest.mark.parametrize("seed", range(10))
+@each("seed", range(10))
 def test_the_last_value_that_passes_is_found(seed):
     """Up to half a percent of the utilisation, or a step, whichever is more."""
     force = draw_bent_force(seed)
@@ -138,7 +139,7 @@ def build_check(used, force):
     )
 
 
-@pytest.mark.parametrize("seed", range(12))
+@each("seed", range(12))
 def test_a_remedy_passes_in_every_case_of_the_search(seed):
     force, used = draw_force(seed), random.Random(seed).uniform(0.91, 1.9)
     check = build_check(used, force)

@@ -7,6 +7,7 @@ import pytest
 
 from netdesign.study.record_provenance import is_of_ties
 from netdesign.study.values import Difference, compare_values, list_values
+from tests.each import each
 from tests.report.build_study import build_study
 
 STUDY = build_study(rows=2)
@@ -18,7 +19,7 @@ def count(old, new, **options):
     return len(compare_values(old, new, **options))
 
 
-@pytest.mark.parametrize("number", NUMBERS)
+@each("number", NUMBERS)
 def test_a_number_is_the_same_within_a_millionth(number):
     if abs(number) > 2.0:
         assert count({"force_kN": number}, {"force_kN": number * (1 + 9e-7)}) == 0

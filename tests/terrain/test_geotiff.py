@@ -16,6 +16,7 @@ from netdesign.terrain.geotiff import parse_geotiff
 from netdesign.terrain.grid import Grid, parse_grid, read_grid
 from netdesign.terrain.libraries import keep_quiet
 from netdesign.terrain.measure import measure_plan
+from tests.each import each
 from tests.peak_memory import PEAK, needs_peak
 from tests.terrain.map_files import write_asc, write_tif
 from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
@@ -29,8 +30,8 @@ def cone(x, y):
     return 2000.0 - 0.71 * np.hypot(x, y - 300.0)
 
 
-@pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("surface", [plane(math.radians(37.7)), cone])
+@each("seed", range(4))
+@each("surface", [plane(math.radians(37.7)), cone])
 def test_rows_are_those_of_the_same_grid_in_ascii(surface, seed):
     draw = np.random.default_rng(seed)
     cell = float(draw.choice([0.5, 1.0, 2.0]))
@@ -64,8 +65,8 @@ def test_place_and_heights_are_those_of_the_middles(tags):
     assert grid.notes == ()
 
 
-@pytest.mark.parametrize("nodata", [-9999.0, math.nan, -3.4028234663852886e38])
-@pytest.mark.parametrize("kind", ["float32", "float64"])
+@each("nodata", [-9999.0, math.nan, -3.4028234663852886e38])
+@each("kind", ["float32", "float64"])
 def test_cells_without_data_are_not_known(nodata, kind):
     heights = HEIGHTS.copy()
     heights[1, 2] = nodata
@@ -135,7 +136,7 @@ REFUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("said", REFUSED)
+@each("said", REFUSED)
 def test_what_is_not_in_metres_on_a_plane_is_refused(said):
     special = REFUSED[said]
     if special.get("dtype"):

@@ -7,6 +7,7 @@ import pytest
 
 from netdesign.outcome import TerrainError
 from netdesign.terrain.grid import parse_grid
+from tests.each import each
 
 HEAD = b"ncols 3\nnrows 4\nxllcorner 700.5\nyllcorner 200.25\ncellsize 0.5\n"
 ROWS = b"1 2 3\n4 5 6\n7 8 9\n10 11 12\n"
@@ -30,8 +31,8 @@ def test_cells_without_data_are_not_known():
     assert np.argwhere(np.isnan(grid.heights)).tolist() == [[2, 1]]
 
 
-@pytest.mark.parametrize(
-    ("content", "said"),
+@each(
+    "content, said",
     [
         (b"", "lacks ncols"),
         (ROWS, "lacks ncols"),

@@ -15,6 +15,7 @@ from netdesign.terrain.crs import read_member, require_plane, require_same, writ
 from netdesign.terrain.cut_names import read_cut_names
 from netdesign.terrain.plan import read_plan
 from netdesign.terrain.wkb import decode_wkb, encode_wkb
+from tests.each import each
 from tests.peak_memory import PEAK, needs_peak
 from tests.terrain.map_files import GIVEN, SWISS, pack_wkb, write_rows
 
@@ -192,8 +193,8 @@ def test_layers_in_two_systems_are_refused(tmp_path):
         read_plan(path)
 
 
-@pytest.mark.parametrize(
-    ("name", "code"),
+@each(
+    "name, code",
     [
         ("urn:ogc:def:crs:EPSG::2056", SWISS),
         ("EPSG:2056", SWISS),

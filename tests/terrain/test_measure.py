@@ -9,6 +9,7 @@ from netdesign.outcome import TerrainError
 from netdesign.terrain.measure import describe_steep_above, measure_rows
 from netdesign.terrain.site_lines import derive_cells
 from netdesign.terrain.surface import choose_window
+from tests.each import each
 from tests.terrain.surfaces import SPACING, build_grid, draw_line, plan_of, plane
 
 PSI = math.radians(38.3)
@@ -21,8 +22,8 @@ def measure(grid, *lines, zones=(), most=60.0, at=0):
     return measure_rows(surface, plan_of(*lines, zones=zones), most=most)[at]
 
 
-@pytest.mark.parametrize("cell", CELLS)
-@pytest.mark.parametrize("turned", [0.0, 0.7391, 2.113])
+@each("cell", CELLS)
+@each("turned", [0.0, 0.7391, 2.113])
 def test_a_plane_has_its_angle_aspect_and_length(cell, turned):
     placed = {"turned": turned, "shift": (713.37, -219.61)}
     grid = build_grid(plane(PSI), cell=cell, size=160.0, **placed)
@@ -58,8 +59,8 @@ def test_noise_of_a_decimetre_leaves_three_tenths_of_a_degree(seed):
     assert found.slope.low <= PSI + math.radians(0.3)
 
 
-@pytest.mark.parametrize("cell", CELLS)
-@pytest.mark.parametrize("turned", [0.0, 1.234])
+@each("cell", CELLS)
+@each("turned", [0.0, 1.234])
 def test_rows_on_a_cone_are_arcs_of_constant_slope(cell, turned):
     slope, radius = math.radians(36.9), 40.0
 
@@ -80,8 +81,8 @@ def test_rows_on_a_cone_are_arcs_of_constant_slope(cell, turned):
     assert found.upslope.length.value <= apex + 1e-6
 
 
-@pytest.mark.parametrize("cell", [0.5, 1.0])
-@pytest.mark.parametrize("width", [1.3, 2.2, 6.1, 11.7])
+@each("cell", [0.5, 1.0])
+@each("width", [1.3, 2.2, 6.1, 11.7])
 def test_snow_reaches_across_a_bench_narrower_than_the_net_is_high(cell, width):
     """Level ground 12 m above the row, between two planes; in plan."""
     low, high = -8.0, -8.0 + width
@@ -102,8 +103,8 @@ def test_snow_reaches_across_a_bench_narrower_than_the_net_is_high(cell, width):
         )
 
 
-@pytest.mark.parametrize("cell", [0.5, 1.0])
-@pytest.mark.parametrize("seed", range(6))
+@each("cell", [0.5, 1.0])
+@each("seed", range(6))
 def test_snow_reaches_over_boulders(cell, seed):
     """Forty lower than the snow, whose upper sides dip into the slope."""
     drawn = np.random.default_rng(seed)

@@ -12,6 +12,7 @@ from netdesign.structure.anchor_distance import (
     find_least_distance,
     measure_distance,
 )
+from tests.each import each
 
 
 def a_bore(start, direction, length=5.0):
@@ -41,7 +42,7 @@ def test_anchors_that_end_before_they_cross_are_nearest_at_their_ends():
     assert measure_distance(one, other) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize("seed", range(25))
+@each("seed", range(25))
 def test_drawn_anchors_are_as_far_as_a_minimiser_finds(seed):
     draw = np.random.default_rng(seed)
     one, other = (
@@ -82,7 +83,7 @@ def test_anchors_of_a_row_above_come_towards_those_of_the_row():
     assert find_distance_to_row_above([beside], [downhill], 10.0) == pytest.approx(0.0)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@each("seed", range(20))
 def test_seen_along_the_row_no_drawn_anchors_are_nearer(seed):
     draw = np.random.default_rng(seed)
     bores = [

@@ -13,6 +13,7 @@ from scipy.optimize import root
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import solve_funicular
 from netdesign.outcome import Outcome
+from tests.each import each
 
 STIFFNESS = 30.0
 
@@ -52,8 +53,8 @@ def exact_pull(head, length, load, stiffness):
     return np.array([math.exp(solution.x[0]), solution.x[1]])
 
 
-@pytest.mark.parametrize("slack", [0.0, 0.05, 0.4])
-@pytest.mark.parametrize("head", [(1.0, 0.0), (0.8, 0.6), (0.6, -0.8)])
+@each("slack", [0.0, 0.05, 0.4])
+@each("head", [(1.0, 0.0), (0.8, 0.6), (0.6, -0.8)])
 def test_uniform_load_converges_to_the_exact_cable(head, slack):
     """Tension vectors are exact but for the pull, and that is of fourth order.
 
@@ -152,8 +153,8 @@ def test_values_worked_by_hand():
     assert np.hypot(*cable.foot_pull) == pytest.approx(111.9, rel=shallow)
 
 
-@pytest.mark.parametrize("deflection", [0.01, 0.1, 0.5])
-@pytest.mark.parametrize("place", [0.25, 0.5, 0.7])
+@each("deflection", [0.01, 0.1, 0.5])
+@each("place", [0.25, 0.5, 0.7])
 def test_point_load_closes_a_triangle(place, deflection):
     """Two straight halves: choose the deflected node, find the load, solve back.
 

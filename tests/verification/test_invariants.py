@@ -17,6 +17,7 @@ from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow import snowpack
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.wall import Wall
+from tests.each import each
 
 COARSE = SolverSettings(
     accuracy=0.1,
@@ -55,8 +56,8 @@ def weight(solution) -> float:
 # --- balance -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("inclination", [0.0, 30.0])
-@pytest.mark.parametrize("friction_deg", [0.0, 5.0, 20.0, 45.0])
+@each("inclination", [0.0, 30.0])
+@each("friction_deg", [0.0, 5.0, 20.0, 45.0])
 def test_free_base_hangs_its_weight_on_the_net(solved, inclination, friction_deg):
     """Along X the pulls are the weight times sin psi, whatever phi is."""
     solution = solved(inclination_deg=inclination, friction_deg=friction_deg)
@@ -267,7 +268,7 @@ def random_scenes(count: int) -> list[dict[str, object]]:
     return scenes
 
 
-@pytest.mark.parametrize("scene", random_scenes(12), ids=range(12))
+@each("scene", random_scenes(12))
 def test_tension_shear_and_balance_of_random_scenes(solved, scene):
     solution: Solution = solved(**scene)
     net = solution.scene.net

@@ -8,6 +8,8 @@ statics; neither the program's material coordinates nor its cable solver are ask
 import numpy as np
 import pytest
 
+from tests.each import each
+
 # Tension is taken constant over an edge of the net, of which it is the mean: second
 # order in edges of an eighth of the height, in a stretch of a few per cent.
 TOLERANCE = 3e-5
@@ -32,8 +34,8 @@ def unstressed_length(solution) -> float:
     return total
 
 
-@pytest.mark.parametrize("slack", [0.0, 0.02, 0.08])
-@pytest.mark.parametrize(
+@each("slack", [0.0, 0.02, 0.08])
+@each(
     "scene",
     [
         {},
@@ -41,7 +43,6 @@ def unstressed_length(solution) -> float:
         {"inclination_deg": 20.0, "height_m": 5.0},
         {"ground": "no-slip", "stiffness_kN_per_m": 4e3},
     ],
-    ids=str,
 )
 def test_net_keeps_its_unstressed_length(solved, scene, slack):
     solution = solved(**scene, slack=slack)

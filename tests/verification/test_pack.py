@@ -13,6 +13,7 @@ from netdesign.evidence.verification.case import (
 )
 from netdesign.evidence.verification.pack import run_pack, write_pack
 from netdesign.words.catalogue import load_texts
+from tests.each import each
 
 
 def a_case(**changes):
@@ -33,8 +34,8 @@ def test_error_is_relative_and_absolute_where_zero_is_expected():
     assert a_case(expected=0.0, got=-0.3).error == pytest.approx(0.3, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("changes", "passes"),
+@each(
+    "changes, passes",
     [
         ({}, True),
         ({"got": 2.0 + 0.04 * (1 + 1e-9)}, False),

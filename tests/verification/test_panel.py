@@ -28,6 +28,7 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
+from tests.each import each
 from tests.panel.one_rope import find_force_along
 
 FACTS = (Path(__file__).parent / "FACTS.md").read_text(encoding="utf-8")
@@ -125,8 +126,8 @@ def same_force(force, expected: str) -> bool:
     return bool(missed <= (5e-3 + math.radians(0.05)) * float(size) + 0.05)
 
 
-@pytest.mark.parametrize("cut", ["uniform", "upper"])
-@pytest.mark.parametrize("number", SCENES)
+@each("cut", ["uniform", "upper"])
+@each("number", SCENES)
 def test_scenes_of_the_prototype(number, cut):
     solved = solve(number, cut)
     inside = compute_anchor_forces(
@@ -150,7 +151,7 @@ def test_scenes_of_the_prototype(number, cut):
     assert got == [as_printed(one) for one in expected]
 
 
-@pytest.mark.parametrize("number", SCENES)
+@each("number", SCENES)
 def test_plain_scenes_are_those_of_the_prototype(number):
     """Otherwise the panels would be compared on other sections."""
     section = solve_section(number)
@@ -192,7 +193,7 @@ def list_series():
             yield name, float(value), tuple(pair.split(", "))
 
 
-@pytest.mark.parametrize(("name", "value", "expected"), list(list_series()))
+@each("name, value, expected", list(list_series()))
 def test_rope_tension_over_its_inputs(name, value, expected):
     rope = {
         "s_b": lambda: Rope(stiffness=18e6, sag=value),
@@ -256,9 +257,9 @@ def sum_on_half_panel(number, solved):
     return force / size, moment / (size * np.hypot(*head))
 
 
-@pytest.mark.parametrize("count", [3, 4, 8])
-@pytest.mark.parametrize("cut", ["uniform", "fitted"])
-@pytest.mark.parametrize("number", SCENES)
+@each("count", [3, 4, 8])
+@each("cut", ["uniform", "fitted"])
+@each("number", SCENES)
 def test_equilibrium_in_space(number, cut, count):
     force, moment = sum_on_half_panel(number, solve(number, cut, count=count))
     assert np.abs(force).max() < 1e-12
@@ -276,8 +277,8 @@ def test_anchors_in_mid_panel():
     assert solved.upper.tension / 1e3 == as_printed("205")
 
 
-@pytest.mark.parametrize("cut", ["uniform", "upper", "fitted"])
-@pytest.mark.parametrize("number", [2, 3, 4])
+@each("cut", ["uniform", "upper", "fitted"])
+@each("number", [2, 3, 4])
 def test_stations_converge(number, cut):
     """Each takes the error to a fifth at most, over ten of them to rounding."""
 
@@ -353,9 +354,9 @@ def test_first_figure_of_the_ropes_is_high(number):
 ROPES = {"usual": ROPE, "stiff": Rope(stiffness=1e9, sag=0.0)}
 
 
-@pytest.mark.parametrize("rope", ROPES)
-@pytest.mark.parametrize("cut", ["uniform", "upper"])
-@pytest.mark.parametrize("number", SCENES)
+@each("rope", ROPES)
+@each("cut", ["uniform", "upper"])
+@each("number", SCENES)
 def test_net_in_space_with_ropes_along_its_height_only(number, cut, rope):
     """Bars that may lean along the row, another discretisation, another solver."""
     solved = solve(number, cut, ROPES[rope])

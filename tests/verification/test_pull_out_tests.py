@@ -13,6 +13,7 @@ from netdesign.resistance.fractile import (
     find_fractile_of_known_scatter,
 )
 from netdesign.resistance.pull_out import SingleTest
+from tests.each import each
 
 REFERENCE = [(0.2, 0.80, 0.67, 0.50), (0.3, 0.73, 0.55, 0.36), (0.4, 0.66, 0.45, 0.25)]
 
@@ -40,8 +41,8 @@ def test_three_tests_over_the_mean(variation, correlated, known, unknown):
     assert min(least / 1.05, 1.0 / 1.20) == pytest.approx(correlated, abs=0.006)
 
 
-@pytest.mark.parametrize("share", [0.3, 0.8, 1.0])
-@pytest.mark.parametrize("count", [2, 3, 5])
+@each("share", [0.3, 0.8, 1.0])
+@each("count", [2, 3, 5])
 def test_a_further_anchor_holds_the_fractile_in_95_of_100(count, share):
     """Tests stop at the load that this share of the anchors does not hold."""
     rng = np.random.default_rng(17)

@@ -8,6 +8,7 @@ import pytest
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.snow.wall import Wall
+from tests.each import each
 
 SETTINGS = SolverSettings(accuracy=0.02)
 
@@ -19,8 +20,8 @@ def press(a_scene, *, friction_angle=None, inclination=0.0, **scene):
     return solve_rigid(replace(a_scene(**scene), net=wall), SETTINGS)
 
 
-@pytest.mark.parametrize("inclination", [0.0, 0.5])
-@pytest.mark.parametrize("friction_angle", [None, 0.0, 0.4])
+@each("inclination", [0.0, 0.5])
+@each("friction_angle", [None, 0.0, 0.4])
 def test_free_ground_leaves_its_weight_to_the_wall(
     a_scene, friction_angle, inclination
 ):

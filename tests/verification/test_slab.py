@@ -17,6 +17,7 @@ from netdesign.snow.flow import solve_flow
 from netdesign.snow.law import FlowLayer, FlowProblem, Material, linearise_creep
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
+from tests.each import each
 
 # FACTS.md, section 3
 A, B_BULK = 206.2605, 129.1875
@@ -89,8 +90,8 @@ def close_with_no_strain_across(xx, yy, xy):
     return np.array([[xx, xy, 0.0], [xy, yy, 0.0], [0.0, 0.0, zz]])
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, 3.0])
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@each("n", [1.0, 2.0, 3.0])
+@each("seed", [1, 2, 3])
 def test_plane_law_is_the_law_in_space(seed, n):
     stress = np.random.default_rng(seed).normal(size=3)
     rate = strain_rate_in_space(close_with_no_strain_across(*stress), n=n)

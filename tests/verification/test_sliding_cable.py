@@ -19,6 +19,7 @@ from netdesign.cable.tension import (
     compute_turning_angles,
 )
 from netdesign.outcome import Outcome
+from tests.each import each
 
 RADIUS = 2.0
 TAIL = 1.0
@@ -56,8 +57,8 @@ def observed_orders(errors):
     return np.log2(errors[:-1] / errors[1:])
 
 
-@pytest.mark.parametrize("end", ["head", "foot"])
-@pytest.mark.parametrize("phi", FRICTION_ANGLES)
+@each("end", ["head", "foot"])
+@each("phi", FRICTION_ANGLES)
 def test_capstan_ratio_where_the_whole_net_glides(phi, end):
     """All net but the pulled tail starts without tension: every node must glide."""
     errors = []
@@ -86,9 +87,9 @@ def tail_before(slip_angle: float, rate: float) -> float:
     return unstressed * (1.0 + STRAIN) - RADIUS * slip_angle
 
 
-@pytest.mark.parametrize("end", ["head", "foot"])
-@pytest.mark.parametrize("sense", [1.0, -1.0], ids=["pulled", "released"])
-@pytest.mark.parametrize("phi", FRICTION_ANGLES)
+@each("end", ["head", "foot"])
+@each("sense", [1.0, -1.0])
+@each("phi", FRICTION_ANGLES)
 def test_net_glides_just_as_far_as_the_pull_reaches(phi, sense, end):
     """Part of the arc glides, out or back in, the rest sticks; both ends."""
     slip_angle = 2.0 / 3.0 * WRAP
@@ -112,8 +113,8 @@ def test_net_glides_just_as_far_as_the_pull_reaches(phi, sense, end):
     np.testing.assert_allclose(observed_orders(np.array(errors)), 2.0, atol=0.05)
 
 
-@pytest.mark.parametrize("end", ["head", "foot"])
-@pytest.mark.parametrize("phi", FRICTION_ANGLES)
+@each("end", ["head", "foot"])
+@each("phi", FRICTION_ANGLES)
 def test_snow_is_sheared_to_its_limit_and_never_beyond(phi, end):
     """From the forces alone, (C11): |R_t| = R_n tan(phi) at every node that glides."""
     points = arc_points(21)

@@ -15,6 +15,7 @@ from netdesign.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.snow import shared_mesh
 from netdesign.snow.mesh import MeshTemplate, build_template
 from netdesign.snow.shared_mesh import share_template
+from tests.each import each
 
 # The order of summation and of elimination changes, the iterations take the same
 # steps: what differs is their rounding. Where snow slips, a node may be tied between
@@ -134,11 +135,10 @@ GROUNDS = (
 )
 
 
-@pytest.mark.parametrize("ground", GROUNDS, ids=str)
-@pytest.mark.parametrize(
+@each("ground", GROUNDS)
+@each(
     "extreme",
     [STIFF, DENSE, THIN, LONG, ALL],
-    ids=["stiff", "dense", "thin", "long", "all"],
 )
 def test_ill_conditioned_scenes_converge(ground, extreme):
     tables = copy.deepcopy(SCENES["sliding-short"])

@@ -15,6 +15,7 @@ from netdesign.winter.fit_inputs import (
     choose_readings,
 )
 from netdesign.winter.measured import MeasuredPulls
+from tests.each import each
 
 FIRST = date(2007, 1, 3)
 
@@ -101,8 +102,8 @@ def test_covariance_has_three_parts():
     )
 
 
-@pytest.mark.parametrize(
-    ("changes", "told"),
+@each(
+    "changes, told",
     [
         ({"reading": 0.0}, "noise of a reading"),
         ({"reading": 0.51}, "noise of a reading"),

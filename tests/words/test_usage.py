@@ -10,6 +10,7 @@ from netdesign import words
 from netdesign.commands.help_texts import load_help
 from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import say
+from tests.each import each
 
 NO_BREAK = "\u00a0"
 GAP = re.compile(r"\{[^{}]*\}")
@@ -80,7 +81,7 @@ def test_every_term_is_defined_in_three_languages_with_its_source():
         assert all(term[key] for key in term)
 
 
-@pytest.mark.parametrize(("language", "name", "pattern"), AVOIDED)
+@each("language, name, pattern", AVOIDED)
 def test_one_term_stands_for_one_thing(language, name, pattern):
     better = TERMS[name][language]
     assert (better, find(language, pattern, but=QUOTING)) == (better, {})

@@ -24,6 +24,7 @@ from netdesign.snow.creep_law import PAPER_FLUIDITY
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
+from tests.each import each
 
 COARSE = TRANSIENT_LEVELS[0]
 DAY = 86400.0
@@ -74,7 +75,7 @@ def test_a_drawn_history_ends_in_words_or_numbers(seed):
     assert_an_end(follow(seed))
 
 
-@pytest.mark.parametrize("seed", FEW)
+@each("seed", FEW)
 def test_a_drawn_exchange_ends_in_words_or_numbers(seed):
     assert_an_end(exchange(seed))
 
@@ -129,7 +130,7 @@ def draw_sliding(seed):
     return replace(scene, snowpack=dense)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@each("seed", range(6))
 def test_demand_on_sliding_ground_does_not_depend_on_the_horizon(seed):
     scene = draw_sliding(seed)
     # a clock on which ten days are some creep for every snow

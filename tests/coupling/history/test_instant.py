@@ -17,6 +17,7 @@ from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.history.transient import run_history
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
+from tests.each import each
 
 STEP = 1e-4
 CUT = 0.25  # of a step that does not converge, as in a history
@@ -67,8 +68,8 @@ def two_steps(scene):
 # --- balance -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("inclination", [0.0, 30.0])
-@pytest.mark.parametrize("friction", [0.0, 5.0, 30.0])
+@each("inclination", [0.0, 30.0])
+@each("friction", [0.0, 5.0, 30.0])
 def test_free_base_hangs_its_weight_on_the_net(a_scene, inclination, friction):
     """Pulls along X are the mass times sin psi, whatever phi is."""
     scene = a_scene(inclination_deg=inclination, friction_deg=friction)

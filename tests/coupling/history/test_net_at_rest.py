@@ -16,6 +16,7 @@ from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
+from tests.each import each
 
 SEEDS = range(8)
 SIZE = TRANSIENT_LEVELS[1]
@@ -42,7 +43,7 @@ def list_points(problem, state):
     )
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_polygon_has_the_nets_length_and_the_steady_tensions(seed):
     scene = draw_scene(500 + seed, ground=GROUNDS[seed % 3])
     problem, state = begin(scene)
@@ -62,7 +63,7 @@ def test_polygon_has_the_nets_length_and_the_steady_tensions(seed):
     assert tensions.min() > 0.0
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_polygon_lies_on_the_net_at_rest(seed):
     """But for what chords are shorter than arcs."""
     scene = draw_scene(500 + seed, ground=GROUNDS[seed % 3])

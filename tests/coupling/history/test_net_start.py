@@ -12,6 +12,7 @@ from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.steady.net import guess_pressure
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template
+from tests.each import each
 
 SLACKS = [0.0, 0.02, 0.15]
 
@@ -75,8 +76,8 @@ def test_straight_start_takes_up_its_slack(a_scene, slack, inclination):
     assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
 
 
-@pytest.mark.parametrize("slack", SLACKS)
-@pytest.mark.parametrize("ground", ["free", "no-slip"])
+@each("slack", SLACKS)
+@each("ground", ["free", "no-slip"])
 def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
     """Parabola of the guideline: H = p c / (8 f), V = p / 2, T = ES strain."""
     problem, state = begin(a_scene(slack=slack, ground=ground), "sagged", size=FINE)

@@ -17,6 +17,7 @@ from netdesign.coupling.history.staggered import run_exchange, solve_staggered
 from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.outcome import ModelError, Outcome, SolveError
+from tests.each import each
 
 SETTINGS = StaggeredSettings(base_drag=0.1, horizon=0.02)
 
@@ -106,7 +107,7 @@ SETTINGS_REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("changes", "name"), SETTINGS_REFUSED, ids=str)
+@each("changes, name", SETTINGS_REFUSED)
 def test_settings_are_refused(changes, name):
     with pytest.raises(ModelError, match=name):
         StaggeredSettings(**changes)

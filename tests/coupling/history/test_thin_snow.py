@@ -13,6 +13,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.mesh import build_template
+from tests.each import each
 
 GROUNDS = (
     GroundLaw(),
@@ -21,8 +22,8 @@ GROUNDS = (
 )
 
 
-@pytest.mark.parametrize("ground", GROUNDS, ids=lambda one: one.kind)
-@pytest.mark.parametrize("thickness", [1.0, 1.7])
+@each("ground", GROUNDS)
+@each("thickness", [1.0, 1.7])
 def test_the_first_instant_has_the_steady_pulls(a_scene, ground, thickness):
     """It was 2.5 to 10 times as much, or no number, where d < D_k / 2."""
     scene = a_scene(thickness_m=3.0, length_m=12.0, inclination_deg=30.0, slack=0.03)

@@ -12,6 +12,7 @@ from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.moments import select_counted
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.outcome import ModelError, Outcome, SolveError
+from tests.each import each
 
 COARSE = TRANSIENT_LEVELS[0]
 SHORT = 0.02  # creep time in which a sagged net comes to rest
@@ -25,8 +26,8 @@ def sizes(moments, end):
     return np.array([np.hypot(*getattr(moment, end)) for moment in moments])
 
 
-@pytest.mark.parametrize("start", ["straight", "sagged"])
-@pytest.mark.parametrize("friction_deg", [0.0, 5.0, 30.0])
+@each("start", ["straight", "sagged"])
+@each("friction_deg", [0.0, 5.0, 30.0])
 def test_every_step_is_in_balance(a_scene, start, friction_deg):
     scene = a_scene(inclination_deg=20.0, friction_deg=friction_deg)
     history = run(scene, start=start)
@@ -74,8 +75,8 @@ def test_straight_net_takes_up_its_tension(a_scene):
     assert foot[-1] > 0.9 * foot.max()
 
 
-@pytest.mark.parametrize("inclination_deg", [0.0, 30.0])
-@pytest.mark.parametrize("friction_deg", [15.0, 30.0, 45.0])
+@each("inclination_deg", [0.0, 30.0])
+@each("friction_deg", [15.0, 30.0, 45.0])
 def test_the_papers_history_takes_few_steps_and_is_smooth(
     a_scene, inclination_deg, friction_deg
 ):
@@ -235,7 +236,7 @@ SETTINGS_REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("changes", "name"), SETTINGS_REFUSED, ids=str)
+@each("changes, name", SETTINGS_REFUSED)
 def test_settings_are_refused(changes, name):
     with pytest.raises(ModelError, match=name):
         TransientSettings(**changes)

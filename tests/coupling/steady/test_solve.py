@@ -14,6 +14,7 @@ from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow import flow
 from netdesign.snow.placed_mesh import PlacedMesh
+from tests.each import each
 
 COARSE = SolverSettings(
     accuracy=0.1,
@@ -266,12 +267,12 @@ def true_over_stated(solved, first_level, scene):
     )
 
 
-@pytest.mark.parametrize("scene", SCENES + LOOSE, ids=str)
+@each("scene", SCENES + LOOSE)
 def test_stated_error_holds(solved, scene):
     assert true_over_stated(solved, 0, scene) <= 1.0
 
 
-@pytest.mark.parametrize("scene", SCENES + LOOSE, ids=str)
+@each("scene", SCENES + LOOSE)
 def test_stated_error_holds_on_the_next_mesh(solved, scene):
     assert true_over_stated(solved, 1, scene) <= 1.0
 

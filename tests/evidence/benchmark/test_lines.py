@@ -24,6 +24,7 @@ from netdesign.evidence.benchmark.lines import (
 )
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import Outcome, SolveError
+from tests.each import each
 
 ACCURACY = SolverSettings(accuracy=0.005)
 
@@ -90,7 +91,7 @@ def test_points_beside_a_refused_one_say_nothing():
     assert find_jumps(points)
 
 
-@pytest.mark.parametrize("number", range(len(PARAMETERS)))
+@each("number", range(len(PARAMETERS)))
 def test_each_quantity_goes_through_its_range(number):
     parameter = PARAMETERS[number]
     values = parameter.list_values(23)
@@ -160,7 +161,7 @@ def take_part(parameter, seed):
     return parameter.list_values(200)[first : first + 6]
 
 
-@pytest.mark.parametrize("number", [0, 1, 2, 5, 6, 7])
+@each("number", [0, 1, 2, 5, 6, 7])
 def test_a_short_line(number):
     parameter, settings = PARAMETERS[number], SolverSettings(accuracy=0.02)
     values = take_part(parameter, 29)
@@ -190,8 +191,8 @@ def a_line(**changed):
     } | changed
 
 
-@pytest.mark.parametrize(
-    ("changed", "is_passed"),
+@each(
+    "changed, is_passed",
     [
         ({}, True),
         ({"ratios": [0.5] * 19 + [1.49]}, True),

@@ -16,6 +16,7 @@ from netdesign.evidence.benchmark.scenes import (
     draw_scene,
 )
 from netdesign.files.scene import SceneFile
+from tests.each import each
 
 DRAWN = [draw_scene(5, number) for number in range(300)]
 
@@ -31,8 +32,8 @@ def test_every_scene_is_a_valid_scene_file():
         assert SceneFile.model_validate(tables).model_dump(exclude_unset=True) == tables
 
 
-@pytest.mark.parametrize(
-    ("table", "key", "bounds"),
+@each(
+    "table, key, bounds",
     [
         ("slope", "angle_deg", SLOPE_DEG),
         ("snow", "thickness_m", THICKNESS_M),

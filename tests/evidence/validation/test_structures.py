@@ -27,6 +27,7 @@ from netdesign.evidence.verification.exported import load_results
 from netdesign.outcome import ModelError
 from netdesign.report.words import Words, show_own
 from tests.commands.every_command import read_page
+from tests.each import each
 from tests.words.english import list_vocabulary, list_words
 
 OWN = files("netdesign.evidence.validation").joinpath("measured.toml").read_bytes()
@@ -155,8 +156,8 @@ def test_structure_without_any_result_is_named():
         validate_structure(odd)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "named"),
+@each(
+    "old, new, named",
     [
         ('schema = "netdesign.measured/1"', 'schema = "other"', "schema"),
         ('kind = "net"', 'kind = "dam"', "kind"),

@@ -4,13 +4,12 @@ import random
 import re
 from dataclasses import replace
 
-import pytest
-
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.words import ENGLISH, Words
 from netdesign.words.catalogue import LANGUAGES
+from tests.each import each
 from tests.report.build_study import build_row
 from tests.report.drawing.drawn import MODES, build_chains
 
@@ -30,8 +29,8 @@ def list_bold(svg):
     return re.findall(r"<text [^>]*>([^<]*)<", "".join(groups))
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("seed", SEEDS)
+@each("language", LANGUAGES)
+@each("seed", SEEDS)
 def test_every_check_of_a_force_is_a_link_inside_the_picture(seed, language):
     row = build_chains(random.Random(seed))
     svg = draw_chains(row, Words(language))
@@ -44,7 +43,7 @@ def test_every_check_of_a_force_is_a_link_inside_the_picture(seed, language):
     assert max(right) <= WIDTH
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_the_weakest_link_of_the_row_alone_has_a_thick_border(seed):
     draw = random.Random(seed)
     row = build_chains(draw)

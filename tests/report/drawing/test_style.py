@@ -1,9 +1,8 @@
 from dataclasses import replace
 from xml.etree import ElementTree
 
-import pytest
-
 from netdesign.report.drawing.section_figure import draw_section
+from tests.each import each
 from tests.report.build_study import build_drawing, build_row
 
 ROW = build_row("A", 3, scale=0.72, failed_case=True)
@@ -14,8 +13,8 @@ def texts(svg):
     return [element.text for element in ElementTree.fromstring(svg).iter(TEXT)]
 
 
-@pytest.mark.parametrize("slope", [5.0, 25.0, 40.0, 60.0])
-@pytest.mark.parametrize("tilt", [0.0, 30.0])
+@each("slope", [5.0, 25.0, 40.0, 60.0])
+@each("tilt", [0.0, 30.0])
 def test_section_names_every_force(slope, tilt):
     drawing = build_drawing(ROW.extremes[0], slope=slope, tilt=tilt)
     shown = texts(draw_section(drawing, "x"))

@@ -12,6 +12,7 @@ from netdesign.report.sections.whole import build_report
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.words.catalogue import LANGUAGES
+from tests.each import each
 from tests.report.build_study import MENTION, SCRIPT, build_study
 from tests.report.filled import list_filled, list_sections
 from tests.report.reading import PageReader
@@ -63,8 +64,8 @@ def test_ids_are_unique(page):
     assert len(ids) == len(set(ids))
 
 
-@pytest.mark.parametrize("detail", ["full", "summary"])
-@pytest.mark.parametrize("rows", [0, 1, 3])
+@each("detail", ["full", "summary"])
+@each("rows", [0, 1, 3])
 def test_every_section_is_there_and_says_something(detail, rows):
     study = build_study(rows=1) if rows < 3 else build_study()
     parts = study.rows[:rows]
@@ -173,8 +174,8 @@ def test_page_repeats_byte_for_byte(page):
     assert page == html.render_html(build_study())
 
 
-@pytest.mark.parametrize("detail", ["summary", "full"])
-@pytest.mark.parametrize("language", LANGUAGES)
+@each("detail", ["summary", "full"])
+@each("language", LANGUAGES)
 def test_the_first_page_says_how_the_report_is_verified(language, detail):
     study, words = build_study(), Words(language)
     page = html.render_html(study, language, detail)

@@ -15,6 +15,7 @@ from netdesign.report.words import Words, show_check
 from netdesign.study.records import ChangeRecord
 from netdesign.study.remedies import CLOSE
 from netdesign.words.catalogue import LANGUAGES
+from tests.each import each
 from tests.report.build_study import build_study
 
 ENGLISH = Words("en")
@@ -53,8 +54,8 @@ def test_limits_read_by_what_is_used(verdict, used, least, most, told):
     assert limit(verdict, used, least, most) == told
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("verdict", Verdict)
+@each("language", LANGUAGES)
+@each("verdict", Verdict)
 def test_no_limit_that_is_met_would_make_a_check_pass(verdict, language):
     """The record decides by the force alone, whatever else withholds a pass."""
     words = Words(language)
@@ -85,8 +86,8 @@ def test_change_in_words():
     assert describe_change(change, ENGLISH) == "snow thickness ≤ 1.26 m"
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("verdict", Verdict)
+@each("language", LANGUAGES)
+@each("verdict", Verdict)
 def test_a_row_shows_every_change_that_is_known(verdict, language):
     words, row = Words(language), replace(ROW, verdict=verdict)
     heading, (block,) = show_changes(row, words)
@@ -100,9 +101,9 @@ def test_a_row_shows_every_change_that_is_known(verdict, language):
                 assert show_check(words, check) in told
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("verdict", Verdict)
-@pytest.mark.parametrize("used", [None, 0.371, 0.8999, 0.9001, 1.07])
+@each("language", LANGUAGES)
+@each("verdict", Verdict)
+@each("used", [None, 0.371, 0.8999, 0.9001, 1.07])
 def test_a_row_without_changes_needs_none_only_where_all_is_well(
     verdict, used, language
 ):

@@ -15,6 +15,7 @@ from netdesign.report.sections.checks import (
 from netdesign.report.words import Words, show_check
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
+from tests.each import each
 from tests.report.build_study import build_row, build_study
 
 ENGLISH = Words("en")
@@ -29,8 +30,8 @@ def test_governing_check_is_the_worst_verdict_then_the_largest_ratio():
     assert find_governing(failing.checks).id == "foot_anchor.pull_out"
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("row", STUDY.rows, ids=lambda row: f"row {row.verdict}")
+@each("language", LANGUAGES)
+@each("row", STUDY.rows)
 def test_every_check_of_a_force_stands_once(row, language):
     words = Words(language)
     shown = [one for line in list_lines(row.checks) for one in line.checks]
@@ -74,8 +75,8 @@ def test_three_of_one_resistance_never_share_a_line():
     assert len(list(list_lines([first, first, last]))) == 3
 
 
-@pytest.mark.parametrize("worst", [v for v in Verdict if v is not Verdict.PASS])
-@pytest.mark.parametrize("is_end", [True, False])
+@each("worst", [v for v in Verdict if v is not Verdict.PASS])
+@each("is_end", [True, False])
 def test_the_worse_of_both_places_is_the_line_s(worst, is_end):
     why = say("check.not_proven", gaps=())
     verdicts = {"end" if is_end else "inside": worst}
@@ -92,8 +93,8 @@ def test_the_worse_of_both_places_is_the_line_s(worst, is_end):
     assert [one.startswith(place) for one in line.list_remarks(ENGLISH)] == [True]
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("row", STUDY.rows, ids=lambda row: f"row {row.verdict}")
+@each("language", LANGUAGES)
+@each("row", STUDY.rows)
 def test_a_row_that_does_not_pass_says_why_in_few_words(row, language):
     told = describe_briefly(row, Words(language))
     assert bool(told) is (row.verdict is not Verdict.PASS)

@@ -11,6 +11,7 @@ from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.sections.guideline import show_difference
 from netdesign.report.words import ENGLISH, Words
 from netdesign.words.catalogue import LANGUAGES
+from tests.each import each
 from tests.report.build_study import build_study
 
 LABEL = re.compile(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>([^<]*)</text>')
@@ -38,8 +39,8 @@ def draw_record(seed):
     )
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("seed", range(8))
+@each("language", LANGUAGES)
+@each("seed", range(8))
 def test_the_picture_names_every_load_and_keeps_inside(seed, language):
     record, words = draw_record(seed), Words(language)
     svg = draw_loads(record, 3.0, words)

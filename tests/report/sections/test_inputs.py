@@ -15,6 +15,7 @@ from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.study.record_provenance import name_law
 from netdesign.words.catalogue import LANGUAGES, set_marks
 from netdesign.words.message import say
+from tests.each import each
 from tests.report.build_study import build_study
 
 SLIP = InputEcho(
@@ -57,10 +58,8 @@ WORDS = [
 ]
 
 
-@pytest.mark.parametrize("language", ["en", "fr", "de"])
-@pytest.mark.parametrize(
-    ("field", "word"), WORDS, ids=[f"{field.key}-{word}" for field, word in WORDS]
-)
+@each("language", ["en", "fr", "de"])
+@each("field, word", WORDS)
 def test_a_word_of_a_column_is_shown_in_the_readers_language(field, word, language):
     echo = InputEcho(label=field.name, unit="", text="x", value=word, cell="A1")
     words = Words(language)
@@ -79,8 +78,8 @@ def test_samples_that_nobody_counted_are_searched_in_each_language(language, sho
     assert row[2].text == shown
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("profile", list_standards())
+@each("language", LANGUAGES)
+@each("profile", list_standards())
 def test_the_provenance_names_profile_and_law_as_the_pages_do(profile, language):
     standard, words = load_standard(profile), Words(language)
     study = build_study(rows=1)

@@ -28,10 +28,10 @@ from netdesign.study.judge import judge_site
 from tests.golden.golden import RUN
 from tests.report.build_study import build_study
 from tests.report.reading import find_steps, read_rows, read_workbook, recalculate
-from tests.study.knowing_less.drawn_site import draw_lines, write_lines
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import draw_lines
 
 SEED = 9000
-FEW, MANY = 10, 50  # changes
 # Values that the forces rest on, too; those that a resistance, another check does.
 IN_FORCES = ("b",)
 FOLLOWED = {"bending.": ("k", "β"), "post_bending.": ("γ_E", "γ_R")}
@@ -129,6 +129,7 @@ def work_out(check, row, step, row_of_step, value, is_linked):
 
 
 def compare_changes(count, folder):
+    """Verdicts of changed workbooks, and whether they are those of before."""
     changes = list(draw_changes(count))
     books = {
         str(number): type_over(study, place, step.symbol, value)
@@ -154,15 +155,17 @@ def compare_changes(count, folder):
             assert line["μ"] == wanted, told
             assert line["Verdict"] == ENGLISH(f"verdict.{verdict}"), told
             verdicts.add((verdict, verdict is check.verdict))
+    return verdicts
+
+
+@pytest.mark.parametrize(
+    "count",
+    [
+        pytest.param(10, marks=pytest.mark.long),
+        pytest.param(50, marks=pytest.mark.slow),
+    ],
+)
+def test_changed_values_give_the_verdicts_of_their_calculations(count, tmp_path):
+    verdicts = compare_changes(count, tmp_path)
     assert {verdict for verdict, _ in verdicts} >= {Verdict.PASS, Verdict.FAIL}
     assert any(not is_same for _, is_same in verdicts)
-
-
-@pytest.mark.long
-def test_a_changed_value_gives_the_verdict_of_its_calculation(tmp_path):
-    compare_changes(FEW, tmp_path)
-
-
-@pytest.mark.slow
-def test_many_changed_values_give_the_verdicts_of_their_calculations(tmp_path):
-    compare_changes(MANY, tmp_path)

@@ -2,7 +2,6 @@
 
 import re
 import statistics
-import subprocess
 import zlib
 from dataclasses import dataclass, replace
 
@@ -10,7 +9,7 @@ import pytest
 
 from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.report.workbook.writer import choose_paper
-from tests.programs import require_program
+from tests.programs import convert
 from tests.report.build_study import build_study
 
 _STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
@@ -31,17 +30,9 @@ class Printed:
 
 def print_pages(content, folder):
     """Pages of a workbook as LibreOffice prints them."""
-    soffice = require_program("soffice")
     source = folder / "report.xlsx"
     source.write_bytes(content)
-    profile = f"-env:UserInstallation=file://{folder}/profile"
-    options = ("--headless", "--convert-to", "pdf", "--outdir", str(folder))
-    subprocess.run(
-        [soffice, profile, *options, str(source)],
-        check=True,
-        capture_output=True,
-        timeout=180,
-    )
+    convert("pdf", folder, source)
     return list(list_pages((folder / "report.pdf").read_bytes()))
 
 

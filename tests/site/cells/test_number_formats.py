@@ -16,6 +16,7 @@ from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import KNOWN_UNITS, convert_unit, normalise_unit
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
+from tests.each import each
 from tests.site.cells.ods_files import write_ods
 from tests.site.conftest import SOUND
 
@@ -45,7 +46,7 @@ FORMATS = [
 ]
 
 
-@pytest.mark.parametrize(("number_format", "shown"), FORMATS)
+@each("number_format, shown", FORMATS)
 def test_what_a_format_shows(number_format, shown):
     assert find_format_unit(number_format, 3.7) == shown
     assert not show_percent(number_format)
@@ -67,8 +68,8 @@ def test_a_comma_behind_the_digits_divides(number_format):
     assert show_thousands(number_format)
 
 
-@pytest.mark.parametrize(
-    ("text", "shown"),
+@each(
+    "text, shown",
     [("65°", "°"), ("3,50 m", "m"), ("1.5E+03", ""), ("(3)", ""), ("", ""),
      ("1 000,5 kN/m", "kN/m"), ("350 kg/m3", "kg/m3"), ("75%", "%"), ("-3.2", "")],
 )  # fmt: skip

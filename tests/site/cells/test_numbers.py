@@ -7,10 +7,11 @@ from hypothesis import strategies as st
 
 from netdesign.site.cells.findings import Refusal
 from netdesign.site.cells.numbers import parse_number
+from tests.each import each
 
 
-@pytest.mark.parametrize(
-    ("value", "number"),
+@each(
+    "value, number",
     [
         (45, 45.0),
         (0.05, 0.05),
@@ -53,7 +54,7 @@ def test_a_thousand_or_a_fraction_is_refused_with_both_readings(text, readings):
     assert str(refusal.rule) == f"is ambiguous: {readings}"
 
 
-@pytest.mark.parametrize(
+@each(
     "text",
     [
         *("0,45O", "3 m", ".5", "5.", "1e3", "--1", "1,234,5", "1.234,567.8"),
@@ -67,8 +68,8 @@ def test_other_text_is_refused(text):
     assert str(refusal.rule) == "is not a number"
 
 
-@pytest.mark.parametrize(
-    ("value", "rule"),
+@each(
+    "value, rule",
     [
         (True, "is a truth value, not a number"),
         (datetime.datetime(2026, 5, 2), "is a date or time, not a number"),
@@ -105,8 +106,8 @@ def test_floats_as_programs_write_them_are_read_to_the_last_bit(number, mark):
     assert parse_number(repr(number).replace(".", mark), mark) == number
 
 
-@pytest.mark.parametrize(
-    ("text", "mark", "number"),
+@each(
+    "text, mark, number",
     [
         ("1,234", ",", 1.234),
         ("1,234", ".", 1234.0),

@@ -11,6 +11,7 @@ from netdesign.site.columns.fields import (
     to_si,
 )
 from netdesign.site.model import MEMBER_MODES, NAMED_BY
+from tests.each import each
 
 TABLES = {plan.name: plan.fields for plan in SHEETS} | {
     "quantities": RANGE_QUANTITIES,
@@ -19,14 +20,14 @@ TABLES = {plan.name: plan.fields for plan in SHEETS} | {
 BY_SHEET = {plan.name: {field.key: field for field in plan.fields} for plan in SHEETS}
 
 
-@pytest.mark.parametrize("table", TABLES)
+@each("table", TABLES)
 def test_no_heading_names_two_fields(table):
     names = [name for field in TABLES[table] for name in field.names]
     assert len(names) == len(set(names))
     assert all(names)
 
 
-@pytest.mark.parametrize("table", TABLES)
+@each("table", TABLES)
 def test_labels_are_headings_that_are_read_back(table):
     for field in TABLES[table]:
         name, unit = split_heading(field.heading_for("en"))
@@ -48,8 +49,8 @@ def test_every_member_and_mode_has_its_column():
         assert BY_SHEET[sheet][mode].unit == "kN"
 
 
-@pytest.mark.parametrize(
-    ("heading", "name", "unit"),
+@each(
+    "heading, name, unit",
     [
         ("Slope angle [deg]", "slopeangle", "deg"),
         ("  SLOPE-ANGLE (°) ", "slopeangle", "deg"),

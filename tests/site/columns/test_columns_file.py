@@ -18,6 +18,7 @@ from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.axis import LEAST_AXIS, MOST_AXIS
 from netdesign.structure.layout import DEFAULT_POST_TILT
 from netdesign.structure.splay import LEAST_SPLAY, MOST_SPLAY
+from tests.each import each
 
 PLANS = {plan.name: plan for plan in SHEETS}
 CATALOGUE = load_catalogue()
@@ -58,8 +59,8 @@ def test_no_list_of_units_and_no_statement_is_left_over():
 
 
 # Constants that the program goes by elsewhere
-@pytest.mark.parametrize(
-    ("table", "key", "low", "high"),
+@each(
+    "table, key, low, high",
     [
         ("Nets", "glide_factor", 1.0, LARGEST_GLIDE_FACTOR),
         ("quantities", "glide_factor", 1.01, LARGEST_GLIDE_FACTOR),

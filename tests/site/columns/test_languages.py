@@ -11,6 +11,7 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.template.workbook import describe_accepted
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.each import each
 
 TABLES = {
     **{plan.name: plan.fields for plan in SHEETS},
@@ -57,8 +58,8 @@ def test_an_english_word_is_its_own_name():
                 assert render(field.name_word(word), "en") == word
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("table", TABLES)
+@each("language", LANGUAGES)
+@each("table", TABLES)
 def test_what_is_written_as_heading_is_read_as_it(language, table):
     for field in TABLES[table]:
         name, unit = split_heading(field.heading_for(language))
@@ -66,7 +67,7 @@ def test_what_is_written_as_heading_is_read_as_it(language, table):
         assert unit == field.unit
 
 
-@pytest.mark.parametrize("plan", SHEETS, ids=lambda plan: plan.name)
+@each("plan", SHEETS)
 def test_sheets_are_found_by_their_name_in_every_language(plan):
     for language in LANGUAGES:
         matching = [one for one in SHEETS if one.matches(plan.name_in(language))]

@@ -15,6 +15,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import normalise_unit
 from netdesign.site.columns.lexicon import Lexicon, find_unit, fold, read_part
+from tests.each import each
 
 LISTS = [(plan, plan.fields) for plan in SHEETS]
 LISTS += [(plan, plan.items) for plan in SHEETS if plan.items]
@@ -28,7 +29,7 @@ NAMES = [
 SMALL = ("de", "du", "la", "le", "der", "die", "des", "di", "della", "the", "of")
 
 
-@pytest.mark.parametrize(("plan", "fields"), LISTS, ids=lambda one: str(one)[:20])
+@each("plan, fields", LISTS)
 def test_no_heading_stands_for_two_fields_when_small_words_are_dropped(plan, fields):
     owners = {}
     for field in fields:
@@ -37,7 +38,7 @@ def test_no_heading_stands_for_two_fields_when_small_words_are_dropped(plan, fie
     assert {name: keys for name, keys in owners.items() if name and len(keys) > 1} == {}
 
 
-@pytest.mark.parametrize(("plan", "fields"), LISTS, ids=lambda one: str(one)[:20])
+@each("plan, fields", LISTS)
 def test_no_heading_is_sure_and_unclear_at_once(plan, fields):
     sure = {read_part(name).whole for field in fields for name in field.raw_names}
     keys = {field.key for field in fields}
@@ -131,8 +132,8 @@ def test_a_small_word_apart_is_no_word_of_the_name_beside_it(one, word, sign, is
 
 
 # The heading of sheet Ranges, the field that it is, the fields that are asked for
-@pytest.mark.parametrize(
-    ("heading", "key", "readings", "contrary"),
+@each(
+    "heading, key, readings, contrary",
     [
         ("de / high", None, {"low", "high"}, ""),
         ("high/de", None, {"low", "high"}, ""),
@@ -166,8 +167,8 @@ def test_a_small_word_means_no_other_field_than_its_group():
 
 
 # Heading, symbol or group beside it, and what is asked for
-@pytest.mark.parametrize(
-    ("heading", "group", "contrary"),
+@each(
+    "heading, group, contrary",
     [
         ("Netzhöhe HK", "", "HK"),
         ("hauteur du filet Hk [m]", "", "Hk"),
@@ -187,7 +188,7 @@ def test_a_symbol_or_group_of_another_quantity_is_asked_for(heading, group, cont
     assert match.contrary == contrary
 
 
-@pytest.mark.parametrize(
+@each(
     "heading",
     [
         *("HK [m]", "Hk", "H", "D [m]", "N", "hauteur", "Höhe H"),
@@ -202,7 +203,7 @@ def test_what_may_be_several_quantities_is_asked_for(heading):
     assert match.readings
 
 
-@pytest.mark.parametrize(
+@each(
     "heading",
     [
         *("Hauteur de poteau [m]", "Entraxe rangées [m]", "Pente filet [°]", "Dk min"),
@@ -217,8 +218,8 @@ def test_a_heading_with_a_word_more_is_not_taken(heading):
     assert LEXICA["Nets"].match(heading).field is None
 
 
-@pytest.mark.parametrize(
-    ("heading", "group", "key"),
+@each(
+    "heading, group, key",
     [
         ("hauteur du filet Dk", "", "net_height"),
         ("D_K [m]", "", "net_height"),
@@ -250,7 +251,7 @@ def test_italian_has_every_required_column():
     assert asked_for <= set(table["unclear"]["Nets"])
 
 
-@pytest.mark.parametrize(
+@each(
     "quantity",
     [
         *("Neigung [°]", "inclinaison", "Bodenreibung", "frottement neige/sol [°]"),
@@ -264,7 +265,7 @@ def test_quantities_that_may_be_others_are_asked_for(quantity):
     assert match.readings
 
 
-@pytest.mark.parametrize(
+@each(
     "quantity",
     [
         *("densité relative", "Hangneigung", "inclinaison du terrain [°]", "angle φ"),
@@ -315,7 +316,7 @@ OFFICES = [  # as three offices write them
 ]
 
 
-@pytest.mark.parametrize(("sheet", "heading", "key"), OFFICES)
+@each("sheet, heading, key", OFFICES)
 def test_headings_of_offices_are_known(sheet, heading, key):
     assert LEXICA[sheet].match(heading).field.key == key
 
@@ -327,9 +328,7 @@ def test_a_heading_that_is_not_sure_is_asked_for(heading):
     assert meaning.readings
 
 
-@pytest.mark.parametrize(
-    "unit", ["m ü. M.", "m ü.A.", "m NGF", "m a.s.l.", "m s.l.m.", "m asl", "müM"]
-)
+@each("unit", ["m ü. M.", "m ü.A.", "m NGF", "m a.s.l.", "m s.l.m.", "m asl", "müM"])
 def test_metres_above_the_sea_are_metres(unit):
     assert normalise_unit(unit) == "m"
     heading = LEXICA["Nets"].match(f"Altitude [{unit}]")
@@ -341,7 +340,7 @@ def test_millinewtons_stay_what_nobody_guesses():
     assert normalise_unit("mN/m") == "mN/m"
 
 
-@pytest.mark.parametrize(
+@each(
     "name", ["Nets A", "Nets 2", "Nets North", "Filets Ouest", "Netze Süd", "Nets III"]
 )
 def test_a_sheet_for_each_structure_holds_net_rows(name):

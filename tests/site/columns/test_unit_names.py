@@ -9,10 +9,11 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     to_si,
 )
+from tests.each import each
 
 
-@pytest.mark.parametrize(
-    ("typed", "unit"),
+@each(
+    "typed, unit",
     [
         *(("°", "deg"), ("Degrés", "deg"), ("%", "%"), ("pour cent", "%")),
         *(("kN/ml", "kN/m"), ("KN", "kN"), ("MN", "MN"), ("N", "N")),
@@ -27,8 +28,8 @@ def test_units_are_folded_to_one_spelling(typed, unit):
     assert normalise_unit(typed) == unit
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "first", "result"),
+@each(
+    "value, unit, first, result",
     [
         (100.0, "%", "deg", 45.0),
         (0.0, "%", "deg", 0.0),
@@ -55,8 +56,8 @@ def test_conversions_by_hand(value, unit, first, result):
     assert convert_unit(value, unit, first) == pytest.approx(result, rel=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "si"),
+@each(
+    "value, unit, si",
     [
         (-5.0, "degC", 268.15),
         (28.0, "mm", 0.028),

@@ -10,8 +10,10 @@ from netdesign.site.template.annotate import annotate_workbook
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from tests.checks.given_pulls import write_row
+from tests.each import each
 from tests.site.plausible.slips import PLANS
-from tests.study.knowing_less.drawn_site import draw_lines, write_lines
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import draw_lines
 
 
 @pytest.fixture(scope="module")
@@ -39,8 +41,8 @@ def test_nothing_is_asked_of_the_example(example):
     assert (places, rows_in_question(site), site.questions) == ([], [], ())
 
 
-@pytest.mark.parametrize(
-    ("cell", "typed", "rows", "told"),
+@each(
+    "cell, typed, rows, told",
     [
         ("Posts_D2", "3175", ["R1"], "HEB120: 317.5 cm4 (EN 10365)"),
         ("Posts_C2", "340", ["R1"], "HEB120: 34.01 cm2"),
@@ -163,7 +165,7 @@ def test_what_is_usual_beside_other_columns_is_a_span_above_zero():
 MOST_FALSE_ALARMS = 0.01
 
 
-@pytest.mark.parametrize("sites", [20, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("sites", [10, pytest.param(200, marks=pytest.mark.slow)])
 def test_sensible_sites_are_asked_nothing(tmp_path, sites):
     """Drawn by what is built, not by what counts as usual here."""
     alarms = []

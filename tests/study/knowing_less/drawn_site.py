@@ -3,10 +3,7 @@
 import math
 import random
 
-import pytest
-
 from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.template import workbook as template
 
 GROUNDS = ("free", "no-slip", "sliding")
 MEMBER_COLUMNS = (
@@ -20,13 +17,6 @@ PANEL_COLUMNS = (
 REQUIRED = {
     plan.name: {field.key for field in plan.fields if field.required} for plan in SHEETS
 }
-
-
-def write_lines(path, lines):
-    """Write a site workbook of these lines by sheet, as the template has them."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(path, example=True, overwrite=True)
 
 
 def draw_lines(seed, *, is_placed=False, is_tested=False):

@@ -14,6 +14,7 @@ from netdesign.structure.members import NetPart
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from tests.site_lines import write_lines
 from tests.study.knowing_less.drawn_site import (
     DEFAULT,
     draw_lines,
@@ -21,7 +22,6 @@ from tests.study.knowing_less.drawn_site import (
     give_strength,
     list_cells,
     list_groups,
-    write_lines,
 )
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))

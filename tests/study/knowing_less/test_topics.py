@@ -13,12 +13,8 @@ from netdesign.solving.runner import Runner
 from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
-from tests.study.knowing_less.drawn_site import (
-    DEFAULT,
-    draw_lines,
-    give_strength,
-    write_lines,
-)
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines, give_strength
 from tests.study.knowing_less.test_knowing_less import RUN
 
 TOPICS = tuple(ScopeTable.model_fields)
