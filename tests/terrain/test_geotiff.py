@@ -12,6 +12,7 @@ import pytest
 from rasterio.transform import Affine
 
 from netdesign.outcome import TerrainError
+from netdesign.terrain.example import build_example, write_rows
 from netdesign.terrain.geotiff import parse_geotiff
 from netdesign.terrain.grid import Grid, parse_grid, read_grid
 from netdesign.terrain.libraries import keep_quiet
@@ -266,6 +267,7 @@ def test_a_damaged_grid_is_one_refusal_in_each_language(
 ):
     whole = write_tif(GRID, compress="deflate")
     (tmp_path / "g.tif").write_bytes(whole[: len(whole) // 2])
+    (tmp_path / "rows.geojson").write_bytes(write_rows(build_example()))
     ended = call("terrain", "g.tif", "rows.geojson", "--json", "--language", language)
     assert ended.code == 3
     assert words in ended.err
