@@ -15,7 +15,7 @@ from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate, list_steps
 from netdesign.checks.check import judge
 from netdesign.checks.forces import calculate_force, calculate_resistance, rate
-from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.outcome import Verdict
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.case_records import (
     AxisRecord,
@@ -35,7 +35,6 @@ from netdesign.study.records import (
     RowStudy,
     SpreadRecord,
     Study,
-    list_verdicts,
 )
 from netdesign.study.rejudge.stored import (
     ALONE,
@@ -53,12 +52,9 @@ from netdesign.words.message import Message
 Ends = tuple[float | None, float | None, float | None]
 
 
-def follow_verdict(row: RowStudy, _: Study) -> Fields:
-    """Verdict and reasons from checks and independent checks."""
-    return {
-        "verdict": merge_verdicts(list_verdicts(row.checks, row.independent)),
-        "reasons": list_reasons(row.checks, row.independent),
-    }
+def follow_reasons(row: RowStudy, _: Study) -> Fields:
+    """Reasons from checks and independent checks."""
+    return {"reasons": list_reasons(row.checks, row.independent)}
 
 
 def follow_extremes(row: RowStudy, _: Study) -> Fields:

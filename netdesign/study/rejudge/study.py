@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from netdesign.checks import Standard
 from netdesign.envelope.ranges import build_cases
-from netdesign.outcome import NetDesignError, Verdict
+from netdesign.outcome import NetDesignError, Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.study.case_records import FloorRecord, GuidelineRecord
@@ -34,14 +34,21 @@ from netdesign.study.record_guideline import compare_case, find_row_floor, recor
 from netdesign.study.record_independent import compare_slab
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.record_support import record_panel
-from netdesign.study.records import CheckRecord, RowStudy, SlabRecord, Study, merge_rows
+from netdesign.study.records import (
+    CheckRecord,
+    RowStudy,
+    SlabRecord,
+    Study,
+    list_verdicts,
+    merge_rows,
+)
 from netdesign.study.rejudge.again import (
     follow_checks,
     follow_envelope,
     follow_extremes,
     follow_forces,
     follow_opinions,
-    follow_verdict,
+    follow_reasons,
     is_complete,
     is_held_back,
 )
@@ -64,7 +71,7 @@ _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes wit
 _MOST = 5  # places of one part that are named
 # Numbers of the document itself, which follow to their rounding; those of a few sums.
 _EXACT: tuple[Follow, ...] = (
-    *(follow_verdict, follow_extremes, follow_forces, follow_checks),
+    *(follow_reasons, follow_extremes, follow_forces, follow_checks),
 )
 _ROUNDED: tuple[Follow, ...] = (
     *(follow_envelope, follow_opinions, follow_drawn, follow_laws),
@@ -101,14 +108,24 @@ def rejudge(
         standard = None
     found = [*_look_at_profile(study, standard)]
     for row in study.rows:
+        merged = merge_verdicts(list_verdicts(row.checks, row.independent))
+        found += _compare_verdict(say("audit.row", row=row.id), row.verdict, merged)
         found += _guard(row, list_broken(row, study))
         for follow in (*_EXACT, *_ROUNDED):
             found += _guard(row, _work_out(row, study, follow))
     if site is not None and site.sha256 == study.provenance.site_sha256:
         found += judge_again(study, site, standard)
-    follows = {"verdict": merge_rows(study.rows, study.left_out)}
-    found += _compare("audit.other_values", say("audit.study"), study, follows)
-    return found
+    merged = merge_rows(study.rows, study.left_out)
+    return [*found, *_compare_verdict(say("audit.study"), study.verdict, merged)]
+
+
+def _compare_verdict(
+    place: Message, stored: Verdict, merged: Verdict
+) -> Iterator[Message]:
+    """A sentence on a verdict that is not that of its parts."""
+    if stored is not merged:
+        told = {"verdict": say(f"verdict.{stored}"), "merged": say(f"verdict.{merged}")}
+        yield say("audit.verdict", place=place, **told)
 
 
 def _guard(row: RowStudy, sentences: Iterator[Message]) -> Iterator[Message]:
