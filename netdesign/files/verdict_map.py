@@ -18,7 +18,6 @@ from netdesign.site.model import NetRow, Site
 from netdesign.structure.anchor_distance import Bore
 from netdesign.structure.members import Member
 from netdesign.study.bores import place_anchors, place_end_anchors
-from netdesign.study.pulls import build_pull_again
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.sideways import place_row
 from netdesign.terrain.geojson import Feature, write_features
@@ -148,9 +147,8 @@ def _map_anchors(
     """Heads of all anchors of a row, with direction and design force."""
     middle = 0.5 * sum(_list_inclinations(row))
     points = place_row(given, middle)
-    pulls = [build_pull_again(given, one, 0.0) for one in row.pulls]
-    found = list(place_anchors(given, points, pulls))
-    outer = list(place_end_anchors(given, points, pulls))
+    found = list(place_anchors(given, points, row.pulls))
+    outer = list(place_end_anchors(given, points, row.pulls))
     last = len(place.posts)
     for number in range(1, last + 1):
         inside = (one for one in found if not _is_beyond(*one, number, last))

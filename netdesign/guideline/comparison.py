@@ -174,10 +174,33 @@ def compare_with_guideline(
     tuple of GuidelineResult
         Of each load case, in this order.
     """
+    cases = list_cases(model, net, density=density, altitude=altitude)
+    return tuple(solve_load_case(model, net, case, glide_factor) for case in cases)
+
+
+def list_cases(
+    model: LoadModel,
+    net: NetGeometry[float],
+    *,
+    density: float,
+    altitude: float | None,
+) -> tuple[LoadCase[float], ...]:
+    """Snow of a density on a net row, then the load cases of the guideline on it.
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    net : NetGeometry
+        Net row.
+    density : float
+        [kg/m3].
+    altitude : float or None
+        As `list_load_cases` takes it [m].
+    """
     height = net.snow_thickness / math.cos(net.slope_angle)
     same = LoadCase(name="same_snow", density=density, height_vertical=height)
-    cases = (same, *list_load_cases(model, net, altitude))
-    return tuple(solve_load_case(model, net, case, glide_factor) for case in cases)
+    return (same, *list_load_cases(model, net, altitude))
 
 
 def list_load_cases(
@@ -247,12 +270,7 @@ def _solve_case(
     glide_factor: float,
 ) -> GuidelineResult:
     load, pull = find_pulls(model, net, case, glide_factor)
-    anchors = compute_anchor_forces(
-        place_support(net.layout, place_head(net)),
-        foot_pull_per_m=pull.foot,
-        head_pull_per_m=pull.head,
-        post_spacing=net.layout.post_spacing,
-    )
+    anchors = hold_net(net, pull)
     if isinstance(anchors, FailedSupport):
         reason, found = anchors.reason, None
     else:
@@ -265,6 +283,31 @@ def _solve_case(
         pull=pull,
         anchors=found,
         reason=reason,
+    )
+
+
+def hold_net(
+    net: NetGeometry[float], pull: NetPull[float]
+) -> AnchorForces | FailedSupport:
+    """Forces on a support that hold a net's pulls.
+
+    Parameters
+    ----------
+    net : NetGeometry
+        Net row.
+    pull : NetPull
+        On its two ends [N/m].
+
+    Returns
+    -------
+    AnchorForces or FailedSupport
+        [N]; why nothing holds it.
+    """
+    return compute_anchor_forces(
+        place_support(net.layout, place_head(net)),
+        foot_pull_per_m=pull.foot,
+        head_pull_per_m=pull.head,
+        post_spacing=net.layout.post_spacing,
     )
 
 

@@ -21,8 +21,9 @@ from netdesign.structure.anchor_distance import (
 )
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import EndMember, Member
-from netdesign.study.pulls import ANCHORS, AnchorPull, find_pull
+from netdesign.study.pulls import ANCHORS, find_pull
 from netdesign.study.sideways import place_row
+from netdesign.study.support_records import PullRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
@@ -33,7 +34,7 @@ _POSTS = 3  # beside each other: whatever comes near does so among them
 def check_anchor_distance(
     row: NetRow,
     ranges: Ranges,
-    pulls: Sequence[AnchorPull],
+    pulls: Sequence[PullRecord],
     standard: Standard,
     gap: Message | None,
 ) -> CheckResult | None:
@@ -63,7 +64,7 @@ def check_anchor_distance(
 
 
 def _list_nearest(
-    row: NetRow, ranges: Ranges, points: SupportPoints, pulls: Sequence[AnchorPull]
+    row: NetRow, ranges: Ranges, points: SupportPoints, pulls: Sequence[PullRecord]
 ) -> Iterator[tuple[float, tuple[Message, Message]]]:
     """Least distances of two kinds of anchors [m], in the row and to a row above."""
     upslope = row.upslope_length
@@ -85,7 +86,7 @@ def _list_nearest(
 
 
 def _list_beside(
-    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
+    row: NetRow, points: SupportPoints, pulls: Sequence[PullRecord]
 ) -> Iterator[tuple[str, Bore]]:
     """Anchors of some posts beside each other, from the row's end on."""
     for anchor, bore in place_anchors(row, points, pulls):
@@ -97,7 +98,7 @@ def _list_beside(
 
 
 def place_end_anchors(
-    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
+    row: NetRow, points: SupportPoints, pulls: Sequence[PullRecord]
 ) -> Iterator[tuple[str, Bore]]:
     """Anchors beyond the first post: of its outer guys, lateral, of the end guy.
 
@@ -124,7 +125,7 @@ def place_end_anchors(
 
 
 def check_cover(
-    row: NetRow, pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
+    row: NetRow, pulls: Sequence[PullRecord], standard: Standard, gap: Message | None
 ) -> CheckResult | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
@@ -149,7 +150,7 @@ def check_cover(
     return conclude("cover", Verdict.PASS, say("bores.covered"))
 
 
-def _list_short(row: NetRow, pulls: Sequence[AnchorPull]) -> Iterator[Message]:
+def _list_short(row: NetRow, pulls: Sequence[PullRecord]) -> Iterator[Message]:
     """Anchors whose bond lies too near to the surface, or to an edge."""
     for pull in pulls:
         kind = row.find_anchor_type(pull.anchor, pull.position)
@@ -164,7 +165,7 @@ def _list_short(row: NetRow, pulls: Sequence[AnchorPull]) -> Iterator[Message]:
             yield say("bores.too_near_edge", **told, edge=edge, least=least)
 
 
-def _find_lack(row: NetRow, pulls: Sequence[AnchorPull]) -> Message | None:
+def _find_lack(row: NetRow, pulls: Sequence[PullRecord]) -> Message | None:
     if any(not one.is_axis_known for one in pulls):
         return say("bending.no_axis")
     if row.guys.count > 1 and row.guys.are_shared is None:
@@ -174,7 +175,7 @@ def _find_lack(row: NetRow, pulls: Sequence[AnchorPull]) -> Message | None:
 
 
 def place_anchors(
-    row: NetRow, points: SupportPoints, pulls: Sequence[AnchorPull]
+    row: NetRow, points: SupportPoints, pulls: Sequence[PullRecord]
 ) -> Iterator[tuple[Member, Bore]]:
     """Anchors of a post, of the panel behind it, and which each of them is.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.quantity import given as quantity
@@ -27,10 +27,9 @@ from netdesign.checks.schema import (
     SOIL_FRICTION,
 )
 from netdesign.envelope.ranges import Ranges
+from netdesign.guideline.comparison import LoadCase, list_cases
 from netdesign.guideline.load_model import (
-    LoadModel,
     SnowLoad,
-    compute_altitude_factor,
     compute_snow_load,
     read_load_model,
 )
@@ -63,9 +62,10 @@ from netdesign.site.model import (
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
 from netdesign.study.member_force import MemberForce
-from netdesign.study.pulls import AnchorPull
+from netdesign.study.record_guideline import build_geometry
 from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import place_row
+from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
@@ -76,7 +76,7 @@ _ROUNDED = 0.01
 
 
 def find_resistance_for_force(
-    given: Resistance, basis: Basis, pull: AnchorPull | None
+    given: Resistance, basis: Basis, pull: PullRecord | None
 ) -> Resistance:
     """Resistance with the value that row, profile and pull give it; others as is."""
     match given.dimensions:
@@ -111,7 +111,7 @@ def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message |
 
 
 def _find_bent_resistance(
-    given: Resistance, anchor: AnchorType, pull: AnchorPull | None
+    given: Resistance, anchor: AnchorType, pull: PullRecord | None
 ) -> Resistance:
     section, lever = anchor.section, anchor.lever
     if section is None or lever is None:
@@ -121,8 +121,7 @@ def _find_bent_resistance(
     if not pull.is_axis_known:
         return replace(given, lack=say("bending.no_axis"))
     if pull.angle > _LARGEST_ANGLE:
-        angle = degree_from_radian(pull.angle)
-        return replace(given, lack=say("bending.too_far", angle=angle))
+        return replace(given, lack=say("bending.too_far", angle=pull.angle_deg))
     worst = min(
         (
             compute_bent_bar_resistance(section, angle=angle, lever=lever)
@@ -161,7 +160,7 @@ def _find_ground_resistance(
     anchor: AnchorType,
     soil: Soil,
     basis: Basis,
-    pull: AnchorPull | None,
+    pull: PullRecord | None,
 ) -> Resistance:
     """Resistance of the weakest wedge of ground in front of an anchor's bond."""
     row, standard = basis.row, basis.standard
@@ -209,7 +208,7 @@ def _find_ground_resistance(
     return replace(given, value=value, derivation=say("wedge.lifts", **told))
 
 
-def _find_ground_width(row: NetRow, pull: AnchorPull) -> float:
+def _find_ground_width(row: NetRow, pull: PullRecord) -> float:
     """Width of ground that one anchor has along the row [m]."""
     if pull.anchor == Member.FOOT_ANCHOR:
         is_doubled = any(one.has_mid_anchors for one in row.panels)
@@ -231,23 +230,23 @@ def _find_post_resistance(
     if on_action is None or on_post is None:
         return given
     try:
-        pressure = find_snow_pressure(row, basis.site.ranges)
+        pressure, case, load = find_snow_pressure(row, basis.site.ranges)
     except ModelError as error:  # outside the guideline's closed forms
         return replace(given, lack=error.message)
     moment = compute_post_moment(
-        section, pressure=pressure.value, efficiency=efficiency.value
+        section, pressure=pressure, efficiency=efficiency.value
     )
     value = compute_bent_post_resistance(
         section, moment=on_action.value * moment, partial_factor=on_post.value
     )
     told = {
         "efficiency": efficiency.value,
-        "pressure": pressure.value / 1e3,
-        "density": pressure.density,
-        "gravity": pressure.gravity,
-        "height": pressure.height_vertical,
-        "creep": pressure.load.creep_factor,
-        "glide": pressure.load.glide_factor,
+        "pressure": pressure / 1e3,
+        "density": case.density,
+        "gravity": read_load_model(load_guideline()).gravity,
+        "height": case.height_vertical,
+        "creep": load.creep_factor,
+        "glide": load.glide_factor,
         "slope": degree_from_radian(row.slope_angle),
         "modulus": 1e6 * section.modulus,
         "strength": section.strength / 1e6,
@@ -265,25 +264,8 @@ def _find_post_resistance(
     return replace(given, value=value, derivation=say("post_bending.beside", **told))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SnowPressure:
-    """Mean pressure of the guideline's snow on a plane across the slope.
-
-    Attributes
-    ----------
-    value : float
-        S'_N / d [Pa].
-    density, gravity, height_vertical : float
-        That it follows from [kg/m3, m/s2, m].
-    load : SnowLoad
-        With the factors of creep and glide.
-    """
-
-    value: float
-    density: float
-    gravity: float
-    height_vertical: float
-    load: SnowLoad[float]
+# Mean pressure of snow on a plane across the slope [Pa], and the load it is of.
+SnowPressure = tuple[float, LoadCase[float], SnowLoad[float]]
 
 
 def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
@@ -293,46 +275,31 @@ def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
     densest snow, over the ranges of height and glide factor. Theory:
     resistance/THEORY.md, (R10).
     """
-    model = read_load_model(load_guideline())
     pressures = (
-        _find_pressure(model, one, ranges["density"].high)
+        _press(one, case)
         for one in list_corners(row, ranges)
+        for case in list_cases(
+            read_load_model(load_guideline()),
+            build_geometry(one, 0.0),
+            density=ranges["density"].high,
+            altitude=one.altitude,
+        )
     )
-    return max(pressures, key=lambda one: one.value)
+    return max(pressures, key=lambda one: one[0])
 
 
-def _find_pressure(model: LoadModel, row: NetRow, densest: float) -> SnowPressure:
-    height = row.held_thickness / math.cos(row.slope_angle)
-    on_density = compute_altitude_factor(model, row.altitude)
-    cases = (
-        (densest, height),
-        (on_density * model.density, height),
-        (model.case_2_density, model.case_2_height * height),
-    )
-    found = (_press(model, row, density, vertical) for density, vertical in cases)
-    return max(found, key=lambda one: one.value)
-
-
-def _press(
-    model: LoadModel, row: NetRow, density: float, vertical: float
-) -> SnowPressure:
-    """Pressure of snow of a density [kg/m3] and a vertical height [m]."""
+def _press(row: NetRow, case: LoadCase[float]) -> SnowPressure:
     load = compute_snow_load(
-        model,
-        density=density,
-        height_vertical=vertical,
+        read_load_model(load_guideline()),
+        density=case.density,
+        height_vertical=case.height_vertical,
         slope_angle=row.slope_angle,
         glide_factor=find_row_glide_factor(row),
         net_height=row.net_height,
         inclination=0.0,
     )
-    return SnowPressure(
-        value=load.rigid / (vertical * math.cos(row.slope_angle)),
-        density=density,
-        gravity=model.gravity,
-        height_vertical=vertical,
-        load=load,
-    )
+    thickness = case.height_vertical * math.cos(row.slope_angle)
+    return load.rigid / thickness, case, load
 
 
 def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantity:
@@ -412,7 +379,7 @@ CONNECTION = "connection"
 def connect(
     given: Resistance,
     chains: Mapping[str, tuple[Link, ...]],
-    pull: AnchorPull | None,
+    pull: PullRecord | None,
     standard: Standard,
 ) -> Resistance:
     """Resistance of the chain of links of a member's type: that of the weakest.
@@ -423,7 +390,7 @@ def connect(
         Of the member's steel or rope, which names the type.
     chains : mapping of str to tuple of Link
         By type.
-    pull : AnchorPull or None
+    pull : PullRecord or None
         On the anchor at the end of the chain; its axis not known, a shackle may be
         pulled at a right angle. Without a pull its angle is as given, or a right angle.
     standard : Standard

@@ -15,13 +15,12 @@ from netdesign.edge.given_files import (
 )
 from netdesign.edge.json_text import (
     MAX_JSON_BYTES,
-    JsonPart,
     join_members,
     read_json,
     write_part,
 )
 from netdesign.outcome import ContentError, StudyError
-from netdesign.study.records import SCHEMA, RowStudy, Study
+from netdesign.study.records import SCHEMA, Study
 from netdesign.words.message import say
 
 _OLD_SCHEMAS = ("netdesign.study/1", "netdesign.study/2")
@@ -38,11 +37,6 @@ def compute_digest(study: Study) -> str:
     can compute it again: only a new solve shows that the numbers are true.
     """
     return hashlib.sha256(study.written.values.encode()).hexdigest()
-
-
-def write_row(row: RowStudy) -> JsonPart:
-    """Text of a net row, which the row keeps: a document is made of such texts."""
-    return row.written
 
 
 def hash_results(study: Study) -> str:

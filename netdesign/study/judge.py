@@ -18,7 +18,6 @@ from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
 from netdesign.study.case_records import (
-    CaseRecord,
     EnvelopeRecord,
     ExtremeRecord,
     ForceRecord,
@@ -34,7 +33,7 @@ from netdesign.study.notes import (
     list_site_notes,
 )
 from netdesign.study.parts import list_parts
-from netdesign.study.pulls import list_pulls, record_pulls
+from netdesign.study.pulls import list_pulls
 from netdesign.study.record_envelope import (
     record_case,
     record_envelope,
@@ -66,7 +65,6 @@ from netdesign.study.records import (
 from netdesign.study.row_checks import check_row, distrust
 from netdesign.study.row_to_check import Basis, CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
-from netdesign.study.support_records import PanelRecord
 from netdesign.study.winter_row import record_monitoring
 from netdesign.units import kilonewton_from_newton, newton_from_kilonewton
 from netdesign.words.message import Message, say
@@ -166,7 +164,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     known = know_row(task.basis, solved.results, extremes, solved.gap, floor)
     checks, model_form = _check_row(task, extremes, known)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
-    governing = _governing_result(_find_worst(checks), extremes)
+    governing = _governing_result(find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
     effects, held = known.effects, known.held
     drawing, anchors, head = record_drawn(row, governing, effects.lateral_share)
@@ -186,16 +184,19 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         questions=list(row.questions),
         monitoring=record_monitoring(site, row),
         anchors=anchors,
-        pulls=record_pulls(known.pulls),
+        pulls=list(known.pulls),
         head=head,
         independent=independent,
         forces=list(known.largest.values()),
         guideline=record_guideline(row, foot.governing) if foot else None,
-        floor=record_floor(floor, row),
+        floor=known.floor,
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
         model_form=model_form,
         panel=panel,
-        notes=_list_notes(task, known, checks, cases, panel),
+        notes=[
+            *list_judged_notes(known, checks, cases, panel),
+            *list_history_notes(extremes),
+        ],
         statics=record_statics(row, solved.results, extremes, floor),
         end_effects=record_end_effects(row, site.ranges, run.creep_law, standard),
         held_sideways=None if isinstance(held, Message) else held,
@@ -212,32 +213,12 @@ def _check_row(
     Where the program fails in one of those, it is not trusted in the checks either.
     """
     checks = check_row(task, extremes, known)
-    worst = _find_worst(checks)
+    worst = find_worst(checks)
     before = task.count_faults()
     form = _find_model_form(task, worst, _governing_result(worst, extremes))
     if task.count_faults() > before:
         checks = [distrust(check) for check in checks]
     return checks, form
-
-
-def _list_notes(
-    task: RowToCheck,
-    known: RowForces,
-    checks: Sequence[CheckRecord],
-    cases: Sequence[CaseRecord],
-    panel: PanelRecord | None,
-) -> list[Message]:
-    return [
-        *list_judged_notes(
-            task.basis,
-            effects=known.effects,
-            pulls=known.pulls,
-            checks=checks,
-            cases=cases,
-            panel=panel,
-        ),
-        *list_history_notes(task.solved.extremes),
-    ]
 
 
 def _record_extremes(extremes: Mapping[str, Extreme]) -> list[ExtremeRecord]:
@@ -289,7 +270,7 @@ def _name_largest(check: CheckRecord) -> str:
     return name_in_panel(check.member) if check.is_by_panel else check.member
 
 
-def _find_worst(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+def find_worst(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     """Check of the largest utilisation by a solved case; None without any."""
     rated = [check for check in checks if check.used is not None and check.case]
     return max(rated, key=lambda check: check.used or 0.0, default=None)
@@ -325,23 +306,24 @@ def know_row(
 
     ``gap`` says why the cases are not complete.
     """
-    row, standard = basis.row, basis.standard
-    effects = find_effects(row, standard, basis.site.ranges)
-    head, record = floor.head if floor else None, record_floor(floor, row)
+    site, row, standard = basis.site, basis.row, basis.standard
+    effects = find_effects(row, standard, site.ranges)
+    head = floor.head if floor else None
     held = find_held_sideways(row, results, extremes, standard, head)
     return RowForces(
+        site=site,
         row=row,
         standard=standard,
+        law=basis.law,
         effects=effects,
         largest={name: _record_force(one) for name, one in extremes.items()},
-        floor={one.member: one for one in record.forces} if record else None,
+        floor=record_floor(floor, row),
         held=held,
         tilt=find_tilt(
             row, (one.case.inclination for one in results if one.is_converged)
         ),
         pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
         gap=gap,
-        floor_gap=floor.reason if floor else None,
         panel_gap=_find_failed_panel(row, results),
     )
 

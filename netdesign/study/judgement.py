@@ -15,7 +15,7 @@ from netdesign.site.model import CONNECTED, NetRow, Resistance
 from netdesign.structure.members import ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
-from netdesign.study.case_records import FloorForceRecord, ForceRecord
+from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_to_record import (
     doubt_ground,
     doubt_sharing,
@@ -40,10 +40,11 @@ from netdesign.study.member_force import (
     name_governing,
     name_unsaid,
 )
-from netdesign.study.pulls import AnchorPull, check_directions, doubt_mortar, find_pull
+from netdesign.study.pulls import check_directions, doubt_mortar, find_pull
 from netdesign.study.records import CheckRecord
 from netdesign.study.row_to_check import Basis, find_doubt
 from netdesign.study.sideways import check_sideways
+from netdesign.study.support_records import PullRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -59,10 +60,10 @@ class MemberCheck:
 
     given: Resistance
     width: LoadedWidth
-    force: MemberForce | None
-    gap: Message | None
-    doubt: Message | None
     result: CheckResult
+    force: MemberForce | None = None
+    gap: Message | None = None
+    doubt: Message | None = None
     unsure: Message | None = None
 
     @property
@@ -92,6 +93,15 @@ class MemberCheck:
             return None
         return self.force.on_support * factor / design
 
+    def use_least(self, force: float, pull: float) -> float:
+        """Utilisation by a force of the guideline's load and its pull on the head [N].
+
+        On a support as wide as now [-].
+        """
+        if self.force is None or self.use is None:
+            raise ValueError("a check without a force is not used")
+        return self.use * self.force.find_least(force / 1e3, pull / 1e3)
+
     @property
     def ratio(self) -> float:
         """Upper end of the utilisation [-]; below 0 without one."""
@@ -105,43 +115,40 @@ def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
     return one is max(rivals, key=lambda other: other.ratio)
 
 
-def judge_members(basis: Basis, known: RowForces) -> list[MemberCheck]:
+def judge_members(known: RowForces) -> list[MemberCheck]:
     """Checks of both supports' members, then of the net and what holds its ropes."""
-    effects, row = known.effects, basis.row
-    at_end, not_checked = effects.find_support("edge"), basis.standard.not_checked
+    effects, row = known.effects, known.row
+    at_end, not_checked = effects.find_support("edge"), known.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
     parts = () if "mesh" in not_checked else row.net_parts
     checked = [
         (width, given)
         for width, given in list_checked(row, effects)
-        if _concerns(basis, known, given)
+        if _concerns(known, given)
     ]
     checked += [(at_end, given) for given in (*parts, *held)]
     judged = []
     for width, given in checked:
-        judged.append(_judge_member(basis, known, given, width))
+        judged.append(_judge_member(known, given, width))
         is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
         if is_rope and "connections" not in not_checked:
-            chain = _find_chain(basis, known, given, width)
-            judged.append(_judge_member(basis, known, chain, width))
+            chain = _find_chain(known, given, width)
+            judged.append(_judge_member(known, chain, width))
     return judged
 
 
-def _concerns(basis: Basis, known: RowForces, given: Resistance) -> bool:
+def _concerns(known: RowForces, given: Resistance) -> bool:
     """The check is one of this row and profile: some case lifts a foot that is held."""
     if given.member == Member.POST_FOOT:
-        floor = known.floor or {}
-        return lifts(known.largest.values(), floor.values())
-    return given.mode != "wedge" or "anchor_ground" not in basis.standard.not_checked
+        return lifts(known.largest.values(), known.floor)
+    return given.mode != "wedge" or "anchor_ground" not in known.standard.not_checked
 
 
-def _find_chain(
-    basis: Basis, known: RowForces, given: Resistance, width: LoadedWidth
-) -> Resistance:
+def _find_chain(known: RowForces, given: Resistance, width: LoadedWidth) -> Resistance:
     """Resistance of the links between a rope and its anchor."""
     anchor = CONNECTED[given.member]
     pull = find_pull(known.pulls, anchor, width.position) if anchor else None
-    return connect(given, basis.site.links, pull, basis.standard)
+    return connect(given, known.site.links, pull, known.standard)
 
 
 def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCheck:
@@ -154,25 +161,26 @@ def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCh
 
 
 def _judge_member(
-    basis: Basis, known: RowForces, given: Resistance, width: LoadedWidth
+    known: RowForces, given: Resistance, width: LoadedWidth
 ) -> MemberCheck:
-    unsaid = _find_unsaid(basis.row, known, given, width)
-    if unsaid:
-        return _leave_open(basis, given, width, unsaid)
-    row = basis.row
+    row, standard = known.row, known.standard
+    unsaid = _find_unsaid(known, given, width)
+    if unsaid:  # whatever else is missing
+        result = judge_force(given, None, standard, gap=unsaid, doubt=None)
+        result = withhold(result, unsaid)
+        return MemberCheck(given=given, width=width, gap=unsaid, result=result)
     force = find_force(known, given, width)
     pull = find_pull(known.pulls, given.member, width.position)
-    given, unsure = _find_lasting(basis, given, pull)
+    given, unsure = _find_lasting(known, given, pull)
     doubt = None
     if force is not None:
-        given = find_resistance_for_force(given, basis, pull)
-        doubt = _find_doubt(basis, list_bringing(known, force))
+        given = find_resistance_for_force(given, known, pull)
+        doubt = _find_doubt(known, list_bringing(known, force))
     gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
     gap = gap or _find_unseen(force.solved if force else ())
     gap = gap or find_other_panel(row, given, width.position)
-    standard = basis.standard
     result = judge_force(given, force, standard, gap=gap, doubt=doubt or unsure)
-    short = find_short_post(given, row, basis.site.ranges)
+    short = find_short_post(given, row, known.site.ranges)
     if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
         result = judge_force(given, force, standard, gap=gap, doubt=doubt)
@@ -188,7 +196,7 @@ def _judge_member(
 
 
 def _find_lasting(
-    basis: Basis, given: Resistance, pull: AnchorPull | None
+    basis: Basis, given: Resistance, pull: PullRecord | None
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
     row = basis.row
@@ -198,30 +206,16 @@ def _find_lasting(
 
 
 def _find_unsaid(
-    row: NetRow, known: RowForces, given: Resistance, width: LoadedWidth
+    known: RowForces, given: Resistance, width: LoadedWidth
 ) -> Message | None:
     """Lack of what a force depends on, so that nothing is known of it."""
+    row = known.row
     if row.unsaid:
         return name_unsaid(row)
     if known.panel_gap is not None:
         return known.panel_gap
     is_inside = width.position == "intermediate" and given.member in tuple(Member)
     return None if is_inside else find_lack(row, given)
-
-
-def _leave_open(
-    basis: Basis, given: Resistance, width: LoadedWidth, unsaid: Message
-) -> MemberCheck:
-    """Check of a member whose force depends on what nobody gives."""
-    result = judge_force(given, None, basis.standard, gap=unsaid, doubt=None)
-    return MemberCheck(
-        given=given,
-        width=width,
-        force=None,
-        gap=unsaid,
-        doubt=None,
-        result=withhold(result, unsaid),  # whatever else is missing
-    )
 
 
 def list_bringing(forces: RowForces, force: MemberForce) -> list[ForceRecord]:
@@ -270,24 +264,24 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     return next((one for one in points if one is not None), None)
 
 
-def record_member(basis: Basis, known: RowForces, one: MemberCheck) -> CheckRecord:
+def record_member(known: RowForces, one: MemberCheck) -> CheckRecord:
     """Check of a force as the study has it, without what a solve adds to it."""
     position = one.width.position
     check = record_result(
-        basis.site, basis.row, one.result, position, one.given, one.force
+        known.site, known.row, one.result, position, one.given, one.force
     )
     if one.unsure is None:
         check = replace(
             check,
             resistance_ground=one.given.ground,
-            resistance_years=basis.row.design_life if one.given.wear else None,
+            resistance_years=known.row.design_life if one.given.wear else None,
         )
     if one.force is None:
         return check
     check = replace(check, case=one.force.largest.case)
     if one.is_of_end:
         return replace(check, governs="panel")
-    least = _find_floor(known, one.given.member)
+    least = known.find_least(one.given.member)
     return replace(
         check,
         load_case=least.load_case if least else "",
@@ -298,15 +292,11 @@ def record_member(basis: Basis, known: RowForces, one: MemberCheck) -> CheckReco
     )
 
 
-def _find_floor(forces: RowForces, member: str) -> FloorForceRecord | None:
-    return forces.floor.get(member) if forces.floor is not None else None
-
-
 def record_others(
-    basis: Basis, known: RowForces, judged: Sequence[MemberCheck]
+    known: RowForces, judged: Sequence[MemberCheck]
 ) -> Iterator[CheckRecord]:
     """Checks that compare no force: load along the row, directions, geometry."""
-    site, row, standard = basis.site, basis.row, basis.standard
+    site, row, standard = known.site, known.row, known.standard
     gap = find_open(row, judged)
     lateral = check_sideways(row, known.held, standard, gap)
     yield record_result(site, row, lateral)

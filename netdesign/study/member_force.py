@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 from netdesign.calculation.quantity import Kind, Quantity, given
-from netdesign.checks import Standard
 from netdesign.checks.check import find_profile_value
 from netdesign.checks.forces import (
     GUYS_ON_ANCHOR,
@@ -33,10 +32,10 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.structure.row_position import LoadedWidth, Position
-from netdesign.study.case_records import FloorForceRecord, ForceRecord
+from netdesign.study.case_records import FloorForceRecord, FloorRecord, ForceRecord
 from netdesign.study.effects import RowEffects
-from netdesign.study.pulls import AnchorPull
-from netdesign.study.support_records import HeldSidewaysRecord
+from netdesign.study.row_to_check import Basis
+from netdesign.study.support_records import HeldSidewaysRecord, PullRecord
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
@@ -54,46 +53,52 @@ PARTS: Mapping[str, str] = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RowForces:
+class RowForces(Basis):
     """Knowledge of a row by its solved cases, or by its study, in engineer's units.
 
     Attributes
     ----------
-    row, standard, effects
-        Net row, limit profile, and the supports that differ in their load.
+    effects : RowEffects
+        Supports that differ in their load.
     largest : mapping of str to ForceRecord
         Largest solved forces by their keys, with what may hide.
-    floor : mapping of str to FloorForceRecord, or None
+    floor : FloorRecord or None
         Forces by the guideline's load; None where it is no floor.
     held : HeldSidewaysRecord or Message
         Load along the row at the head, or why nothing holds it.
     tilt : float
         Largest force along the slope at a post's base over that across, (S19) [-].
-    pulls : tuple of AnchorPull
+    pulls : tuple of PullRecord
         Directions at the anchors.
-    gap, floor_gap : Message or None
-        Why the forces do not cover every case, and why the guideline's load is not
-        known.
+    gap : Message or None
+        Why the forces do not cover every case.
     panel_gap : Message or None
         Why an assumed panel fails, so that nothing is known of the row.
     """
 
-    row: NetRow
-    standard: Standard
     effects: RowEffects
     largest: Mapping[str, ForceRecord]
-    floor: Mapping[str, FloorForceRecord] | None
+    floor: FloorRecord | None
     held: HeldSidewaysRecord | Message
     tilt: float
-    pulls: tuple[AnchorPull, ...] = ()
+    pulls: tuple[PullRecord, ...] = ()
     gap: Message | None = None
-    floor_gap: Message | None = None
     panel_gap: Message | None = None
 
     @property
     def along_row(self) -> HeldSidewaysRecord | None:
         """Load along the row at the head; None where nothing holds it."""
         return self.held if isinstance(self.held, HeldSidewaysRecord) else None
+
+    @property
+    def floor_gap(self) -> Message | None:
+        """Reason why the guideline's load is not known."""
+        return self.floor.reason if self.floor else None
+
+    def find_least(self, member: str) -> FloorForceRecord | None:
+        """Force of a member by the guideline's load; None where there is none."""
+        forces = self.floor.forces if self.floor else ()
+        return next((one for one in forces if one.member == member), None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -172,6 +177,23 @@ class MemberForce:
         """Upper end of what the load along the row adds, inside the row [kN]."""
         return self._tilt * (_high(self.on.load.added) + _high(self.on.load.across))
 
+    def compare_load(self, other: MemberForce) -> float:
+        """Load of its support over that of another [-].
+
+        The larger growth of width and of what the end guy brings counts for both.
+        """
+        growth, push = self.on_support / other.on_support, _high(other.on.push)
+        return max(growth, _high(self.on.push) / push) if push else growth
+
+    def find_least(self, force: float, pull: float) -> float:
+        """The member's force inside the row by the guideline's load [kN].
+
+        ``pull`` is that load's on the head: what it brings grows with it, and never
+        falls.
+        """
+        growth = max(0.0, pull / self.pull - 1.0) if self.pull else 0.0
+        return self.share * force + self.added + growth * self.rise
+
     def find_high(self, force: float, *, is_by_panel: bool) -> float:
         """Upper end of the member's force inside the row, from one solved [kN]."""
         push = _high(self.on.push) if is_by_panel else 0.0
@@ -217,7 +239,7 @@ def find_force(
     panel = forces.largest.get(name_in_panel(member))
     if panel is not None:
         leaves.append(solve_for(panel, f"{letter}_p0"))
-    least = forces.floor.get(member) if forces.floor is not None else None
+    least = forces.find_least(member)
     if least is not None:
         leaves.append(_solved(f"{letter}_g0", least.force_kN, "kN", f"floor.{member}"))
     added, rise = _list_load_leaves(forces, member)
@@ -320,16 +342,14 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     return ([] if is_none else [weight, share, pull, splay, least]), rise
 
 
-def lifts(forces: Iterable[ForceRecord], floor: Iterable[FloorForceRecord]) -> bool:
+def lifts(forces: Iterable[ForceRecord], floor: FloorRecord | None) -> bool:
     """Some case, or the guideline's load, may pull a post off its base."""
-    pulls = (one.high_kN for one in forces if one.quantity in POST_PULLS)
-    return any(
-        force > 0.0
-        for force in (
-            *pulls,
-            *(one.force_kN for one in floor if one.member == Member.POST_FOOT),
-        )
-    )
+    least = floor.forces if floor else ()
+    pulls = [
+        *(one.high_kN for one in forces if one.quantity in POST_PULLS),
+        *(one.force_kN for one in least if one.member == Member.POST_FOOT),
+    ]
+    return any(force > 0.0 for force in pulls)
 
 
 def _list_push_leaves(forces: RowForces) -> list[Quantity]:
@@ -369,17 +389,6 @@ def leave_out_governing(reason: Message) -> Message:
     alone = reason.arguments.get("reason")
     is_told = reason.key == "load.reason" and isinstance(alone, Message)
     return alone if is_told and isinstance(alone, Message) else reason
-
-
-def compute_end_factor(width: LoadedWidth, spacing: float) -> float:
-    """Pull of a rope under the end effect over that without, at most, (P8) [-]."""
-    share = width.end_length / spacing
-    return 1.0 + width.end_factor * (share if share <= 0.5 else 1.0)
-
-
-def compute_tension_factor(width: LoadedWidth, spacing: float) -> float:
-    """Tension of a border rope under the end effect over that without, (P9) [-]."""
-    return 1.0 + width.end_factor * min(1.0, 2.0 * width.end_length / spacing)
 
 
 def name_unsaid(row: NetRow) -> Message:

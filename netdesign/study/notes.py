@@ -22,12 +22,11 @@ from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.dependent import find_snow_pressure
 from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
-from netdesign.study.pulls import AnchorPull
+from netdesign.study.member_force import RowForces
 from netdesign.study.records import CheckRecord, IndependentRecord
-from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import GUYS, place_row
-from netdesign.study.support_records import PanelRecord
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.study.support_records import PanelRecord, PullRecord
+from netdesign.units import kilonewton_from_newton
 from netdesign.winter.maxima import find_model_code_density
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
@@ -123,19 +122,16 @@ def _layer_notes(site: Site) -> list[Message]:
 
 
 def list_judged_notes(
-    basis: Basis,
-    *,
-    effects: RowEffects,
-    pulls: Sequence[AnchorPull],
+    known: RowForces,
     checks: Sequence[CheckRecord],
     cases: Sequence[CaseRecord],
     panel: PanelRecord | None,
 ) -> list[Message]:
     """Notes of a row that follow from its inputs, its checks and its cases."""
-    row, ranges, standard = basis.row, basis.site.ranges, basis.standard
+    row, ranges, standard = known.row, known.site.ranges, known.standard
     return [
-        *list_row_notes(row, effects, pulls),
-        *list_end_notes(row, ranges, basis.law, effects),
+        *list_row_notes(row, known.effects, known.pulls),
+        *list_end_notes(row, ranges, known.law, known.effects),
         describe_model_code(row, ranges["density"]),
         *_list_sharing_notes(row, standard),
         *list_test_notes(checks, standard),
@@ -147,7 +143,7 @@ def list_judged_notes(
 
 
 def list_row_notes(
-    row: NetRow, effects: RowEffects, pulls: Sequence[AnchorPull]
+    row: NetRow, effects: RowEffects, pulls: Sequence[PullRecord]
 ) -> list[Message]:
     """What was taken for granted about this row."""
     notes = []
@@ -168,15 +164,14 @@ def list_row_notes(
     return [*notes, *_list_pull_notes(pulls)]
 
 
-def _list_pull_notes(pulls: Sequence[AnchorPull]) -> Iterator[Message]:
+def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
     """Axes of anchors that are drilled along the pull, and what mortar runs out of."""
     for one in pulls:
         if not one.is_axis_known or one.position != "intermediate":
             continue
-        anchor, dip = name_member(one.anchor), degree_from_radian(one.dip)
+        anchor, dip = name_member(one.anchor), one.dip_deg
         if not one.is_axis_given:
-            axis = degree_from_radian(one.axis)
-            yield say("row.drilled_along_pull", member=anchor, axis=axis)
+            yield say("row.drilled_along_pull", member=anchor, axis=one.axis_deg)
         if dip < 0.0:
             yield say("row.borehole_rises", member=anchor, rise=-dip)
         elif dip < _LEAST_DIP_DEG:
@@ -321,7 +316,7 @@ def list_guy_notes(
     """
     on_action = find_action_factor(standard).value
     try:
-        pressure = find_snow_pressure(row, ranges).value / 1e3
+        pressure = find_snow_pressure(row, ranges)[0] / 1e3
     except ModelError:  # outside the guideline's closed forms
         return
     across = min(row.net_height, row.held_thickness)

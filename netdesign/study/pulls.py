@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import conclude, judge, not_proven
@@ -27,52 +26,10 @@ from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
 from netdesign.study.sideways import list_states, place_row
 from netdesign.study.support_records import PullRecord
-from netdesign.units import degree_from_radian, radian_from_degree
+from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 
 ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AnchorPull:
-    """Pull on one anchor over all solved cases, against its axis.
-
-    Attributes
-    ----------
-    anchor : Member
-        Which.
-    position : str
-        "intermediate", or "edge" of an anchor of the row's end alone.
-    pulls : PullRange
-        Directions in the section [rad].
-    axis : float
-        Inclination of the anchor; the middle of the pulls where none is given [rad].
-    is_axis_given : bool
-        The workbook has it.
-    is_axis_known : bool
-        It has, or says that the anchor is drilled along the pull.
-    kind : str
-        Of the anchor, or "".
-    angle : float
-        Largest between pull and axis, with the part along the row at the foot [rad].
-    dip : float
-        Of the axis below the horizontal; negative of a borehole that rises [rad].
-    """
-
-    anchor: Member
-    position: Position
-    pulls: PullRange
-    axis: float
-    is_axis_given: bool
-    is_axis_known: bool
-    kind: str
-    angle: float
-    dip: float
-
-    @property
-    def is_checked(self) -> bool:
-        """A limit of the direction is checked: what bends has a check of that."""
-        return self.kind not in ("bar", "micropile")
 
 
 def list_pulls(
@@ -80,7 +37,7 @@ def list_pulls(
     results: Sequence[CaseResult],
     share: float,
     floor: HeadSpan | None = None,
-) -> list[AnchorPull]:
+) -> list[PullRecord]:
     """Pull on every anchor over the converged cases and under the floor's load.
 
     ``share`` acts along the row. The anchors of the row's end come last, where they
@@ -119,8 +76,8 @@ def list_positions(row: NetRow) -> tuple[Position, ...]:
 
 
 def find_pull(
-    pulls: Sequence[AnchorPull], anchor: str, position: Position
-) -> AnchorPull | None:
+    pulls: Sequence[PullRecord], anchor: str, position: Position
+) -> PullRecord | None:
     """Pull on an anchor of a support; that inside the row where it has no other."""
     found = [one for one in pulls if one.anchor == anchor]
     own = [one for one in found if one.position == position]
@@ -140,42 +97,13 @@ def _may_share(guys: Guys) -> bool:
     return guys.count > 1 and guys.are_shared is not False
 
 
-def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:
-    """Record the directions in degrees."""
-    return [
-        PullRecord(
-            anchor=one.anchor,
-            position=one.position,
-            kind=one.kind,
-            least_deg=degree_from_radian(one.pulls.least),
-            largest_deg=degree_from_radian(one.pulls.largest),
-            axis_deg=degree_from_radian(one.axis),
-            is_axis_given=one.is_axis_given,
-            is_axis_known=one.is_axis_known,
-            angle_deg=degree_from_radian(one.angle),
-            dip_deg=degree_from_radian(one.dip),
-        )
-        for one in pulls
-    ]
-
-
-def build_pull_again(row: NetRow, stored: PullRecord, share: float) -> AnchorPull:
-    """Pull on an anchor from the directions of a record, as ``build_pull`` makes it."""
-    position: Position = "edge" if stored.position == "edge" else "intermediate"
-    pulls = PullRange(
-        least=radian_from_degree(stored.least_deg),
-        largest=radian_from_degree(stored.largest_deg),
-    )
-    return build_pull(row, Member(stored.anchor), pulls, share, position)
-
-
 def build_pull(
     row: NetRow,
     anchor: Member,
     pulls: PullRange,
     share: float,
     position: Position = "intermediate",
-) -> AnchorPull:
+) -> PullRecord:
     """Pull on an anchor from the range of its directions.
 
     Parameters
@@ -197,20 +125,21 @@ def build_pull(
     if _may_share(row.guys) and anchor != Member.FOOT_ANCHOR:
         along_row = math.tan(row.guys.splay or 0.0)
     turned = turn_sideways(pulls.find_largest_angle(axis), along_row)
-    return AnchorPull(
+    return PullRecord(
         anchor=anchor,
         position=position,
-        pulls=pulls,
-        axis=axis,
+        kind=kind.kind if kind else "",
+        least_deg=degree_from_radian(pulls.least),
+        largest_deg=degree_from_radian(pulls.largest),
+        axis_deg=degree_from_radian(axis),
         is_axis_given=given is not None,
         is_axis_known=given is not None or row.drills_along_pull,
-        kind=kind.kind if kind else "",
-        angle=turned,
-        dip=find_dip(axis, row.slope_angle, anchor),
+        angle_deg=degree_from_radian(turned),
+        dip_deg=degree_from_radian(find_dip(axis, row.slope_angle, anchor)),
     )
 
 
-def doubt_mortar(given: Resistance, pull: AnchorPull | None) -> Message | None:
+def doubt_mortar(given: Resistance, pull: PullRecord | None) -> Message | None:
     """Doubt that mortar fills a borehole, of a bond computed as if it did.
 
     From a borehole that rises mortar runs out. A test shows what such a bond bears.
@@ -220,15 +149,11 @@ def doubt_mortar(given: Resistance, pull: AnchorPull | None) -> Message | None:
         return None
     if not pull.is_axis_known:
         return say("bending.no_axis")
-    return (
-        say("bores.rises", rise=-degree_from_radian(pull.dip))
-        if pull.dip < 0.0
-        else None
-    )
+    return say("bores.rises", rise=-pull.dip_deg) if pull.dip_deg < 0.0 else None
 
 
 def check_directions(
-    pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
+    pulls: Sequence[PullRecord], standard: Standard, gap: Message | None
 ) -> list[tuple[Position, CheckResult]]:
     """Check the angles of rope anchors, and of anchors whose kind is not given.
 
@@ -242,7 +167,7 @@ def check_directions(
 
 
 def _check_direction(
-    pull: AnchorPull, standard: Standard, gap: Message | None
+    pull: PullRecord, standard: Standard, gap: Message | None
 ) -> CheckResult:
     limit = standard.find(ROPE_ANGLE)
     if limit is None:
@@ -257,7 +182,7 @@ def _check_direction(
     key = (
         "direction.rope_beyond" if verdict is Verdict.FAIL else "direction.rope_within"
     )
-    told = say(key, angle=degree_from_radian(angle), most=limit.value)
+    told = say(key, angle=pull.angle_deg, most=limit.value)
     if verdict is Verdict.NOT_PROVEN and gap is not None:
         told = not_proven(gap)
     return conclude("direction", verdict, told, member=pull.anchor)

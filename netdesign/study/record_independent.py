@@ -16,7 +16,7 @@ from netdesign.cable.tension import (
 )
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.comparison import NetGeometry, place_head
+from netdesign.guideline.comparison import NetGeometry, hold_net
 from netdesign.guideline.net_pull import compute_net_pull
 from netdesign.haefeli.pressure import SlabForce, compute_slab_force
 from netdesign.haefeli.slab import Slab, find_linear_slip
@@ -25,9 +25,7 @@ from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.ground import DEFAULT_CREEP_LAW, load_glide_tables
 from netdesign.solving.state import SolvedState
-from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import place_support
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import build_geometry, compare_forces, find_solved
 from netdesign.study.records import IndependentRecord, SlabCase, SlabRecord
@@ -145,12 +143,7 @@ def _find_forces(
         )
     except ModelError as error:
         return {}, error.message
-    anchors = compute_anchor_forces(
-        place_support(net.layout, place_head(net)),
-        foot_pull_per_m=pull.foot,
-        head_pull_per_m=pull.head,
-        post_spacing=net.layout.post_spacing,
-    )
+    anchors = hold_net(net, pull)
     if isinstance(anchors, FailedSupport):
         return {}, anchors.reason
     return dict(anchors.member_forces), None
@@ -180,7 +173,7 @@ def record_independent(
         checks.append(_check_capstan(state, result.case.friction_angle))
     checks.append(_check_tension(state))
     if len(head) > 1:
-        checks.append(_check_head(head))
+        checks.append(_judge("head_balance", measure_open_head(head)))
     return checks
 
 
@@ -212,12 +205,12 @@ def _check_tension(state: SolvedState) -> IndependentRecord:
     return _judge("tension_share", share)
 
 
-def _check_head(head: list[HeadForce]) -> IndependentRecord:
+def measure_open_head(head: list[HeadForce]) -> float:
+    """Forces on a post head that are left over, as a share of the largest one [-]."""
     missing = math.hypot(
         sum(force.x_kN for force in head), sum(force.y_kN for force in head)
     )
-    largest = max(math.hypot(force.x_kN, force.y_kN) for force in head)
-    return _judge("head_balance", missing / largest)
+    return missing / max(math.hypot(force.x_kN, force.y_kN) for force in head)
 
 
 def _judge(

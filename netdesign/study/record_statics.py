@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
+from netdesign.guideline.comparison import hold_net, place_head
 from netdesign.guideline.floor import SPANS, Floor, FloorForce
 from netdesign.site.model import NetRow
-from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.axis import measure_pull
 from netdesign.structure.layout import place_support
 from netdesign.structure.members import Member, NetPart, RopeForce
@@ -23,7 +24,7 @@ from netdesign.study.sideways import SupportState, list_states
 from netdesign.study.support_records import StaticsRecord
 from netdesign.units import kilonewton_from_newton
 
-_Any = TypeVar("_Any")  # state of a row
+_State = TypeVar("_State")  # state of a row
 
 
 def record_statics(
@@ -78,10 +79,10 @@ def _measure(state: SupportState) -> dict[str, float]:
 
 
 def _group(
-    found: Iterable[tuple[str, _Any]], is_same: Callable[[_Any, _Any], bool]
-) -> list[tuple[_Any, list[str]]]:
+    found: Iterable[tuple[str, _State]], is_same: Callable[[_State, _State], bool]
+) -> list[tuple[_State, list[str]]]:
     """States in the order of what they bring, each with all of it."""
-    groups: list[tuple[_Any, list[str]]] = []
+    groups: list[tuple[_State, list[str]]] = []
     for key, state in found:
         keys = next((keys for known, keys in groups if is_same(known, state)), None)
         if keys is None:
@@ -111,20 +112,12 @@ def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:
 
 def _record_floor_state(state: FloorForce, keys: list[str]) -> StaticsRecord:
     net = state.at.net
-    points = place_support(
-        net.layout, (net.net_height * math.tan(net.inclination), net.net_height)
-    )
     foot, head = state.pull.foot, state.pull.head
-    anchors = compute_anchor_forces(
-        points,
-        foot_pull_per_m=foot,
-        head_pull_per_m=head,
-        post_spacing=net.layout.post_spacing,
-    )
+    anchors = hold_net(net, state.pull)
     if not isinstance(anchors, AnchorForces):  # the floor has held it before
         raise TypeError("a state of the floor has no equilibrium")
     pulls = SupportState(
-        points=points,
+        points=place_support(net.layout, place_head(net)),
         anchors=anchors,
         foot=EndPull(x=foot[0], y=foot[1], error=0.0),
         head=EndPull(x=head[0], y=head[1], error=0.0),
@@ -151,7 +144,6 @@ def _record_state(
     foot, head, points, anchors = state.foot, state.head, state.points, state.anchors
     if foot is None or head is None:
         raise TypeError("a state without pulls has no statics")
-    uphill, downhill = anchors.head.guy_demands
     return StaticsRecord(
         brings=keys,
         case=record_point(state.result.case) if state.result else None,
@@ -167,12 +159,21 @@ def _record_state(
         base_x_m=points.post_base[0],
         uphill_x_m=points.uphill_anchor[0],
         downhill_x_m=points.downhill_anchor[0],
-        foot_anchor_kN=kilonewton_from_newton(anchors.foot_anchor.size),
-        uphill_guy_kN=kilonewton_from_newton(uphill),
-        downhill_guy_kN=kilonewton_from_newton(downhill),
-        post_kN=kilonewton_from_newton(anchors.head.post_compression),
-        post_base_kN=kilonewton_from_newton(max(-anchors.post_base.y, 0.0)),
-        post_foot_kN=kilonewton_from_newton(anchors.head.post_tension),
+        **show_forces(anchors),
         is_by_panel=state.panel is not None,
         mid_foot_kN=kilonewton_from_newton(math.hypot(*state.mid_foot)),
     )
+
+
+def show_forces(anchors: AnchorForces) -> dict[str, Any]:
+    """Forces in the members of a state, by the keys of a ``StaticsRecord``."""
+    uphill, downhill = anchors.head.guy_demands
+    forces = {
+        Member.FOOT_ANCHOR: anchors.foot_anchor.size,
+        Member.UPHILL_GUY: uphill,
+        Member.DOWNHILL_GUY: downhill,
+        Member.POST: anchors.head.post_compression,
+        Member.POST_BASE: max(-anchors.post_base.y, 0.0),
+        Member.POST_FOOT: anchors.head.post_tension,
+    }
+    return {f"{key}_kN": kilonewton_from_newton(one) for key, one in forces.items()}

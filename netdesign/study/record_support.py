@@ -60,8 +60,7 @@ def record_panel(
         for variant in one.panel.variants
     ]
     found = {name: extremes[name] for name in PANEL_QUANTITIES if name in extremes}
-    lower = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
-    upper = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
+    highs = {name: one.widened.high for name, one in found.items()}
     return PanelRecord(
         cut=panel.cut,
         has_mid_anchors=panel.has_mid_anchors,
@@ -70,12 +69,16 @@ def record_panel(
         if row.panel_assumed
         else [
             _record_rope(
-                *("lower", panel.lower, row.find_net_part(NetPart.LOWER_ROPE)),
-                *(found, lower),
+                *("lower", panel.lower),
+                highs.get(RopeForce.LOWER_ALONG),
+                highs.get(RopeForce.LOWER_TENSION),
+                row.find_net_part(NetPart.LOWER_ROPE),
             ),
             _record_rope(
-                *("upper", panel.upper, row.find_net_part(NetPart.RIDGE_ROPE)),
-                *(found, upper),
+                *("upper", panel.upper),
+                highs.get(RopeForce.UPPER_ALONG),
+                highs.get(RopeForce.UPPER_TENSION),
+                row.find_net_part(NetPart.RIDGE_ROPE),
             ),
         ],
         extremes=[record_extreme(one) for one in found.values()],
@@ -100,16 +103,7 @@ def record_solved_panel(result: CaseResult) -> PanelRecord | None:
         cut=panel.cut,
         has_mid_anchors=panel.has_mid_anchors,
         ropes=[
-            RopeRecord(
-                rope=name,
-                type="",
-                stiffness_kN=kilonewton_from_newton(rope.stiffness),
-                sag=rope.sag,
-                along_kN=kilonewton_from_newton(forces.along),
-                tension_kN=kilonewton_from_newton(forces.tension),
-                breaking_kN=None,
-                cell="",
-            )
+            _record_rope(name, rope, forces.along, forces.tension)
             for name, rope, forces in (
                 ("lower", panel.lower, solved.lower),
                 ("upper", panel.upper, solved.upper),
@@ -172,23 +166,20 @@ def _show_point(force: Point) -> tuple[float, float]:
 def _record_rope(
     name: str,
     rope: Rope,
-    bears: Resistance,
-    extremes: Mapping[str, Extreme],
-    forces: tuple[str, str],
+    along: float | None,
+    tension: float | None,
+    bears: Resistance | None = None,
 ) -> RopeRecord:
-    along, tension = (
-        kilonewton_from_newton(extremes[one].widened.high) if one in extremes else None
-        for one in forces
-    )
+    """Rope with its largest forces [N], and what it bears where that is known."""
     return RopeRecord(
         rope=name,
-        type=bears.type_id,
+        type=bears.type_id if bears else "",
         stiffness_kN=kilonewton_from_newton(rope.stiffness),
         sag=rope.sag,
-        along_kN=along,
-        tension_kN=tension,
-        breaking_kN=kilonewton_if_known(bears.value),
-        cell=bears.source,
+        along_kN=kilonewton_if_known(along),
+        tension_kN=kilonewton_if_known(tension),
+        breaking_kN=kilonewton_if_known(bears.value if bears else None),
+        cell=bears.source if bears else "",
     )
 
 

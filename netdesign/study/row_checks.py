@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 
@@ -13,7 +13,7 @@ from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CREEP_LAWS
-from netdesign.structure.members import ROPE_OF, NetPart, RopeForce, name_in_panel
+from netdesign.structure.members import RopeForce, name_in_panel
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
@@ -29,8 +29,7 @@ from netdesign.study.margins import find_margins, solve_ends
 from netdesign.study.member_force import (
     MemberForce,
     RowForces,
-    compute_end_factor,
-    compute_tension_factor,
+    find_force,
 )
 from netdesign.study.records import ChangeRecord, CheckRecord, HoldRecord, SpreadRecord
 from netdesign.study.remedies import list_remedies
@@ -51,8 +50,8 @@ def check_row(
 
     ``extremes`` are those of its solved cases, ``known`` what these tell.
     """
-    judged = judge_members(task.basis, known)
-    followed = list_checks_by_case(task, judged, extremes)
+    judged = judge_members(known)
+    followed = list_checks_by_case(task, known, judged, extremes)
     if task.solver is not None:  # what is solved here serves changes and limits
         solve_ends([one for one in followed if one is not None], task.solver)
     beside = []
@@ -69,14 +68,14 @@ def check_row(
         judged = [judge_with_fault(task.basis, one, _FAULT_BESIDE) for one in judged]
     checks = [
         replace(
-            record_member(task.basis, known, one),
+            record_member(known, one),
             spreads=spreads,
             changes=changes,
             holds=holds.get(one.id, []),
         )
         for one, (spreads, changes) in zip(judged, beside, strict=True)
     ]
-    return [*checks, *record_others(task.basis, known, judged)]
+    return [*checks, *record_others(known, judged)]
 
 
 def _solve_beside(
@@ -108,7 +107,10 @@ _SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness
 
 
 def list_checks_by_case(
-    task: RowToCheck, judged: Sequence[MemberCheck], extremes: Mapping[str, Extreme]
+    task: RowToCheck,
+    known: RowForces,
+    judged: Sequence[MemberCheck],
+    extremes: Mapping[str, Extreme],
 ) -> list[CheckByCase | None]:
     """Checks as functions of a solved case; None of those that no solve may turn.
 
@@ -118,7 +120,7 @@ def list_checks_by_case(
     if task.solver is None or task.solved.gap or task.basis.row.is_overtopped:
         return [None] * len(judged)
     return [
-        _build_check(task, one, extremes)
+        _build_check(task, known, one, extremes)
         if _follows_cases(one) and is_worst(one, judged)
         else None
         for one in judged
@@ -159,22 +161,6 @@ def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:
     return found
 
 
-def _find_end_growth(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
-    """Growth of a rope's force by the end effect, over some ranges [-]."""
-    if one.given.member not in tuple(NetPart):
-        return _find_end_factor(task, ranges)
-    effects = find_effects(task.basis.row, task.basis.standard, ranges)
-    width = effects.find_support(one.width.position)
-    return compute_tension_factor(width, task.basis.row.layout.post_spacing)
-
-
-def _find_end_factor(task: RowToCheck, ranges: Ranges) -> float:
-    """Factor of the end effect on a rope's pull, over some ranges [-]."""
-    effects = find_effects(task.basis.row, task.basis.standard, ranges)
-    edge = effects.find_support("edge")
-    return compute_end_factor(edge, task.basis.row.layout.post_spacing)
-
-
 def _follows_cases(one: MemberCheck) -> bool:
     """The check follows from the member's force by numbers that stay as they are.
 
@@ -192,7 +178,10 @@ def _follows_cases(one: MemberCheck) -> bool:
 
 
 def _build_check(
-    task: RowToCheck, one: MemberCheck, extremes: Mapping[str, Extreme]
+    task: RowToCheck,
+    known: RowForces,
+    one: MemberCheck,
+    extremes: Mapping[str, Extreme],
 ) -> CheckByCase:
     """The check as a function of a solved case and of the row.
 
@@ -201,13 +190,12 @@ def _build_check(
     force, use = one.force, one.use
     if force is None or use is None:
         raise ValueError("a check without a force has no target")
-    member, results = one.given.member, task.solved.results
+    results = task.solved.results
     scales = {
         record.quantity: use * force.share * _widen(record, results) / 1e3
         for record in force.solved
     }
     followed = force.largest.quantity
-    floor = (task, member, force, use)
     return CheckByCase(
         row=task.basis.row,
         ranges=task.basis.site.ranges,
@@ -218,51 +206,32 @@ def _build_check(
         rise=use * force.rise,
         governing=extremes[followed].governing.case,
         results=results,
-        widen=cache(partial(_choose_load(one, force), task, one)),
+        widen=cache(partial(_find_load, known, one, force)),
         push=_find_push(task, one, force),
-        use_floor=partial(_use_floor, *floor),
-        bound_floor=partial(_bound_floor, *floor),
+        use_floor=partial(_use_floor, task, one),
+        bound_floor=partial(_bound_floor, task, one),
     )
 
 
-def _choose_load(
-    one: MemberCheck, force: MemberForce
-) -> Callable[[RowToCheck, MemberCheck, Ranges], float]:
-    """Function that tells how the load of a check's support follows the ranges."""
-    if one.is_of_end:
-        return _find_end_growth
-    return _find_load if force.on.push else _find_tilted
-
-
-def _use_floor(
-    task: RowToCheck, member: str, force: MemberForce, use: float, ranges: Ranges
-) -> float:
+def _use_floor(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
     """Utilisation of a member by the guideline's load alone [-]."""
     floor = task.find_floor(ranges)
-    if floor is None or member in ROPE_OF:
+    if floor is None or one.is_of_end:
         return 0.0
-    least = floor.find(member)
-    if least is None:
-        return math.inf
+    least = floor.find(one.given.member)
     pull = floor.head.pull if floor.head else 0.0
-    return use * (force.share * least.force / 1e3 + _add_by_floor(force, pull / 1e3))
+    return math.inf if least is None else one.use_least(least.force, pull)
 
 
 def _bound_floor(
-    task: RowToCheck, member: str, force: MemberForce, use: float, ranges: Ranges
+    task: RowToCheck, one: MemberCheck, ranges: Ranges
 ) -> tuple[float, float]:
     """Ends of what `_use_floor` gives; no upper one where the bound is not known."""
-    ends = None if member in ROPE_OF else task.bound_floor(ranges)
+    ends = None if one.is_of_end else task.bound_floor(ranges)
     if ends is None:
         return 0.0, math.inf
-    least, most = (
-        use
-        * (
-            force.share * end.of_members[member] / 1e3
-            + _add_by_floor(force, end.pull / 1e3)
-        )
-        for end in ends
-    )
+    member = one.given.member
+    least, most = (one.use_least(end.of_members[member], end.pull) for end in ends)
     return least, most
 
 
@@ -278,59 +247,30 @@ def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push |
     return Push(force=name, rope=rope, ratio=force.on.push.high / pull / inside)
 
 
-def _find_load(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
-    """Load of an end post over some ranges, at most, over that of the row as is [-].
+def _find_load(
+    known: RowForces,
+    one: MemberCheck,
+    now: MemberForce,
+    ranges: Ranges,
+) -> float:
+    """Load of a support over ranges in which something was moved, over that now [-].
 
-    The larger growth of width and ropes' pull counts for both.
+    Where a base would slide, times the tangent of its post's tilt, which is largest at
+    an end of the inclinations.
     """
-    now = task.basis.site.ranges
-    widths = _find_width(task, one, ranges) / _find_width(task, one, now)
-    pulls = _find_end_factor(task, ranges) / _find_end_factor(task, now)
-    return max(widths, pulls) * _find_tilt(task, one, ranges)
-
-
-def _find_tilted(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
-    """Width that loads a support, times the tilt where a base would slide by it."""
-    return _find_width(task, one, ranges) * _find_tilt(task, one, ranges)
-
-
-def _find_tilt(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
-    """Share of a post's force along the slope over some ranges; 1 of other checks [-].
-
-    The tangent of its tilt is largest at an end of the inclinations.
-    """
+    effects = find_effects(known.row, known.standard, ranges)
+    width = effects.find_support(one.width.position)
+    moved = find_force(known, one.given, width) or now
+    load, span = moved.compare_load(now), ranges["inclination"]
     if one.given.mode != "sliding":
-        return 1.0
-    span = ranges["inclination"]
-    return find_tilt(task.basis.row, (span.low, span.high))
+        return load
+    return load * find_tilt(known.row, (span.low, span.high))
 
 
 def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
     """Upper end with what may hide, over the largest one of the solved cases [-]."""
     at_cases = kilonewton_from_newton(find_extreme(force.quantity, results).force.high)
     return force.high_kN / at_cases if at_cases else 1.0
-
-
-def _find_width(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
-    """Width that loads a support over ranges in which something was moved [m].
-
-    Of the mesh its local load over that inside the row [-].
-    """
-    supports = find_effects(task.basis.row, task.basis.standard, ranges).supports
-    if one.given.member == NetPart.MESH:
-        factors = [w.end_factor for w in supports if w.position == one.width.position]
-        return 1.0 + max(factors, default=0.0)
-    widths = [w.width for w in supports if w.position == one.width.position]
-    return max(widths, default=one.width.width)
-
-
-def _add_by_floor(force: MemberForce, pull: float) -> float:
-    """Force added to a member where the guideline's pull on the head may be larger.
-
-    It grows with that pull, and never falls [kN].
-    """
-    growth = max(0.0, pull / force.pull - 1.0) if force.pull else 0.0
-    return force.added + growth * force.rise
 
 
 def list_spreads(

@@ -24,7 +24,6 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError, write_parts
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
-from netdesign.study.document import write_row
 from netdesign.study.judge import judge_row
 from netdesign.study.records import RowStudy
 from netdesign.study.row_to_check import CaseSolver
@@ -255,7 +254,7 @@ def _judge_away(job: RowsJob) -> JudgedRows:
         runner = Runner(store=store, tell=told.append)
         studies = _judge(job, runner, count)
     for one in chain.from_iterable(studies):
-        write_row(one)  # here, while others judge
+        _ = one.written  # here, while others judge
     return JudgedRows(
         studies=studies,
         counts=runner.counts,

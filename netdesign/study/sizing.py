@@ -26,6 +26,8 @@ from netdesign.study.stronger_types import find_ground, holds_in_ground
 from netdesign.words.message import say
 
 Column = Member | EndMember
+# Rank of a type that passes, the least first, and its utilisation.
+_Rating = tuple[float, float]
 # Site of the workbook with other texts in some of its cells.
 ReadInstead = Callable[[Mapping[str, str]], Site]
 
@@ -37,58 +39,52 @@ _MODES: Mapping[Column, str] = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SizedCell:
-    """A cell that names a type with which some check does not pass.
+    """A cell that names a type, with the checks that follow from it in each row.
 
     Attributes
     ----------
-    row_id, column, cell, was : str
-        Net rows, with commas; member whose column it is; ``Nets!P8``, "" without such
-        a cell; the type that is there.
+    checks : mapping of str to tuple of str
+        Their ids, by net row.
+    open_rows : tuple of str
+        Net rows in which some check does not pass.
+    column, cell, was : str
+        Member whose column it is; ``Nets!P8``, "" without such a cell; the type that is
+        there.
+    types : tuple of str
+        Others of its sheet, in the ground of the row.
+    left_out : int
+        Number of types that are for another ground, or none.
     now : str
         Smallest type with which every check of the cell passes; "" where none does.
     used : float or None
         Upper end of the largest utilisation of these checks, with that type [-].
-    tried : int
-        Number of types that were tried.
-    left_out : int
-        Number of types that were not, since they are for another ground, or none.
     """
 
-    row_id: str
+    checks: Mapping[str, tuple[str, ...]]
+    open_rows: tuple[str, ...]
     column: Column
     cell: str
     was: str
+    types: tuple[str, ...]
+    left_out: int
     now: str = ""
     used: float | None = None
-    tried: int = 0
-    left_out: int = 0
 
+    @property
+    def row_id(self) -> str:
+        """Net rows, with commas."""
+        return ", ".join(self.open_rows or self.checks)
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Slot:
-    """A cell that names a type, with the checks that follow from it in each row."""
-
-    checks: Mapping[str, tuple[str, ...]]  # their ids, by net row
-    open_rows: tuple[str, ...]  # those in which some check does not pass
-    column: Column
-    cell: str
-    was: str
-    types: tuple[str, ...]  # of its sheet, in the ground of the row
-    left_out: int  # those of another ground, or of none
+    @property
+    def tried(self) -> int:
+        """Number of types that were tried."""
+        return len(self.types) if self.cell else 0
 
     def choose(self, number: int) -> str | None:
         """Type of a trial; None where all were tried."""
         return self.types[number] if number < len(self.types) else None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Rating:
-    """Rank of a type that passes, the least first, and its utilisation."""
-
-    rank: float
-    used: float
 
 
 def size_site(
@@ -128,7 +124,7 @@ def size_site(
         slot for slot in _join_slots(study, solved.site) if slot.open_rows or prices
     ]
     placed = [slot for slot in slots if slot.cell]
-    found: dict[_Slot, dict[str, _Rating]] = {slot: {} for slot in slots}
+    found: dict[SizedCell, dict[str, _Rating]] = {slot: {} for slot in slots}
     for slot in placed:
         if not slot.open_rows:
             found[slot][slot.was] = _rate_built(slot, study, prices)
@@ -142,17 +138,17 @@ def size_site(
     return [one for one in cells if one.now != one.was]
 
 
-def _rate_built(slot: _Slot, study: Study, prices: Prices | None) -> _Rating:
+def _rate_built(slot: SizedCell, study: Study, prices: Prices | None) -> _Rating:
     """Rating of the types that pass as they are."""
     rows = [row for row in study.rows if row.id in slot.checks]
     used = max(
         _rate(slot.column, slot.checks[x.id], x.checks, x.checks) or 0.0 for x in rows
     )
-    return _Rating(rank=_rank(slot, slot.was, rows, used, prices), used=used)
+    return _rank(slot, slot.was, rows, used, prices), used
 
 
 def _rank(
-    slot: _Slot,
+    slot: SizedCell,
     kind: str,
     rows: Sequence[RowStudy],
     used: float,
@@ -171,9 +167,9 @@ def _rank(
     return max(known) if known and len(known) == len(costs) else math.inf
 
 
-def _join_slots(study: Study, site: Site) -> list[_Slot]:
+def _join_slots(study: Study, site: Site) -> list[SizedCell]:
     """Every cell once, though it may hold for several rows."""
-    joined: dict[tuple[str, str, str], _Slot] = {}
+    joined: dict[tuple[str, str, str], SizedCell] = {}
     for row, given in zip(study.rows, site.rows, strict=True):
         for slot in _list_slots(row, given, site):
             key = (slot.cell, "" if slot.cell else row.id, slot.column)
@@ -181,7 +177,7 @@ def _join_slots(study: Study, site: Site) -> list[_Slot]:
     return list(joined.values())
 
 
-def _join(one: _Slot, other: _Slot) -> _Slot:
+def _join(one: SizedCell, other: SizedCell) -> SizedCell:
     """A cell of two rows: a type has to hold in the ground of both."""
     return replace(
         one,
@@ -192,25 +188,16 @@ def _join(one: _Slot, other: _Slot) -> _Slot:
     )
 
 
-def _choose(slot: _Slot, passing: Mapping[str, _Rating]) -> SizedCell:
+def _choose(slot: SizedCell, passing: Mapping[str, _Rating]) -> SizedCell:
     best = min(
         passing,
-        key=lambda kind: (passing[kind].rank, kind),
+        key=lambda kind: (passing[kind][0], kind),
         default="",
     )
-    return SizedCell(
-        row_id=", ".join(slot.open_rows or slot.checks),
-        column=slot.column,
-        cell=slot.cell,
-        was=slot.was,
-        now=best,
-        used=passing[best].used if best else None,
-        tried=len(slot.types) if slot.cell else 0,
-        left_out=slot.left_out,
-    )
+    return replace(slot, now=best, used=passing[best][1] if best else None)
 
 
-def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
+def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[SizedCell]:
     """Cells of a row that name a type, with the checks of the type.
 
     A row is open where a check with a force does not pass: where nothing is known of
@@ -227,7 +214,7 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
             one.verdict in _OPEN and one.demand_kN is not None for one in members
         )
         holding = _compare_grounds(site, given, column, was)
-        yield _Slot(
+        yield SizedCell(
             checks={row.id: tuple(one.id for one in members)},
             open_rows=(row.id,) if is_open else (),
             column=column,
@@ -270,14 +257,14 @@ def _find_cell(row: NetRow, column: Column, position: str) -> tuple[str, str]:
 
 
 def _try_types(
-    trial: Mapping[_Slot, str],
+    trial: Mapping[SizedCell, str],
     solved: SolvedSite,
     study: Study,
     standard: Standard,
     run: CheckRun,
     read: ReadInstead,
     prices: Prices | None,
-) -> Iterator[tuple[_Slot, _Rating]]:
+) -> Iterator[tuple[SizedCell, _Rating]]:
     """Cells that pass with their types of a trial, each with its rating."""
     site = read({slot.cell: kind for slot, kind in trial.items()})
     wanted = {row_id for slot in trial for row_id in slot.checks}
@@ -309,7 +296,7 @@ def _try_types(
             most = max(one for one in used if one is not None)
             of_slot = [row for row in judged.rows if row.id in slot.checks]
             rank = _rank(slot, trial[slot], of_slot, most, prices)
-            yield slot, _Rating(rank=rank, used=most)
+            yield slot, (rank, most)
 
 
 def _rate(

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 
 from netdesign.checks import Standard, find_resistance
 from netdesign.resistance.catalogue import (
@@ -81,7 +80,7 @@ def find_type_change(
     factor = standard.find_resistance_factor(given.mode, basis)
     needed = demand / _find_share(given)
     size = find_size(given, needed * factor.value_si) if factor else None
-    return _record(size.told, size.resistance, given) if size else None
+    return _record(*size, given) if size else None
 
 
 def _find_share(given: Resistance) -> float:
@@ -132,12 +131,8 @@ _BAR_STRENGTH = 500.0  # of a bar whose steel nobody gives [MPa]
 _LONGEST_BOND = 15.0  # [m]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Size:
-    """A part of the catalogue: what it is, and its characteristic resistance [kN]."""
-
-    told: Message
-    resistance: float
+# A part of the catalogue: what it is, and its characteristic resistance [kN].
+Size = tuple[Message, float]
 
 
 def find_size(given: Resistance, needed: float) -> Size | None:
@@ -148,7 +143,7 @@ def find_size(given: Resistance, needed: float) -> Size | None:
     """
     sizes = _BY_MODE.get(given.mode)
     found = sizes(given) if sizes else iter(())
-    return next((one for one in found if one.resistance >= needed), None)
+    return next((one for one in found if one[1] >= needed), None)
 
 
 def _list_ropes(_: Resistance) -> Iterator[Size]:
@@ -169,7 +164,7 @@ def _list_ropes(_: Resistance) -> Iterator[Size]:
             termination=name("termination", _TERMINATION),
             status=name("status", loss.status),
         )
-        yield Size(told=told, resistance=kilonewton_from_newton(value))
+        yield told, kilonewton_from_newton(value)
 
 
 def _list_bars(given: Resistance) -> Iterator[Size]:
@@ -180,7 +175,7 @@ def _list_bars(given: Resistance) -> Iterator[Size]:
     for diameter in sorted({size for sizes in every for size in sizes}):
         value = compute_bar_resistance(diameter / 1e3, strength * 1e6, 0.0)
         told = say("change.bar", diameter=float(diameter), strength=strength)
-        yield Size(told=told, resistance=kilonewton_from_newton(value))
+        yield told, kilonewton_from_newton(value)
 
 
 def _list_bonds(given: Resistance) -> Iterator[Size]:
@@ -197,7 +192,7 @@ def _list_bonds(given: Resistance) -> Iterator[Size]:
             diameter=diameter,
             ground=how.arguments["ground"],
         )
-        yield Size(told=told, resistance=0.5 * half * per_metre)
+        yield told, 0.5 * half * per_metre
 
 
 def _list_sections(given: Resistance) -> Iterator[Size]:
@@ -221,7 +216,7 @@ def _list_sections(given: Resistance) -> Iterator[Size]:
             imperfection=imperfection,
         )
         told = say("change.section", name=f"{series}{size}", grade=strength)
-        yield Size(told=told, resistance=kilonewton_from_newton(found.value))
+        yield told, kilonewton_from_newton(found.value)
 
 
 def _find_series(type_id: str) -> tuple[str, Mapping[str, object]]:

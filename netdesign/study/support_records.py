@@ -7,7 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from netdesign.structure.axis import PullRange
+from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
 from netdesign.study.case_records import CasePoint, ExtremeRecord, GuidelineLoadRecord
+from netdesign.units import radian_from_degree
 from netdesign.words.message import Message
 
 
@@ -63,8 +67,8 @@ class PullRecord:
     is pulled; 90 is straight out of the ground.
     """
 
-    anchor: str
-    position: str  # "intermediate", or "edge" of types of the row's end alone
+    anchor: Member
+    position: Position  # "edge" of types of the row's end alone
     kind: str  # "bar", "micropile", "rope anchor", or "" where none is given
     least_deg: float
     largest_deg: float
@@ -73,6 +77,29 @@ class PullRecord:
     is_axis_known: bool = True  # given, or drilled along the pull
     angle_deg: float  # largest between pull and axis, with the part along the row
     dip_deg: float  # of the axis below the horizontal; negative where the hole rises
+
+    @property
+    def pulls(self) -> PullRange:
+        """Directions in the section [rad]."""
+        return PullRange(
+            least=radian_from_degree(self.least_deg),
+            largest=radian_from_degree(self.largest_deg),
+        )
+
+    @property
+    def axis(self) -> float:
+        """Inclination of the anchor, given or the middle of the pulls [rad]."""
+        return radian_from_degree(self.axis_deg)
+
+    @property
+    def angle(self) -> float:
+        """Largest angle between pull and axis [rad]."""
+        return radian_from_degree(self.angle_deg)
+
+    @property
+    def is_checked(self) -> bool:
+        """A limit of the direction is checked: what bends has a check of that."""
+        return self.kind not in ("bar", "micropile")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,7 +18,7 @@ from netdesign.report.terminal import print_summary
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import read_document, write_document
-from netdesign.study.judge import _find_worst
+from netdesign.study.judge import find_worst
 from netdesign.study.rejudge import rejudge
 from netdesign.words.catalogue import LANGUAGES
 from tests.checks.given_pulls import POST, study_row
@@ -78,7 +78,7 @@ def test_governing_check_of_a_failing_row_is_used_as_much_as_any_that_fails():
         if any(one.is_unbounded for one in checks):
             assert sorted(checks, key=rank_check)[0].is_unbounded
             assert find_highest(checks).is_unbounded
-            assert _find_worst(checks).is_unbounded
+            assert find_worst(checks).is_unbounded
 
 
 def test_infinity_governs_before_many_times_the_resistance(study):

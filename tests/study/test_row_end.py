@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from netdesign.calculation.quantity import given
 from netdesign.checks import load_standard
+from netdesign.checks.forces import place_end_support, pull_at_end
 from netdesign.outcome import Verdict
 from netdesign.structure.members import RopeForce
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.effects import find_effects
-from netdesign.study.member_force import compute_end_factor
 from netdesign.study.rejudge import rejudge
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
@@ -27,6 +28,16 @@ from tests.study.test_panel_study import (
     judge,
     with_panel,
 )
+
+
+def compute_end_factor(width, spacing):
+    """Pull of a rope under the end effect over that without, (P8)."""
+    support = place_end_support(
+        given("b", spacing, "m", ""),
+        given("f_R", width.end_factor, "-", ""),
+        given("Δl", width.end_length, "m", ""),
+    )
+    return pull_at_end(given("T_r", 1.0, "kN", ""), support).value
 
 
 @pytest.fixture(scope="module")
