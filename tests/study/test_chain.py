@@ -352,7 +352,7 @@ def test_pulls_added_as_numbers_are_said_and_never_less(solved):
         assert added[name].demand_kN > checks[name].demand_kN
     assert added["uphill_guy.rope"].demand_kN == checks["uphill_guy.rope"].demand_kN
     assert list(rejudge(study)) == []
-    for one, told in ((vector, "as vectors"), (study, "as numbers")):
+    for one, told in ((vector, "as vectors"), (study, "arithmetically")):
         assert [note for note in one.rows[0].notes if told in str(note)]
     as_vectors = replace(study, profile=replace(study.profile, shared_sum="vector"))
     assert list(rejudge(as_vectors, scalar)) != []
