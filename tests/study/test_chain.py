@@ -395,8 +395,8 @@ def test_notes_say_what_snow_the_guys_bear_and_how_high_the_loaded_net_is(solved
     study, checks = judge(solved)
     (row,) = study.rows
     told = [str(note) for note in row.notes]
-    (guys,) = (one for one in told if one.startswith("snow across a guy"))
-    (net,) = (one for one in told if "the loaded net of the drawn case" in one)
+    (guys,) = (one for one in told if one.startswith("width of snow that a guy"))
+    (net,) = (one for one in told if "the loaded net is" in one)
     for name in ("Uphill guy", "Downhill guy"):
         demand = checks[f"{name.replace(' ', '_').lower()}.rope"].demand_kN
         assert (name in guys) is (demand > 0.0)
@@ -406,7 +406,7 @@ def test_notes_say_what_snow_the_guys_bear_and_how_high_the_loaded_net_is(solved
     no_reserve = change(solved[0].rows[0].resistances, "uphill_guy", value=1e3)
     weak = judge(solved, resistances=no_reserve)[0].rows[0].notes
     assert not [
-        one for one in map(str, weak) if "Uphill guy" in one and "across" in one
+        one for one in map(str, weak) if "Uphill guy" in one and "width of snow" in one
     ]
 
 
@@ -423,7 +423,7 @@ def test_a_bond_computed_for_a_borehole_that_rises_is_not_proven(solved, axis, b
     check = checks["foot_anchor.pull_out"]
     is_open = rises and basis == "computed"
     assert (check.verdict is Verdict.NOT_PROVEN) is is_open, check.reason
-    assert ("mortar runs out" in str(check.reason)) is is_open
+    assert ("grout runs out" in str(check.reason)) is is_open
     of_foot = (x for x in study.rows[0].notes if "Foot anchor: the borehole" in str(x))
     assert ("rises" in str(next(of_foot, ""))) is rises
 
