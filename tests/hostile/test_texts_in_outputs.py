@@ -49,7 +49,7 @@ ATTACKS = (
 QUOTED = re.compile(r'(?<=,)"(?:[^"]|"")*"(?=\))')
 # Set by the program, compared with words of its own, or of a form that is checked.
 KEPT = {"schema", "member", "mode", "quantity", "anchor", "started", "status", "id"}
-KEPT |= {"sense", "governs", "symbol", "formula", "kind", "unit"}
+KEPT |= {"sense", "governs", "symbol", "formula", "kind", "unit", "position"}
 
 
 def attack(value, text, key=""):
