@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -178,13 +177,11 @@ def build_profile(study: Study, words: Words) -> Table:
 
 
 def _number_sources(table: Table) -> tuple[Table, tuple[str, ...]]:
-    """The table with a number for each source that several values have, and those."""
-    counts = Counter(cells[-1].text for cells in table.rows)
-    shared = [source for source, count in counts.items() if count > 1]
-    numbers = {source: f"[{k}]" for k, source in enumerate(shared, 1)}
+    """The table with a number for each source, and the sources below it."""
+    sources = dict.fromkeys(cells[-1].text for cells in table.rows)
+    numbers = {source: f"[{k}]" for k, source in enumerate(sources, 1)}
     rows = tuple(
-        (*cells[:-1], Cell(text=numbers.get(cells[-1].text, cells[-1].text)))
-        for cells in table.rows
+        (*cells[:-1], text_cell(numbers[cells[-1].text])) for cells in table.rows
     )
     told = tuple(f"{number} {source}" for source, number in numbers.items())
     return replace(table, rows=rows), told
