@@ -172,7 +172,7 @@ def test_what_the_floor_takes_for_granted_stands_in_record_and_notes(solved):
     assert floor.altitude_factor == pytest.approx(1.3, rel=1e-12)
     told = [str(one) for one in floor.assumed]
     assert told[0].endswith("is calculated with its largest altitude factor, 1.30")
-    assert "factor of 1.1 lies below the least" in told[1]
+    assert "factor of 1.1 lies below the smallest" in told[1]
     assert told[1].endswith("the guideline's load is calculated with 1.2")
     assert [one for one in study.rows[0].notes if one in floor.assumed] == floor.assumed
     assert rejudge(read_document(write_document(study)), SWISS, site) == []
