@@ -192,7 +192,7 @@ def test_a_grid_becomes_a_report_that_can_be_signed(tmp_path):
     page = (report / "report.html").read_text(encoding="utf-8")
     study = (report / "study.json").read_text(encoding="utf-8")
     todo = page.split('id="todo"')[1].split("</section>")[0]
-    assert todo.count("<li>") == 1  # values of the profile that only a reader confirms
+    assert todo.count("<li>") == 2  # values of the profile, boreholes that rise
     assert '<section id="map"' in page
     rows = json.loads((tmp_path / "zone" / "rows.geojson").read_text())["features"]
     posts = [one for one in rows if one["properties"]["kind"] == "post"]
