@@ -50,6 +50,18 @@ def alter_leaf(document, path, draw):
     return abs(after - before) if is_number else float("inf")
 
 
+# Another value of a field that takes only a few.
+_OTHERS = {
+    "sense": {"at least": "at most", "at most": "has", "has": "at least"},
+    "position": {"intermediate": "edge", "edge": "intermediate"},
+    "anchor": {
+        "foot_anchor": "downhill_anchor",
+        "uphill_anchor": "foot_anchor",
+        "downhill_anchor": "foot_anchor",
+    },
+}
+
+
 def _alter(value, key, draw):
     if isinstance(value, bool):
         return not value
@@ -61,8 +73,8 @@ def _alter(value, key, draw):
         return value + draw.randint(1, 5)
     if isinstance(value, float):
         return value * draw.uniform(0.3, 0.97) if value else draw.uniform(0.01, 3.0)
-    if key == "sense":
-        return {"at least": "at most", "at most": "has", "has": "at least"}[value]
+    if value in _OTHERS.get(key, ()):
+        return _OTHERS[key][value]
     if key == "started":
         return value.replace("20", "19", 1)
     for words in WORDS:

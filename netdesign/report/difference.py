@@ -502,18 +502,23 @@ def _keep_row_rest(row: RowStudy) -> object:
 def _keep_check_rest(check: CheckRecord) -> CheckRecord:
     told = dict.fromkeys(_OF_CHECK) | {"verdict": Verdict.PASS, "clause": ""}
     told |= {"resistance_basis": "", "resistance_type": "", "is_unbounded": False}
+    own = {"E_d": check.demand_kN, "R_d": check.resistance_kN, "μ": check.utilisation}
     steps = [
-        _keep_step_rest(one) if one.symbol in _TOLD else one for one in check.steps
+        _keep_step_rest(one, own.get(one.symbol, one.value))
+        if one.symbol in _TOLD
+        else one
+        for one in check.steps
     ]
     return replace(check, steps=steps, **told)  # type: ignore[arg-type]
 
 
-def _keep_step_rest(step: Step) -> Step:
-    """A step without its value; ends that differ from it stay if nobody tells them."""
+def _keep_step_rest(step: Step, told: float | None) -> Step:
+    """A step without the value that is told; what nobody tells stays."""
+    value = None if step.value == told else step.value
     if step.symbol in _BANDED:
-        return replace(step, value=None, low=None, high=None)
+        return replace(step, value=value, low=None, high=None)
     low, high = (None if one == step.value else one for one in (step.low, step.high))
-    return replace(step, value=None, low=low, high=high)
+    return replace(step, value=value, low=low, high=high)
 
 
 def _show(old: Any, new: Any, words: Words) -> tuple[str, str]:
