@@ -197,34 +197,13 @@ def _measure_row(
     line, posts, above, below = drawn.line, drawn.posts, drawn.above, drawn.below
     places = posts[:, :2]
     plan = plan.cut_to(np.concatenate((above.points, below.points)))
-    others = [
-        *((one.id, one.points) for one in plan.lines if one.id != line.id),
-        *(
-            (one.rows[0], one.points)
-            for one in plan.closed_gaps
-            if line.id not in one.rows
-        ),
-    ]
-    crossed, crossed_below = (
-        [
-            find_first_crossings(way, post, others, least=surface.grid.cell)
-            for post in range(len(posts))
-        ]
-        for way in (above, below)
-    )
+    least = surface.grid.cell
+    crossed = _find_rows(plan, line, above, least)
+    bench = min(line.net_height, LONGEST_BENCH)
+    zone_ends = _list_zone_ends(plan, above)
     ends = tuple(
-        _end_above(
-            *(
-                surface,
-                above,
-                post,
-                most,
-                min(line.net_height, LONGEST_BENCH),
-                of_zone,
-                crossed[post],
-            )
-        )
-        for post, of_zone in enumerate(_list_zone_ends(plan, above))
+        _end_above(surface, above, post, most, bench, zone_ends[post], crossed[post])
+        for post in range(len(posts))
     )
     slopes = np.array(
         [
@@ -233,6 +212,7 @@ def _measure_row(
         ]
     )
     gradient = surface.at(places).gradient.mean(axis=0)
+    crossed_below = _find_rows(plan, line, below, least)
     nearest = [(at, name) for one in crossed_below for name, at in one.items()]
     length, row = min(nearest, default=(None, ""))
     return MeasuredRow(
@@ -251,6 +231,17 @@ def _measure_row(
         below_row=row,
         below_length=length,
     )
+
+
+def _find_rows(
+    plan: Plan, line: NetLine, lines: FallLines, least: float
+) -> list[dict[str, float]]:
+    """Lengths at which each line of fall crosses other rows and closed gaps [m]."""
+    others = [(one.id, one.points) for one in plan.lines if one.id != line.id]
+    gaps = [one for one in plan.closed_gaps if line.id not in one.rows]
+    others += [(one.rows[0], one.points) for one in gaps]
+    posts = range(lines.points.shape[1])
+    return [find_first_crossings(lines, post, others, least=least) for post in posts]
 
 
 def find_flattest(surface: Surface, places: Floats) -> float:
