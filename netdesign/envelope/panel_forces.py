@@ -14,7 +14,12 @@ import numpy as np
 from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.solution import EndPull
-from netdesign.envelope.support_bands import resolve_pulls, spread_out
+from netdesign.envelope.support_bands import (
+    Pulls,
+    Resolved,
+    resolve_pulls,
+    spread_out,
+)
 from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel, PanelSolution, RopeForces
@@ -89,33 +94,13 @@ class PanelForces:
 def resolve_panels(
     panels: Sequence[Panel], net: Net, points: SupportPoints, state: SolvedState
 ) -> PanelForces | FailedPanel:
-    """Forces of the panels that a row may have, or the first failure of them.
-
-    Parameters
-    ----------
-    panels : sequence of Panel
-        At least one.
-    net, points, state
-        As ``resolve_panel`` takes them.
-    """
-    found = []
-    for panel in panels:
-        one = resolve_panel(panel, net, points, state)
-        if isinstance(one, FailedPanel):
-            return one
-        found.append(one)
-    return replace(found[0], others=tuple(found[1:]))
-
-
-def resolve_panel(
-    panel: Panel, net: Net, points: SupportPoints, state: SolvedState
-) -> PanelForces | FailedPanel:
     """Forces of a row of equal panels whose section at the post has been solved.
 
     Parameters
     ----------
-    panel : Panel
-        Spacing, ropes and cut.
+    panels : sequence of Panel
+        Spacing, ropes and cut: at least one, all of one spacing; several where the
+        row's panel is assumed.
     net : Net
         At the post.
     points : SupportPoints
@@ -126,8 +111,8 @@ def resolve_panel(
     Returns
     -------
     PanelForces or FailedPanel
-        Outcome ``out_of_validity`` also of a history that went on beyond its largest
-        pulls, and of a staggered one.
+        The first failure of any panel. Outcome ``out_of_validity`` also of a history
+        that went on beyond its largest pulls, and of a staggered one.
 
     Verified by
     -----------
@@ -137,19 +122,28 @@ def resolve_panel(
         strip, doubt = _build_strip(net, state)
     except SolveError as failure:
         return FailedPanel(outcome=failure.outcome, reason=failure.reason)
-    solved = solve_strips(strip, panel)
-    if isinstance(solved, FailedPanel):
-        return solved
-    foot, head = _find_pulls(solved, state, doubt)
-    found = resolve_pulls(points, panel.post_spacing, foot, head)
+    solved = []
+    for panel in panels:
+        one = solve_strips(strip, panel)
+        if isinstance(one, FailedPanel):
+            return one
+        solved.append(one)
+    pulls = [_find_pulls(one, state, doubt) for one in solved]
+    found = resolve_pulls(points, panels[0].post_spacing, pulls)
     if isinstance(found, FailedSupport):
         return FailedPanel(outcome=found.outcome, reason=found.reason)
-    anchors, members = found
+    first, *others = map(_gather, solved, pulls, found)
+    return replace(first, others=tuple(others))
+
+
+def _gather(solved: PanelSolution, pulls: Pulls, found: Resolved) -> PanelForces:
+    (foot, head), (anchors, members) = pulls, found
     bands = {name_in_panel(member): band for member, band in members.items()}
     at_foot = name_in_panel(Member.FOOT_ANCHOR)
     mid_foot = math.hypot(*solved.mid_foot)
     if mid_foot > bands[at_foot].value:
-        bands[at_foot] = spread_out(mid_foot, panel.post_spacing * foot.error)
+        error = solved.panel.post_spacing * foot.error
+        bands[at_foot] = spread_out(mid_foot, error)
     return PanelForces(
         solution=solved,
         anchors=anchors,

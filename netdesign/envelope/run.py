@@ -182,10 +182,11 @@ def _resolve_support(
     task: CaseTask, layout: SupportLayout, solution: SolvedState
 ) -> CaseResult:
     points = place_support(layout, solution.head_point)
-    found = resolve_pulls(points, layout.post_spacing, solution.foot, solution.head)
+    pulls = [(solution.foot, solution.head)]
+    found = resolve_pulls(points, layout.post_spacing, pulls)
     if isinstance(found, FailedSupport):
         return _failed(task, found.outcome, found.reason)
-    anchors, bands = found
+    ((anchors, bands),) = found
     panel = _resolve_panel(task, points, solution)
     return CaseResult(
         case=task.case,

@@ -64,11 +64,10 @@ def read_signed_errors(
     )
     if found is None or not isinstance(result.panel, PanelForces):
         return found
-    beside = (
-        _find_errors(width * one.foot.error, width * one.head.error, points) or {}
-        for one in result.panel.variants
-    )
-    return found | _name_largest(beside)
+    pulls = [(one.foot.error, one.head.error) for one in result.panel.variants]
+    foot, head = (width * max(errors) for errors in zip(*pulls, strict=True))
+    beside = _find_errors(foot, head, points) or {}
+    return found | {name_in_panel(name): error for name, error in beside.items()}
 
 
 def _find_signed_in_panel(

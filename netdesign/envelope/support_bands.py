@@ -2,30 +2,33 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+from collections.abc import Sequence
+
+import numpy as np
 
 from netdesign.checks.result import Band
 from netdesign.coupling.solution import EndPull
+from netdesign.numerics.arrays import Floats
 from netdesign.structure.anchors import (
-    NO_FOOT_PULL,
     AnchorForces,
     compute_anchor_forces,
+    compute_forces_of_pulls,
 )
 from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import Point, SupportPoints
+from netdesign.structure.layout import SupportPoints
 
-_STILL = (0.0, 0.0)
-# Shares of its error by which a pull is moved: each component down and up.
-_MOVES = (((-1.0, 0.0), (1.0, 0.0)), ((0.0, -1.0), (0.0, 1.0)))
+# Shares of its error by which a pull is moved: each component (of foot, then of head)
+# alone, down and up. Shape: component that moves, way, component.
+_MOVES = np.eye(4)[:, None] * np.array([-1.0, 1.0])[:, None]
 
-_Forces = dict[str, float] | FailedSupport
+Pulls = tuple[EndPull, EndPull]  # on foot and head, with their errors [N/m]
+Resolved = tuple[AnchorForces, dict[str, Band]]
 
 
 def resolve_pulls(
-    points: SupportPoints, width: float, foot: EndPull, head: EndPull
-) -> tuple[AnchorForces, dict[str, Band]] | FailedSupport:
-    """Forces on a support and its members, each with its band.
+    points: SupportPoints, width: float, pulls: Sequence[Pulls]
+) -> list[Resolved] | FailedSupport:
+    """Forces on a support and its members, with their bands, under each of some pulls.
 
     Within one set of working members the forces are linear in the pulls, so moving
     each component by its error, and adding the changes, bounds them.
@@ -36,27 +39,27 @@ def resolve_pulls(
         Geometry of the support [m].
     width : float
         Width of net that it carries [m].
-    foot, head : EndPull
-        Of the net, with their errors [N/m].
+    pulls : sequence of tuple of EndPull, shape (2,)
+        Of the net on foot and head, with their errors [N/m].
+
+    Returns
+    -------
+    list of (AnchorForces, dict of str to Band), or FailedSupport
+        The failure of the first pulls that the support cannot hold, moved or not.
     """
-    anchors = _find_forces(points, width, _move(foot, _STILL), _move(head, _STILL))
-    if isinstance(anchors, FailedSupport):
-        return anchors
-    values = anchors.member_forces
-    spread = dict.fromkeys(values, 0.0)
-    for pair in _list_moved(anchors, points, width, (foot, head)):
-        change = dict.fromkeys(values, 0.0)
-        for moved in pair:
-            if isinstance(moved, FailedSupport):
-                return moved
-            for member, force in moved.items():
-                change[member] = max(change[member], abs(force - values[member]))
-        for member in spread:
-            spread[member] += change[member]
-    bands = {
-        member: spread_out(value, spread[member]) for member, value in values.items()
-    }
-    return anchors, bands
+    found = []
+    for foot, head in pulls:
+        anchors = _resolve(points, width, (foot.x, foot.y, head.x, head.y))
+        if isinstance(anchors, FailedSupport):
+            return anchors
+        found.append(anchors)
+    errors = _find_errors(points, width, pulls, [one.member_forces for one in found])
+    if isinstance(errors, FailedSupport):
+        return errors
+    return [
+        (anchors, {m: spread_out(x, of[m]) for m, x in anchors.member_forces.items()})
+        for anchors, of in zip(found, errors, strict=True)
+    ]
 
 
 def spread_out(value: float, error: float) -> Band:
@@ -64,49 +67,49 @@ def spread_out(value: float, error: float) -> Band:
     return Band(low=max(0.0, value - error), value=value, high=value + error)
 
 
-def _list_moved(
-    anchors: AnchorForces,
+def _find_errors(
     points: SupportPoints,
     width: float,
-    pulls: tuple[EndPull, EndPull],
-) -> Iterator[tuple[_Forces, _Forces]]:
-    """Member forces with one component moved down, and up, by the pull's error.
-
-    The members at the head do not feel the foot's pull.
-    """
-    foot, head = pulls
-    for down, up in _MOVES:
-        lower, upper = _move(foot, down), _move(foot, up)
-        yield _change_foot(anchors, width, lower), _change_foot(anchors, width, upper)
-    still = _move(foot, _STILL)
-    for down, up in _MOVES:
-        lower, upper = _move(head, down), _move(head, up)
-        yield (
-            _list_forces(_find_forces(points, width, still, lower)),
-            _list_forces(_find_forces(points, width, still, upper)),
+    pulls: Sequence[Pulls],
+    values: Sequence[dict[str, float]],
+) -> list[dict[str, float]] | FailedSupport:
+    """Error of each member under each of the pulls, from their moved ones [N]."""
+    still = np.array([(foot.x, foot.y, head.x, head.y) for foot, head in pulls])
+    errors = np.array([(foot.error,) * 2 + (head.error,) * 2 for foot, head in pulls])
+    with np.errstate(invalid="ignore", over="ignore"):  # of an error that is no number
+        moved = still + _MOVES[:, :, None] * errors
+        is_sound = np.isfinite(moved * width).all(axis=-1)
+    if is_sound.all():
+        x, y, along, across = np.moveaxis(moved, -1, 0)
+        forces, is_sound = compute_forces_of_pulls(
+            points,
+            foot_pull_per_m=(x, y),
+            head_pull_per_m=(along, across),
+            post_spacing=width,
         )
+    if not is_sound.all():
+        failed = _resolve(points, width, moved[~is_sound][0])
+        if isinstance(failed, FailedSupport):
+            return failed
+        raise ValueError("pulls that one way holds, and not the other")
+    changes = {
+        member: np.abs(force - [one[member] for one in values]).max(axis=1).sum(axis=0)
+        for member, force in forces.items()
+    }
+    return [
+        {member: float(change[k]) for member, change in changes.items()}
+        for k in range(len(pulls))
+    ]
 
 
-def _move(pull: EndPull, shares: Point) -> Point:
-    """Pull with its components moved by shares of its error [N/m]."""
-    return pull.x + shares[0] * pull.error, pull.y + shares[1] * pull.error
-
-
-def _change_foot(anchors: AnchorForces, width: float, pull: Point) -> _Forces:
-    """Member forces with another pull per metre on the foot [N]."""
-    x, y = pull[0] * width, pull[1] * width
-    if not (math.isfinite(x) and math.isfinite(y)):
-        return NO_FOOT_PULL
-    return anchors.list_forces(math.hypot(x, y))
-
-
-def _list_forces(anchors: AnchorForces | FailedSupport) -> _Forces:
-    return anchors if isinstance(anchors, FailedSupport) else anchors.member_forces
-
-
-def _find_forces(
-    points: SupportPoints, width: float, foot: Point, head: Point
+def _resolve(
+    points: SupportPoints, width: float, pulls: Sequence[float] | Floats
 ) -> AnchorForces | FailedSupport:
+    """Forces under (x, y) of foot and head, in one row."""
+    x, y, along, across = map(float, pulls)
     return compute_anchor_forces(
-        points, foot_pull_per_m=foot, head_pull_per_m=head, post_spacing=width
+        points,
+        foot_pull_per_m=(x, y),
+        head_pull_per_m=(along, across),
+        post_spacing=width,
     )

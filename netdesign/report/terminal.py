@@ -203,7 +203,7 @@ def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
 
 
 def _explain(study: Study, words: Words) -> Iterator[str]:
-    """Loads of the governing checks, reasons, notes, and what turns each check."""
+    """Loads of the governing checks, notes, and what turns each check."""
     yield name_cases(study, words)
     for row in study.rows:
         check = find_governing(row.checks)
@@ -211,9 +211,6 @@ def _explain(study: Study, words: Words) -> Iterator[str]:
             place = f"{show_text(row.id)}, {show_check(words, check)}"
             told = words.join([name_case(check, words), loads])
             yield words("show.label", label=place, text=told)
-        for reason in row.reasons:
-            text = words.show(reason)
-            yield words("show.label", label=show_text(row.id), text=text)
     floor = describe_floor(study, words)
     yield words("show.label", label=words("heading.floor"), text=floor)
     for note in list_notes(study, words):

@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from netdesign.numerics.arrays import Floats, Mask, Number
 from netdesign.numerics.either import as_mask, measure_length, take_larger
 from netdesign.outcome import Outcome, require_positive
@@ -106,19 +108,9 @@ class AnchorForces:
         One anchor for net and uphill guy takes the sum of both sizes, which is
         never less than their resultant. Theory: structure/THEORY.md, eq. (S7).
         """
-        return self.list_forces(self.foot_anchor.size)
-
-    def list_forces(self, foot: float) -> dict[str, float]:
-        """Forces of the members with another pull of the net on the foot anchor [N].
-
-        Parameters
-        ----------
-        foot : float
-            Size of that pull [N].
-        """
         return _list_forces(
             self.head,
-            foot=foot,
+            foot=self.foot_anchor.size,
             out_of_ground=self.post_base.y,
             is_foot_shared=self.is_foot_shared,
         )
@@ -190,6 +182,46 @@ def compute_many_forces(
         foot_turn=measure_pull(*foot, Member.FOOT_ANCHOR),
         is_held=as_mask(held.is_held),
     )
+
+
+def compute_forces_of_pulls(
+    points: SupportPoints,
+    *,
+    foot_pull_per_m: Vector[Floats],
+    head_pull_per_m: Vector[Floats],
+    post_spacing: float,
+) -> tuple[dict[str, Floats], Mask]:
+    """Member forces of one support under many pulls, as `compute_anchor_forces` has.
+
+    Parameters
+    ----------
+    points, post_spacing
+        As there; the post has a length.
+    foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
+        As there, finite, of one shape [N/m].
+
+    Returns
+    -------
+    dict of str to ndarray, ndarray of bool
+        Forces by member [N], of use only where the second says that the head is held.
+
+    Verified by
+    -----------
+    tests/envelope/test_support_bands.py
+    """
+    foot = _scale(foot_pull_per_m, post_spacing)
+    still = np.zeros_like(foot[0])
+    ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
+    ways = [find_direction(points.head, end) for end in ends]
+    post, uphill, downhill = ((x + still, y + still) for x, y in ways)
+    held = hold_head(_scale(head_pull_per_m, post_spacing), post, uphill, downhill)
+    of_members = _list_forces(
+        held,
+        foot=measure_length(*foot),
+        out_of_ground=held.post_compression * post[1],
+        is_foot_shared=points.is_foot_shared,
+    )
+    return of_members, as_mask(held.is_held)
 
 
 def _list_forces(
@@ -277,7 +309,7 @@ def compute_anchor_forces(
             head.post_compression - head.post_tension,
         ),
         head=head,
-        is_foot_shared=points.uphill_anchor == points.net_foot,
+        is_foot_shared=points.is_foot_shared,
     )
 
 

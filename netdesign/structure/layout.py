@@ -87,6 +87,11 @@ class SupportPoints:
     downhill_anchor: Point
 
     @property
+    def is_foot_shared(self) -> bool:
+        """The uphill guy ends at the net's foot: one anchor carries both."""
+        return self.uphill_anchor == self.net_foot
+
+    @property
     def post_length(self) -> float:
         """From base to head [m]."""
         return math.dist(self.post_base, self.head)

@@ -25,7 +25,7 @@ from netdesign.words.message import say
 
 _OLD_SCHEMAS = ("netdesign.study/1", "netdesign.study/2")
 # As a study without its digest has that line.
-_OPEN_LINE = '\n "digest": ""'
+_OPEN_LINE = '\n"digest": ""'
 _HOW_FAR = 200  # signs from the start, among which a document names its schema
 
 
@@ -42,11 +42,11 @@ def compute_digest(study: Study) -> str:
 def hash_results(study: Study) -> str:
     """SHA-256 of verdict and net rows: equal for equal results, whenever made."""
     results = {
-        "verdict": write_part(study.verdict, 1),
-        "profile": write_part(study.profile.sha256, 1),
+        "verdict": write_part(study.verdict),
+        "profile": write_part(study.profile.sha256),
         "rows": study.written_rows,
     }
-    return hashlib.sha256(join_members(results, 0).values.encode()).hexdigest()
+    return hashlib.sha256(join_members(results).values.encode()).hexdigest()
 
 
 def write_document(study: Study) -> str:

@@ -42,6 +42,7 @@ from netdesign.words.names import name
 
 Governing = Literal["coupled", "panel", "guideline"]
 PUSHED = (Member.POST, Member.POST_BASE)  # by the end guy
+_MOST_NAMES = 3  # of inputs that a row lacks, in the reason of a check
 _ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 # Weights of the load along the row in the guys of each side.
 PARTS: Mapping[str, str] = {
@@ -392,8 +393,15 @@ def leave_out_governing(reason: Message) -> Message:
 
 
 def name_unsaid(row: NetRow) -> Message:
-    """The columns that a row leaves empty, and that every force depends on."""
-    return say("check.unsaid", names=row.unsaid)
+    """The columns that a row leaves empty, and that every force depends on.
+
+    The first of many: each check says it, and the row has them all.
+    """
+    names = row.unsaid
+    if len(names) <= _MOST_NAMES:
+        return say("check.unsaid", names=names)
+    first = names[: _MOST_NAMES - 1]
+    return say("check.unsaid_many", names=first, count=len(names) - len(first))
 
 
 def find_lack(row: NetRow, given: Resistance) -> Message | None:

@@ -112,7 +112,6 @@ class ModelFormRecord:
 
 
 SCHEMA: Literal["netdesign.study/3"] = "netdesign.study/3"
-_DEPTH_OF_ROWS = 2  # in the document and in its list of rows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -354,7 +353,7 @@ class RowStudy:
     @cached_property
     def written(self) -> JsonPart:
         """Itself in the document; a process that judges rows sends it along."""
-        return write_part(self, _DEPTH_OF_ROWS)
+        return write_part(self)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -418,10 +417,10 @@ class Study:
         """Document without its digest: page and document want both."""
         without = list_fields(self) | {"digest": ""}
         parts = {
-            name: self.written_rows if name == "rows" else write_part(value, 1)
+            name: self.written_rows if name == "rows" else write_part(value)
             for name, value in without.items()
         }
-        return join_members(parts, 0)
+        return join_members(parts)
 
     def to_frame(self) -> DataFrame:
         """Checks of all net rows as a table of pandas, one line each.
@@ -459,7 +458,7 @@ class Study:
     @cached_property
     def written_rows(self) -> JsonPart:
         """Net rows in the document."""
-        return join_items([row.written for row in self.rows], _DEPTH_OF_ROWS - 1)
+        return join_items([row.written for row in self.rows])
 
 
 def find_input(row: RowStudy, column: str) -> float | None:

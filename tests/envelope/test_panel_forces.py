@@ -14,7 +14,7 @@ from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.panel_forces import (
     PANEL_QUANTITIES,
     PanelForces,
-    resolve_panel,
+    resolve_panels,
 )
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowGrid, RowTask, refine_settings
@@ -230,11 +230,11 @@ def test_history_that_went_on_has_no_panel(at_rest_and_followed):
     scene = build_scene(history.case)
     points = place_support(LAYOUT, state.head_point)
     loaded = replace(state, foot=replace(state.foot, x=1.2 * state.foot.x))
-    failed = resolve_panel(PANEL, scene.net, points, loaded)
+    failed = resolve_panels([PANEL], scene.net, points, loaded)
     assert isinstance(failed, FailedPanel)
     assert failed.reason.key == "panel.history_went_on"
     odd = replace(state, method="staggered")
-    assert resolve_panel(PANEL, scene.net, points, odd).reason.key == (
+    assert resolve_panels([PANEL], scene.net, points, odd).reason.key == (
         "panel.not_staggered"
     )
 

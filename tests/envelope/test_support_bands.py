@@ -39,11 +39,16 @@ def resolve(points, width, foot, head, moved=(0.0, 0.0, 0.0, 0.0)):
     return found if isinstance(found, FailedSupport) else found.member_forces
 
 
-def test_each_error_is_that_of_all_moved_pulls_to_the_last_digit():
+def resolve_one(points, width, foot, head):
+    found = resolve_pulls(points, width, [(foot, head)])
+    return found if isinstance(found, FailedSupport) else found[0]
+
+
+def test_each_error_is_that_of_all_moved_pulls():
     held = 0
     for _ in range(60):
         support = draw_support()
-        found, values = resolve_pulls(*support), resolve(*support)
+        found, values = resolve_one(*support), resolve(*support)
         moved = [
             [
                 resolve(*support, [share * (k == n) for n in range(4)])
@@ -61,14 +66,33 @@ def test_each_error_is_that_of_all_moved_pulls_to_the_last_digit():
             for pair in moved:
                 error += max(abs(one[member] - values[member]) for one in pair)
             assert band.value == values[member]
-            assert band.high == values[member] + error
-            assert band.low == max(0.0, values[member] - error)
+            assert band.high == pytest.approx(values[member] + error, rel=1e-13)
+            low = max(0.0, values[member] - error)
+            assert band.low == pytest.approx(low, rel=1e-13, abs=1e-9)
     assert held > 20
+
+
+def test_many_pulls_are_resolved_as_each_alone_and_one_that_fails_is_told():
+    points, width, foot, head = draw_support()
+    pulls, alone = [], []
+    while len(alone) < 7:
+        _, _, foot, head = draw_support()
+        found = resolve_one(points, width, foot, head)
+        if not isinstance(found, FailedSupport):
+            pulls.append((foot, head))
+            alone.append(found)
+    together = resolve_pulls(points, width, pulls)
+    assert [one for one, _ in together] == [one for one, _ in alone]
+    for (_, bands), (_, own) in zip(together, alone, strict=True):
+        assert bands == own
+    spoilt = EndPull(x=foot.x, y=foot.y, error=math.nan)
+    failed = resolve_pulls(points, width, [*pulls[:3], (spoilt, head), *pulls[3:]])
+    assert isinstance(failed, FailedSupport)
 
 
 @pytest.mark.parametrize("error", [math.inf, math.nan, 1e308])
 def test_an_error_that_is_no_number_or_leads_to_none_leaves_no_forces(error):
     points, width, foot, head = draw_support()
     spoilt = EndPull(x=foot.x, y=foot.y, error=error)
-    assert isinstance(resolve_pulls(points, width, spoilt, head), FailedSupport)
-    assert isinstance(resolve_pulls(points, width, foot, spoilt), FailedSupport)
+    assert isinstance(resolve_one(points, width, spoilt, head), FailedSupport)
+    assert isinstance(resolve_one(points, width, foot, spoilt), FailedSupport)

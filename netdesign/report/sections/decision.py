@@ -42,6 +42,7 @@ from netdesign.report.sections.checks import (
     badge_cell,
     describe_briefly,
     describe_cause,
+    find_gaps,
     list_flips,
     name_checks,
     name_few,
@@ -64,6 +65,7 @@ from netdesign.words.message import Message
 
 _STIFFNESS = "column.quantities.net_stiffness"
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
+_MANY = "check.unsaid_many"  # key of a gap: the row lacks more than a check says
 _OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
 
 
@@ -196,8 +198,9 @@ def _sum_up(checks: list[CheckRecord], words: Words) -> Cell:
 
 def list_open_points(study: Study, words: Words) -> Iterator[str]:
     """Points to settle before the report can be signed, the worst first."""
-    for verdict in (Verdict.FAIL, Verdict.NOT_PROVEN):
-        yield from _list_open_checks(study, verdict, words)
+    yield from _list_open_checks(study, Verdict.FAIL, words)
+    yield from _list_unsaid(study, words)
+    yield from _list_open_checks(study, Verdict.NOT_PROVEN, words)
     yield from _list_open_rows(study, words)
     yield from _list_declared(study, words)
     if has_other_floor(study):
@@ -248,7 +251,7 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
     for row in study.rows:
         causes: dict[str, list[CheckRecord]] = {}
         for check in row.checks:
-            if check.verdict is verdict:
+            if check.verdict is verdict and not _is_told_of_row(check):
                 is_by_force = check.is_of_force and verdict is Verdict.FAIL
                 told = (
                     words("todo.fail") if is_by_force else describe_cause(check, words)
@@ -266,6 +269,32 @@ def _add_change(checks: list[CheckRecord], cause: str, words: Words) -> str:
     """Cause of a point; of a single check with what makes it pass."""
     flips = list_flips(checks[0], words) if len(checks) == 1 else ()
     return words("todo.with_change", what=cause, change=flips[0]) if flips else cause
+
+
+def _is_told_of_row(check: CheckRecord) -> bool:
+    """All that the check lacks is told of its row, as a point of its own."""
+    gaps = find_gaps(check.reason)
+    return bool(gaps) and all(one.key == _MANY for one in gaps)
+
+
+def _list_unsaid(study: Study, words: Words) -> Iterator[str]:
+    """Inputs that rows lack, where they are too many for the reasons of the checks.
+
+    Each input once, together with those that the same rows lack.
+    """
+    lacking: dict[Message, list[str]] = {}
+    for row in study.rows:
+        if any(map(_is_told_of_row, row.checks)):
+            for name in row.unsaid:
+                lacking.setdefault(name, []).append(row.id)
+    together: dict[tuple[str, ...], list[Message]] = {}
+    for name, ids in lacking.items():
+        together.setdefault(tuple(ids), []).append(name)
+    key = "check.unsaid"  # the first time with where inputs may stand
+    for rows, names in together.items():
+        place = show_text(name_rows(rows, study, words))
+        yield words("show.label", label=place, text=words(key, names=tuple(names)))
+        key = "todo.unsaid"
 
 
 def _list_open_rows(study: Study, words: Words) -> Iterator[str]:

@@ -55,6 +55,30 @@ def test_a_point_without_a_force_names_its_cause(verdict):
     assert ENGLISH.show(cause) in first
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_inputs_that_rows_lack_stand_in_the_points_once_and_in_reasons_shortly(
+    language,
+):
+    names = ("guy_count", "net_cut", "ridge_rope", "lower_rope", "design_life")
+    names = tuple(say(f"column.Nets.{one}") for one in names)
+    gap = say("check.unsaid_many", names=names[:2], count=3)
+    check = STUDY.rows[0].checks[0]
+    told = {"verdict": Verdict.NOT_PROVEN, "changes": []}
+    check = replace(check, **told, reason=say("check.not_proven", gaps=(gap,)))
+    lacks = {"A": names, "B": names[1:], "C": names[:-1]}
+    rows = [
+        replace(STUDY.rows[0], id=row, checks=[check] * 9, unsaid=list(of))
+        for row, of in lacks.items()
+    ]
+    words = Words(language)
+    points = list(list_open_points(replace(STUDY, rows=rows), words))
+    for name in names:
+        assert sum(words.show(name) in one for one in points) == 1
+    assert not any(words.show(gap) in one for one in points)
+    places = [one for one in points if words.show(names[0]) in one]
+    assert places[0].startswith("A, C")
+
+
 def test_many_checks_with_one_cause_are_counted():
     row = STUDY.rows[0]
     reason = say("check.not_proven", gaps=(say("check.no_case_solved"),))
