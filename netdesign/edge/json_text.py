@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache, lru_cache
 from types import MappingProxyType
@@ -120,7 +120,7 @@ def list_fields(value: Any) -> dict[str, Any]:
         return dict(value)
     if not is_dataclass(value):
         raise TypeError(f"{type(value).__name__} is not JSON serializable")
-    kind: Hashable = type(value)
+    kind: Any = type(value)
     found = {name: getattr(value, name) for name in _name_fields(kind)}
     if getattr(value, "LEAVES_OUT_NONE", False):
         return {name: one for name, one in found.items() if one is not None}

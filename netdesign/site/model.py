@@ -358,6 +358,15 @@ class NetRow:
         return next(one for one in self.net_parts if one.member == part)
 
     @property
+    def solved_panels(self) -> tuple[Panel, ...]:
+        """Panels that its cases are solved with.
+
+        No check of a row rests on forces that something unsaid decides, so that none
+        are assumed for it.
+        """
+        return () if self.unsaid and self.panel_assumed else self.panels
+
+    @property
     def has_end(self) -> bool:
         """End of the row: there is none where the next work goes on without a gap."""
         return self.gap > 0.0

@@ -168,7 +168,7 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         ),
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
-        panels=row.panels,
+        panels=row.solved_panels,
         has_end=row.row_end is not None,
     )
 
@@ -262,5 +262,6 @@ def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[Case
         return build_scene(row, case, run.creep_law)
 
     return [
-        build_task(case, build, row.layout, run.settings, row.panels) for case in cases
+        build_task(case, build, row.layout, run.settings, row.solved_panels)
+        for case in cases
     ]

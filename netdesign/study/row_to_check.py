@@ -146,7 +146,7 @@ class CaseSolver:
             lambda c: build_scene(row, c, law, contact),
             row.layout,
             self._settings,
-            row.panels,
+            row.solved_panels,
         )
 
 
