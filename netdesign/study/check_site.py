@@ -16,6 +16,7 @@ from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import gather_study
 from netdesign.study.records import Study
 from netdesign.study.side_by_side import (
+    RowNames,
     RowsJob,
     Studies,
     find_rows,
@@ -79,7 +80,7 @@ def check_site(
 
 def _judge_new(
     site: Site,
-    names: Mapping[str, str],
+    names: Mapping[str, RowNames],
     standards: Sequence[Standard],
     run: CheckRun,
     runner: Runner,

@@ -53,9 +53,20 @@ def cut_site(site: Site, row: NetRow) -> Site:
     )
 
 
+@dataclass(frozen=True, slots=True)
+class RowNames:
+    """Names of a row's record: by all that may decide it, and without other types.
+
+    Only a record that proposes a change may name a type that the row does not have.
+    """
+
+    whole: str
+    own: str
+
+
 def name_rows(
     site: Site, standards: Sequence[Standard], run: CheckRun
-) -> dict[str, str]:
+) -> dict[str, RowNames]:
     """Names of the records of a site's rows, by the ids of the rows.
 
     Command, time and number of processes are no part of a name: no record has them.
@@ -65,14 +76,19 @@ def name_rows(
     names = {}
     with suppress(TypeError):
         shared = write_parts([identify_installation(), settings, list(standards)])
+        types = write_parts(list(site.catalogue))
         for row in site.rows:
-            text = f"[{shared}, {write_parts(cut_site(site, row))}]"
-            names[row.id] = hashlib.sha256(text.encode()).hexdigest()
+            part = write_parts(replace(cut_site(site, row), catalogue=()))
+            own, whole = f"[{shared}, {part}]", f"[{shared}, {part}, {types}]"
+            names[row.id] = RowNames(
+                whole=hashlib.sha256(whole.encode()).hexdigest(),
+                own=hashlib.sha256(own.encode()).hexdigest(),
+            )
     return names
 
 
 def find_rows(
-    names: Mapping[str, str], runner: Runner, count: int
+    names: Mapping[str, RowNames], runner: Runner, count: int
 ) -> dict[str, Studies]:
     """Rows that the store knows, by their ids, under so many profiles each.
 
@@ -80,7 +96,7 @@ def find_rows(
     """
     found = {}
     for row_id, name in names.items():
-        texts = runner.find_row(name)
+        texts = runner.find_row(name.own) or runner.find_row(name.whole)
         if texts is None:
             continue
         try:
@@ -88,12 +104,12 @@ def find_rows(
             found[row_id] = [_restore(text, values) for text, values, _ in pairs]
         except ValueError:
             path = str(runner.store.path if runner.store else "")
-            runner.tell(say("store.row_damaged", path=path, name=name[:12]))
+            runner.tell(say("store.row_damaged", path=path, name=name.whole[:12]))
     return found
 
 
 def keep_rows(
-    names: Mapping[str, str],
+    names: Mapping[str, RowNames],
     rows: Iterable[NetRow],
     judged: Iterable[Studies],
     runner: Runner,
@@ -109,7 +125,8 @@ def keep_rows(
         if name is not None:
             parts = [one.written for one in studies]
             texts = [text for part in parts for text in (part.text, part.values)]
-            runner.keep_row(name, texts)
+            proposes = any(check.changes for one in studies for check in one.checks)
+            runner.keep_row(name.whole if proposes else name.own, texts)
 
 
 def _restore(text: str, values: str) -> RowStudy:

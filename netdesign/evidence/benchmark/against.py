@@ -23,7 +23,13 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from netdesign.core.library import name_core
-from netdesign.evidence.benchmark.scenes import INPUTS, NAMED, NAMES, write_site
+from netdesign.evidence.benchmark.scenes import (
+    INPUTS,
+    NAMED,
+    NAMES,
+    change_value,
+    write_site,
+)
 from netdesign.evidence.runner import SINGLE_THREADED, run_in_turns
 from netdesign.outcome import ModelError
 from netdesign.words.message import say
@@ -36,6 +42,12 @@ _LONGEST_S = 900.0
 _PROCESSES = "2"
 _SIDES = ("this", "other")
 _CLOCKS = {"processor": "cpu_s", "wall": "wall_s"}
+
+# Sites beside the first one, each with another value in one of its cells.
+CHANGED = {
+    "length": ("Nets", "upslope length [m]", "17.3"),
+    "resistance": ("Anchors", "tendon resistance [kN]", "823"),
+}
 
 Command = list[str]
 Times = dict[str, float]  # by the names of the clocks [s]
@@ -63,13 +75,22 @@ class Figure(NamedTuple):
 
 
 def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
-    """Figures of a version, whose files are in a folder; ``again`` follows ``site``."""
+    """Figures of a version, whose files are in a folder.
+
+    What follows ``site`` finds its rows in the store: all, all but one, all but those
+    that one type bears.
+    """
     scenes = [["solve", str(NAMED / f"{one}.toml"), "--json"] for one in size.scenes]
     first = [_search("short", "1", density="300:310:2")]
     spans = {"density": "250:450", "friction": "15:45", "inclination": "25:35"}
     grid = {name: f"{span}:{size.samples}" for name, span in spans.items()}
     check = ["check", "--jobs", _PROCESSES, "--quiet", "--force", "--out"]
-    site = Figure([[*check, str(folder / "out"), str(folder / "site")]], [], (0, 1, 4))
+    site, length, resistance = (
+        Figure([[*check, str(folder / "out"), str(folder / one)]], [], (0, 1, 4))
+        for one in ("site", *CHANGED)
+    )
+    history = [[*one, "--method", "transient"] for one in scenes[:1]]
+    winter = ["winter", "--example", "--row", "R1", "--no-cache", "--quiet", "--out"]
     own = [*check, str(folder / "own"), "--example", "--no-cache"]
     return {
         "solve": Figure(scenes[:1]),
@@ -78,7 +99,11 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
         "grid": Figure([_search("row", _PROCESSES, **grid)], first, (0, 4)),
         "site": site,
         "again": site,
+        "length": length,
+        "resistance": resistance,
         "example": Figure([own], [], (0, 1, 4, 6)),
+        "history": Figure(history, history),
+        "winter": Figure([[*winter, str(folder / "winter")]], [], (0, 4)),
     }
 
 
@@ -120,7 +145,7 @@ def compare_versions(
         counts[side, what] += 1
         folder = Path(place) / f"{side}-{counts[side, what]}"
         if not folder.exists():
-            write_site(folder / "site", size.rows)
+            write_sites(folder, size.rows)
         return time_figure(pythons[side], list_figures(size, folder)[what], folder)
 
     rows = []
@@ -140,6 +165,14 @@ def compare_versions(
         "pass": all(row["this_s"] is not None for row in rows),
         "rows": rows,
     }
+
+
+def write_sites(folder: Path, rows: int) -> None:
+    """Write the site of so many net rows, and those with one value changed."""
+    write_site(folder / "site", rows)
+    for name, change in CHANGED.items():
+        write_site(folder / name, rows)
+        change_value(folder / name, *change)
 
 
 def time_figure(python: Path, figure: Figure, folder: Path) -> Times | str:

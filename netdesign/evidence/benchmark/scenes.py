@@ -170,3 +170,12 @@ def write_site(folder: Path, count: int) -> None:
             row, share = rows[place], 1.0 - _LESS_SNOW * again
             less = {name: f"{share * float(row[name]):.4f}" for name in _SCALED}
             writer.writerow({**row, "id": f"{row['id']}.{again + 1}", **less})
+
+
+def change_value(site: Path, sheet: str, column: str, text: str) -> None:
+    """Put a text into the last line of a column of a site that `write_site` wrote."""
+    path = site / f"{sheet}.csv"
+    rows = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
+    rows[-1][rows[0].index(column)] = text
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)

@@ -1,6 +1,7 @@
 """Two versions in turns: their runs, what a failure becomes, ratios, the table."""
 
 import itertools
+import re
 import sys
 from pathlib import Path
 
@@ -8,10 +9,12 @@ import pytest
 
 from netdesign.evidence.benchmark import against
 from netdesign.evidence.benchmark.against import (
+    CHANGED,
     Size,
     compare_versions,
     count_runs,
     list_figures,
+    write_sites,
 )
 from netdesign.evidence.table import show_document
 from netdesign.report.words import Words
@@ -50,10 +53,22 @@ def test_versions_take_turns_and_the_other_begins_every_second_repeat(runs):
 
 def test_each_repeat_has_a_store_that_the_second_run_of_the_site_finds(runs):
     compare_versions(OTHER, SIZE)
-    sites = [one for one in runs if any("site" in str(w) for w in one[1].timed[0][-1:])]
+    sites = [one for one in runs if one[1].timed[0][-1].endswith("/site")]
     first, again = sites[:6], sites[6:]
     assert len({folder for _, _, folder in first}) == 6
     assert first == again
+
+
+def test_a_changed_site_differs_in_one_cell(tmp_path):
+    write_sites(tmp_path, 9)
+    site = {path.name: path.read_text() for path in (tmp_path / "site").iterdir()}
+    for name, (sheet, _, text) in CHANGED.items():
+        changed = {path.name: path.read_text() for path in (tmp_path / name).iterdir()}
+        (other,) = (one for one in site if site[one] != changed[one])
+        assert other == f"{sheet}.csv"
+        cells = (re.split(r"[,\n]", one[other]) for one in (site, changed))
+        (different,) = ((a, b) for a, b in zip(*cells, strict=True) if a != b)
+        assert different[1] == text
 
 
 def test_medians_and_their_ratio(runs):
@@ -100,7 +115,7 @@ def test_table(runs, capsys, language):
     names = Words(language)("bench_word.row"), Words(language)("bench_word.processor")
     (row,) = (line for line in lines if all(name in line for name in names))
     assert row.index(" 2 ") < row.index(" 4 ") < row.rindex(" 2 ")
-    assert sum("of its own" in line for line in lines) == 4  # two figures, two clocks
+    assert sum("of its own" in line for line in lines) == 6  # three figures, two clocks
     if language != "en":
         english = list_vocabulary("en") - list_vocabulary(language)
         told = "\n".join(lines).replace("of its own", "").replace(" of ", "")
