@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -60,7 +61,10 @@ def _require(places: Floats, found: Floats) -> None:
     wrong = np.flatnonzero(~((found >= _LEAST) & (found <= _MOST)))
     if wrong.size:
         east, north = (float(one) for one in places[wrong[0]])
-        ends = {"least": _LEAST, "most": _MOST, "value": float(found[wrong[0]])}
+        value = float(found[wrong[0]])
+        if math.isnan(value):
+            raise TerrainError(say("layout.snow_unknown", east=east, north=north))
+        ends = {"least": _LEAST, "most": _MOST, "value": value}
         raise TerrainError(say("layout.no_snow", east=east, north=north, **ends))
 
 
