@@ -256,17 +256,22 @@ def apply(operation: str, *operands: Operand) -> Quantity:
     if dimension is None:
         units = ", ".join(name_dimension(one.dimension) for one in of)
         raise ModelError(say("calculation.units", operation=operation, units=units))
-    made = Quantity(
-        low=0.0, value=0.0, high=0.0, dimension=dimension, operation=operation, of=of
-    )
     lacks = tuple(dict.fromkeys(lack for one in of for lack in one.lacks))
-    if lacks:
-        return replace(made, low=None, value=None, high=None, lacks=lacks)
-    lack = _find_lack(operation, of)
-    if lack is not None:
-        return replace(made, low=None, value=None, high=None, lacks=(lack,))
-    low, value, high = (_evaluate(known, of, end) for end in (-1, 0, 1))
-    return replace(made, low=low, value=value, high=high)
+    if not lacks:
+        lack = _find_lack(operation, of)
+        lacks = () if lack is None else (lack,)
+    low, value, high = (
+        None if lacks else _evaluate(known, of, end) for end in (-1, 0, 1)
+    )
+    return Quantity(
+        low=low,
+        value=value,
+        high=high,
+        dimension=dimension,
+        operation=operation,
+        of=of,
+        lacks=lacks,
+    )
 
 
 def _name(quantity: Quantity) -> str:

@@ -16,11 +16,14 @@ from netdesign.words.message import Message, say
 _RESULTS = {"demand_kN": "E_d", "resistance_kN": "R_d", "utilisation": "μ"}
 _RULES = {"E_d": "γ_E * E_k", "R_d": "R_k / γ_R", "μ": "E_d / R_d"}
 _FORCES = ("E_k", "V_k", "E_d", "R_k", "R_d")
+_KNOWN = "is_consistent"  # that it was looked at, kept with the study
 _ABOVE_ZERO = ("γ_E", "γ_R", "R_d")
 
 
 def require_consistent(study: Study) -> None:
     """Refuse a study whose verdicts or ratios do not follow from its numbers.
+
+    Each output asks; one study is looked at once.
 
     Raises
     ------
@@ -29,6 +32,8 @@ def require_consistent(study: Study) -> None:
         proven), a pass is not supported by its utilisation, or a design value
         or a utilisation is not what its parts give.
     """
+    if _KNOWN in vars(study):
+        return
     whole = say("audit.study")
     _require_earned(whole, study.verdict, (row.verdict for row in study.rows))
     for row in study.rows:
@@ -39,6 +44,7 @@ def require_consistent(study: Study) -> None:
             where = say("audit.check", place=place, check=check.id)
             _require_sound(where, check)
             _require_floor(where, check, study.profile.floor)
+    vars(study)[_KNOWN] = True
 
 
 def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) -> None:
