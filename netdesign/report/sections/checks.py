@@ -366,12 +366,25 @@ def is_useful(change: ChangeRecord) -> bool:
 
 
 def describe_flip(change: ChangeRecord, words: Words) -> str:
-    """One change and today's value: ``post spacing at most 1.42 m, now 4 m``."""
+    """One change, today's value and what else it needs.
+
+    ``post spacing at most 1.42 m, now 4 m (as far as the calculated cases show)``
+    """
+    return _add_note(_compare_now(change, words), change, words)
+
+
+def _compare_now(change: ChangeRecord, words: Words) -> str:
     text = describe_change(change, words)
     if change.now is None:
         return text
     now = round(change.now, 3) if change.unit == "m" else change.now  # cos of a slope
     return words("show.change_now", change=text, now=_show(now, change.unit, words))
+
+
+def _add_note(text: str, change: ChangeRecord, words: Words) -> str:
+    if change.note is None:
+        return text
+    return words("show.with_note", text=text, note=words.show(change.note))
 
 
 def describe_change(change: ChangeRecord, words: Words) -> str:
@@ -390,16 +403,14 @@ def _show(value: float | None, unit: str, words: Words) -> str:
 
 def explain_change(change: ChangeRecord, words: Words) -> str:
     """One change with what it took, and what limits it."""
-    text = describe_flip(change, words)
+    text = _compare_now(change, words)
     if change.bound is not None:
         text = words("show.passes_with", change=text)
     if change.solves == 1:
         text = words("show.after_one_solve", change=text)
     elif change.solves:
         text = words("show.after_solves", change=text, count=change.solves)
-    if change.note is None:
-        return text
-    return words("show.with_note", text=text, note=words.show(change.note))
+    return _add_note(text, change, words)
 
 
 def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[str]:
