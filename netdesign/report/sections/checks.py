@@ -220,9 +220,9 @@ class CheckLine:
     def list_remarks(self, words: Words) -> list[str]:
         """Reasons that say more than the numbers; once where both places share it."""
         told = {
-            one.position == "edge": words.show(_strip_load(one.reason))
+            one.position == "edge": _tell_beside(one, words)
             for one in self.checks
-            if not _is_plain(one.reason)
+            if not _is_plain(one.reason) and not _fails_by_numbers(one)
         }
         shown = list(dict.fromkeys(told.values()))
         if len(shown) > 1 or len(told) < len(self.checks):
@@ -292,6 +292,20 @@ def _is_plain(reason: object) -> bool:
     """True of a pass about which its numbers say everything."""
     told = _strip_load(reason)
     return told is not None and told.key in (_PLAIN, "check.slack")
+
+
+def _fails_by_numbers(check: CheckRecord) -> bool:
+    """True of a failure about which sign and numbers say everything."""
+    told = _strip_load(check.reason)
+    return told is not None and told.key == "check.fails"
+
+
+def _tell_beside(check: CheckRecord, words: Words) -> str:
+    """What a reason says beside the numbers of a failure; else all of it."""
+    told = _strip_load(check.reason)
+    if told is None or told.key != "check.fails_besides":
+        return words.show(told)
+    return words.join(words.show(one) for one in find_gaps(told))
 
 
 def name_checks(checks: Sequence[CheckRecord], words: Words) -> str:
@@ -439,24 +453,28 @@ def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[
 
 
 def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
-    """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``."""
+    """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``.
+
+    One sentence, or none.
+    """
     if check is None:
         return ()
-    key = _choose_sentence(check)
-    return tuple(
+    limits = [
         words(
-            key,
+            "show.limit_now",
             quantity=name_heading(words, hold.quantity),
             limit=_show_limit(check, hold, words),
             now=words.show_given(hold.now),
         )
         for hold in check.holds
         if hold.least is not None or hold.most is not None
-    )
+    ]
+    key = _choose_sentence(check)
+    return (words(key, limits=words.join(limits)),) if limits else ()
 
 
 def _choose_sentence(check: CheckRecord) -> str:
-    """Sentence of a limit: beyond it a check turns, or its force does.
+    """Sentence of limits: beyond one a check turns, or its force does.
 
     A check that carries its force may still not pass: a case without a result, a creep
     law out of its range, a declaration.
