@@ -22,7 +22,7 @@ from netdesign.resistance.products import find_product
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.model import NAMED_BY, Resistance, Site
 from netdesign.structure.members import EndMember, Member, NetPart
-from netdesign.study.dependent import find_short_post
+from netdesign.study.dependent import corrode, find_short_post
 from netdesign.study.judgement import find_lasting
 from netdesign.study.records import ChangeRecord
 from netdesign.study.row_to_check import Basis
@@ -97,7 +97,7 @@ def _find_enough_size(basis: Basis, given: Resistance, demand: float) -> Size | 
 
 
 def _find_note(given: Resistance, unsure: Message | None) -> Message | None:
-    """What is open with another type; a border rope's stiffness changes its force."""
+    """Condition of another type; a border rope's stiffness changes its force."""
     if unsure:
         return say("change.if_rest_proven")
     is_of_net = given.member in tuple(NetPart)
@@ -124,7 +124,7 @@ class _Enough:
 def _list_enough(
     basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
 ) -> Iterator[_Enough]:
-    """Types of the workbook that reach a demand; none of another ground."""
+    """Types of the workbook that reach a demand; none of another ground, or worn."""
     row, standard = basis.row, basis.standard
     ground = row.ground_type or given.ground
     for other in basis.site.catalogue:
@@ -132,12 +132,14 @@ def _list_enough(
         if other.mode != given.mode or not is_here:
             continue
         other = replace(other, member=given.member)
-        lasting, unsure = find_lasting(basis, other, pull)
+        lasting, worn = corrode(other, row, standard)
+        if worn or find_short_post(other, row, basis.site.ranges):
+            continue
         value = find_resistance(lasting, standard).value
         factor = standard.find_resistance_factor(other.mode, other.basis)
-        is_short = find_short_post(other, row, basis.site.ranges)
-        if value is None or factor is None or is_short:
+        if value is None or factor is None:
             continue
+        _, unsure = find_lasting(basis, other, pull)
         design = value / factor.value_si
         if design >= demand:
             yield _Enough(other.type_id, design, value, _find_note(other, unsure))

@@ -301,7 +301,7 @@ def _fails_by_numbers(check: CheckRecord) -> bool:
 
 
 def _tell_beside(check: CheckRecord, words: Words) -> str:
-    """What a reason says beside the numbers of a failure; else all of it."""
+    """Sentence of a reason, without what the numbers of a failure say."""
     told = _strip_load(check.reason)
     if told is None or told.key != "check.fails_besides":
         return words.show(told)
