@@ -65,6 +65,7 @@ class MemberCheck:
     gap: Message | None = None
     doubt: Message | None = None
     unsure: Message | None = None
+    pull: PullRecord | None = None  # on an anchor, where one is known
 
     @property
     def name(self) -> tuple[str, str]:
@@ -171,7 +172,7 @@ def _judge_member(
         return MemberCheck(given=given, width=width, gap=unsaid, result=result)
     force = find_force(known, given, width)
     pull = find_pull(known.pulls, given.member, width.position)
-    given, unsure = _find_lasting(known, given, pull)
+    given, unsure = find_lasting(known, given, pull)
     doubt = None
     if force is not None:
         given = find_resistance_for_force(given, known, pull)
@@ -192,10 +193,11 @@ def _judge_member(
         doubt=doubt,
         result=result,
         unsure=unsure,
+        pull=pull,
     )
 
 
-def _find_lasting(
+def find_lasting(
     basis: Basis, given: Resistance, pull: PullRecord | None
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""

@@ -69,19 +69,17 @@ def _complete(
     changes: list[ChangeRecord],
     check: CheckByCase | None,
 ) -> list[ChangeRecord]:
-    """Changes with those found by solves; with a note where they alone do not do."""
-    if key := _find_condition(one):
+    """Changes with those found by solves; with a note where they alone do not do.
+
+    Another type has the condition of its own resistance.
+    """
+    if one.gap or one.doubt:
+        key = "change.as_far_as_solved" if one.gap else "change.if_law_accepted"
         return [replace(change, note=say(key)) for change in changes]
+    if one.unsure:
+        note = say("change.if_rest_proven")
+        return [x if x.sense == "has" else replace(x, note=note) for x in changes]
     return changes + (_list_solved_remedies(task, check) if check else [])
-
-
-def _find_condition(one: MemberCheck) -> str:
-    """Key of what has to be settled, too, before a check can pass; "" for nothing."""
-    if one.gap:
-        return "change.as_far_as_solved"
-    if one.doubt:
-        return "change.if_law_accepted"
-    return "change.if_rest_proven" if one.unsure else ""
 
 
 def _is_worth_telling(task: RowToCheck, one: MemberCheck) -> bool:
@@ -121,7 +119,7 @@ def _doubt_density(task: RowToCheck, change: ChangeRecord) -> ChangeRecord:
 
 def _list_resistance_remedies(task: RowToCheck, one: MemberCheck) -> list[ChangeRecord]:
     """Characteristic resistance that is needed, and the type that has it."""
-    site, standard, result = task.basis.site, task.basis.standard, one.result
+    standard, result = task.basis.standard, one.result
     demand, factor = result.find("E_d"), result.find_value("γ_R")
     note: Message | None = None
     if factor is None:  # nothing is given, and so no basis: suppose a test
@@ -139,8 +137,7 @@ def _list_resistance_remedies(task: RowToCheck, one: MemberCheck) -> list[Change
         solves=0,
         note=note,
     )
-    row = task.basis.row
-    kind = find_type_change(site, row, one.given, demand.high, standard)
+    kind = find_type_change(task.basis, one.given, demand.high, one.pull)
     return [change, kind] if kind else [change]
 
 

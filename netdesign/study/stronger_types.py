@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
-from netdesign.checks import Standard, find_resistance
+from netdesign.checks import find_resistance
 from netdesign.resistance.catalogue import (
     find_imperfection,
     find_rope_factor,
@@ -19,10 +20,13 @@ from netdesign.resistance.post import compute_buckling_resistance
 from netdesign.resistance.product_data import load_products
 from netdesign.resistance.products import find_product
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
-from netdesign.site.model import NAMED_BY, NetRow, Resistance, Site
-from netdesign.structure.members import EndMember, Member
+from netdesign.site.model import NAMED_BY, Resistance, Site
+from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.study.dependent import corrode, find_short_post
+from netdesign.study.judgement import find_lasting
 from netdesign.study.records import ChangeRecord
+from netdesign.study.row_to_check import Basis
+from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
@@ -57,30 +61,47 @@ def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
 
 
 def find_type_change(
-    site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
+    basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
 ) -> ChangeRecord | None:
     """Type whose design resistance reaches the design ``demand`` [kN].
 
-    First the weakest type of the workbook, whether a net row uses it or not; else the
-    smallest part of the catalogue. None where the type that is there does, where
-    it is that of another member, or nothing is known that would.
+    First the weakest type of the workbook, whether a net row uses it or not, those
+    whose own resistance is proven before the others; else the smallest part of the
+    catalogue. None where the type that is there does, where it is that of another
+    member, or nothing is known that would.
 
     An anchor type of another ground, or of one that is not known, is none of them.
+    ``pull`` is that on the anchor.
     """
     if given.member in NAMED_BY:
         return None
-    enough = _list_enough(site, row, given, demand, standard)
-    if given.type_id in enough:
+    enough = list(_list_enough(basis, given, demand, pull))
+    sure = [one for one in enough if one.note is None]
+    if any(one.type_id == given.type_id for one in sure or enough):
         return None
     if enough:
-        weakest = min(enough, key=lambda key: (enough[key], key))
-        told = say("change.type_of_workbook", type=weakest)
-        return _record(told, enough[weakest][1], given)
-    basis = "computed" if given.mode == "pull_out" else "declared"
-    factor = standard.find_resistance_factor(given.mode, basis)
+        weakest = min(sure or enough, key=lambda one: (one.design, one.type_id))
+        told = say("change.type_of_workbook", type=weakest.type_id)
+        return _record(told, weakest.value, given, weakest.note)
+    size = _find_enough_size(basis, given, demand)
+    _, unsure = find_lasting(basis, given, pull)
+    return _record(*size, given, _find_note(given, unsure)) if size else None
+
+
+def _find_enough_size(basis: Basis, given: Resistance, demand: float) -> Size | None:
+    """Smallest part of the catalogue that bears a design force [kN]."""
+    declared = "computed" if given.mode == "pull_out" else "declared"
+    factor = basis.standard.find_resistance_factor(given.mode, declared)
     needed = demand / _find_share(given)
-    size = find_size(given, needed * factor.value_si) if factor else None
-    return _record(*size, given) if size else None
+    return find_size(given, needed * factor.value_si) if factor else None
+
+
+def _find_note(given: Resistance, unsure: Message | None) -> Message | None:
+    """Condition of another type; a border rope's stiffness changes its force."""
+    if unsure:
+        return say("change.if_rest_proven")
+    is_of_net = given.member in tuple(NetPart)
+    return say("change.solve_again") if is_of_net else None
 
 
 def _find_share(given: Resistance) -> float:
@@ -90,31 +111,43 @@ def _find_share(given: Resistance) -> float:
     return float(str(share)) if share else 1.0
 
 
-def _list_enough(
-    site: Site, row: NetRow, given: Resistance, demand: float, standard: Standard
-) -> dict[str, tuple[float, float]]:
-    """Types of the workbook that reach a demand; none of another ground.
+@dataclass(frozen=True, slots=True)
+class _Enough:
+    """A type that reaches a demand: design and characteristic resistance [kN]."""
 
-    Each with its design and its characteristic resistance [kN].
-    """
-    found = {}
-    for other in site.catalogue:
-        ground = row.ground_type or given.ground
+    type_id: str
+    design: float
+    value: float
+    note: Message | None
+
+
+def _list_enough(
+    basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
+) -> Iterator[_Enough]:
+    """Types of the workbook that reach a demand; none of another ground, or worn."""
+    row, standard = basis.row, basis.standard
+    ground = row.ground_type or given.ground
+    for other in basis.site.catalogue:
         is_here = holds_in_ground(given.member, ground, other)
-        lasting, worn = corrode(other, row, standard)
-        is_other = other.mode != given.mode or not is_here
-        if is_other or worn or find_short_post(other, row, site.ranges):
+        if other.mode != given.mode or not is_here:
             continue
-        factor = standard.find_resistance_factor(other.mode, other.basis)
+        other = replace(other, member=given.member)
+        lasting, worn = corrode(other, row, standard)
+        if worn or find_short_post(other, row, basis.site.ranges):
+            continue
         value = find_resistance(lasting, standard).value
+        factor = standard.find_resistance_factor(other.mode, other.basis)
         if value is None or factor is None:
             continue
-        if value / factor.value_si >= demand:
-            found[other.type_id] = (value / factor.value_si, value)
-    return found
+        _, unsure = find_lasting(basis, other, pull)
+        design = value / factor.value_si
+        if design >= demand:
+            yield _Enough(other.type_id, design, value, _find_note(other, unsure))
 
 
-def _record(quantity: Message, value: float, given: Resistance) -> ChangeRecord:
+def _record(
+    quantity: Message, value: float, given: Resistance, note: Message | None
+) -> ChangeRecord:
     return ChangeRecord(
         quantity=quantity,
         unit="kN",
@@ -122,6 +155,7 @@ def _record(quantity: Message, value: float, given: Resistance) -> ChangeRecord:
         bound=math.floor(value * 10.0) / 10.0,
         sense="has",
         solves=0,
+        note=note,
     )
 
 

@@ -180,9 +180,9 @@ def test_no_value_of_a_check_differs(study, outputs):
         inside = {(squeeze(title), at): cells for (title, at), cells in written.items()}
         signs = {}
         for (title, at), cells in shown.items():
-            assert inside[squeeze(title), at] == cells
             resistance, demand, used = cells
             symbol, word, check = part_title(title, texts)
+            assert inside[squeeze(f"{symbol}{check}"), at] == cells
             line = kept.pop(find_name(check, kept, is_end=at == "end"))
             signs.setdefault((symbol, word, check), set()).add(line[18])
             numbers = ((line[15], used), (line[9], demand), (line[13], resistance))

@@ -6,6 +6,8 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.site.reader import read_site
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.study.row_to_check import Basis
 from netdesign.study.stronger_types import find_type_change
 from tests.short_example import write_short_example
 
@@ -24,9 +26,10 @@ def workbook(tmp_path_factory):
 def list_offers(site, demand):
     """Anchors of the row, each with the type that is offered for it [kN]."""
     (row,) = site.rows
+    basis = Basis(site=site, row=row, standard=PROFILE, law=BOUTILLIER_2004)
     ends = row.row_end.resistances if row.row_end else ()
     for given in (*row.resistances, *ends):
-        offer = find_type_change(site, row, given, demand, PROFILE)
+        offer = find_type_change(basis, given, demand, None)
         is_of_anchor = given.mode in ("tendon", "pull_out")
         if is_of_anchor and offer is not None and "type" in offer.quantity.arguments:
             yield given, offer.quantity  # else a size of the catalogue

@@ -12,7 +12,9 @@ from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.declared_sheet import DECLARABLE
 from netdesign.site.reader import read_site
 from netdesign.site.statements import list_missing
+from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import Member
+from netdesign.study.row_to_check import Basis
 from netdesign.study.stronger_types import find_type_change
 from tests.checks.given_pulls import POST, judge_row, study_row, write_row
 
@@ -371,7 +373,8 @@ def test_a_type_for_shorter_posts_is_no_remedy(tmp_path):
     standard = load_standard(SWISS)
     for catalogue, found in (((short,), None), ((short, long), "long")):
         stocked = replace(site, catalogue=catalogue)
-        change = find_type_change(stocked, row, given, 5.3e3, standard)
+        basis = Basis(site=stocked, row=row, standard=standard, law=BOUTILLIER_2004)
+        change = find_type_change(basis, given, 5.3e3, None)
         assert (change and change.quantity.arguments["type"]) == found
 
 

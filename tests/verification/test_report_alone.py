@@ -167,6 +167,21 @@ def test_twelve_rows_have_few_pages(twelve, tmp_path, detail, language, most):
     assert count_pages(page, tmp_path) <= most
 
 
+@pytest.fixture(scope="module")
+def example(tmp_path_factory):
+    """The example under its own profile."""
+    path = tmp_path_factory.mktemp("own") / "example.xlsx"
+    write_site_workbook(path, example=True)
+    return judge(path, "nf-p-95-304-style")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_example_has_sixteen_pages(example, tmp_path, language):
+    """Each of its rows has a page of its own."""
+    assert count_pages(render_html(example, language), tmp_path) <= 16
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_verdict_stands_on_the_first_page(twelve, tmp_path, language):
     page = render_html(twelve, language, "summary")

@@ -25,6 +25,7 @@ FAMILIES: tuple[str, ...] = (
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
     *("product_source.", "plausible.source_", "opinion.", "schedule."),
     *("scope.", "todo.", "quantities.", "loads.", "why_more.", "diff_part."),
+    "beside.",
     *(
         "floor.profile_",
         "route.",

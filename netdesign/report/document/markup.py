@@ -74,8 +74,8 @@ def list_runs(text: Text, *, has_symbols: bool = False) -> Runs:
     for piece in list_pieces(text, has_symbols=has_symbols):
         if isinstance(piece, Badge):
             shown = piece.verdict
-            end = "\n" if piece.look == "sign" else ""
-            runs.append(Run(f"{shown.symbol}\u00a0{shown.word}{end}", is_bold=True))
+            word = "" if piece.look == "sign" else shown.word
+            runs.append(Run(f"{shown.symbol}\u00a0{word}", is_bold=True))
         elif isinstance(piece, Piece):
             is_small = piece.look == SMALL
             begins = is_small and runs and not runs[-1].text.endswith("\n")

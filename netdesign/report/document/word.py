@@ -27,7 +27,6 @@ from netdesign.report.blocks import (
     Paragraph,
     Part,
     Table,
-    Text,
 )
 from netdesign.report.document import styles
 from netdesign.report.document.markup import (
@@ -162,7 +161,7 @@ class Writer:
             Heading: self._write_heading,
             Paragraph: self._write_text,
             Items: self._write_items,
-            Pairs: lambda pairs: self._add_grid("", _list_pairs(pairs)),
+            Pairs: lambda pairs: self._add_grid((), _list_pairs(pairs)),
             Table: self._write_table,
             Figure: self._write_figure,
             Contents: self._open_contents,
@@ -219,7 +218,9 @@ class Writer:
 
     def _write_table(self, table: Table) -> None:
         if table.rows:
-            self._add_grid(table.caption, _list_cells(table))
+            of_headings = table.symbols == "headings"
+            caption = list_runs(table.caption, has_symbols=of_headings)
+            self._add_grid(caption, _list_cells(table))
             return
         told = table.empty
         if table.symbols:
@@ -257,11 +258,10 @@ class Writer:
     def _add_paragraph(self, runs: Runs, style: str) -> None:
         self._add(write_paragraph(write_runs(runs), self._ids[style]))
 
-    def _add_grid(self, caption: Text, grid: Grid) -> None:
+    def _add_grid(self, caption: Runs, grid: Grid) -> None:
         """Table below its caption; tables never touch, or a reader would join them."""
-        runs = list_runs(caption)
-        named = any(one.text for one in runs)
-        self._add_paragraph(runs if named else (Run("\u00a0"),), styles.CAPTION)
+        named = any(one.text for one in caption)
+        self._add_paragraph(caption if named else (Run("\u00a0"),), styles.CAPTION)
         both = (self._ids[styles.TABLE], self._ids[styles.CELL])
         self._add(write_table(grid, both, self.width_pt))
 

@@ -145,6 +145,7 @@ def _draw_chain(
             left += _ARROW
 
 
+_LOADS_WIDTH = 310.0  # they stand beside a table
 _LEFT, _TOP, _HEIGHT = 34.0, 16.0, 118.0
 _BELOW = 26.0  # ticks and the name of the axis
 _SAMPLE = 18.0  # of a line in the legend
@@ -183,7 +184,7 @@ def draw_loads(record: GuidelineRecord, height: float, words: Words) -> str:
     frame = Frame(
         left=_LEFT,
         top=_TOP,
-        width=WIDTH - _LEFT - legend - 2.0 * _BETWEEN,
+        width=_LOADS_WIDTH - _LEFT - legend - 2.0 * _BETWEEN,
         height=_HEIGHT,
         x_low=0.0,
         x_high=1.05 * most,
@@ -206,7 +207,7 @@ def draw_loads(record: GuidelineRecord, height: float, words: Words) -> str:
         sketch.text(start + _SAMPLE + 4.0, y, one.label)
     values = tuple(one.label for one in lines)
     title = words("drawing.with_values", what=words("loads.title"), values=values)
-    return sketch.write(bottom + 4.0, title)
+    return sketch.write(bottom + 4.0, title, _LOADS_WIDTH)
 
 
 def _list_lines(

@@ -268,7 +268,7 @@ def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
         f"θ = {words.show_with_unit('inclination_deg', one.inclination_deg)}",
         anchor="end",
     )
-    chart.text(frame.left, frame.top - 5.5, "φ [°]")
+    chart.text(frame.left + 6.0, frame.top - 5.5, "φ [°]", anchor="end")
     chart.axes(frame)
     _name_axis(chart, frame, "ρ [kg/m³]")
 

@@ -80,11 +80,14 @@ def _write_title(sketch: Chart, board: LabelBoard, text: str, left: float) -> No
 def _name_supports(
     sketch: Chart, board: LabelBoard, bottom: float, words: Words
 ) -> None:
-    """Row's end at the left, inner post at the right, each on its line."""
-    sketch.text(2.0, bottom - 1.6 * LINE_PT, words("panel_view.row_end"))
+    """Row's end at the left, inner post at the right, side by side."""
     right = LEFT + SPAN + 28.0
-    at = (right, bottom - 0.4 * LINE_PT)
-    sketch.text(*at, words("panel_view.inner_post"), anchor="end")
+    width = 0.5 * right - 4.0
+    row_end, inner = words("panel_view.row_end"), words("panel_view.inner_post")
+    for name, x, anchor in ((row_end, 2.0, "start"), (inner, right, "end")):
+        for line, part in enumerate(wrap_words(name, TEXT_PT, width)):
+            y = bottom - (1.6 - 1.1 * line) * LINE_PT
+            sketch.text(x, y, part, anchor=anchor)
     board.reserve(Box(0.0, bottom - 2.5 * LINE_PT, right, bottom))
 
 

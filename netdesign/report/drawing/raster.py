@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
+from netdesign.report.drawing.letters import measure_words
+
 if TYPE_CHECKING:
     from matplotlib.path import Path
 
@@ -188,18 +190,25 @@ def _paint(paper: _Paper, path: Path, look: Look) -> None:
 
 
 def _write(paper: _Paper, text: str, look: Look) -> None:
-    """One line of text; signs that the font lacks become question marks."""
+    """One line of text; signs that the font lacks become question marks.
+
+    The font is wider than those that the drawings reckon with: its letters are made
+    smaller, as far as a line would be too long.
+    """
     from matplotlib.colors import to_rgba
     from matplotlib.font_manager import FontProperties, findfont, get_font
 
+    size = float(look["font-size"])
     font = FontProperties(
-        family="DejaVu Sans",
-        size=float(look["font-size"]),
-        weight=look.get("font-weight", "normal"),
+        family="DejaVu Sans", size=size, weight=look.get("font-weight", "normal")
     )
     known = get_font(findfont(font)).get_charmap()
     text = "".join(sign if ord(sign) in known else "?" for sign in text)
     width, _, _ = paper.renderer.get_text_width_height_descent(text, font, False)
+    most = _SCALE * measure_words(text, size)
+    if width > most:
+        font.set_size(size * most / width)
+        width, _, _ = paper.renderer.get_text_width_height_descent(text, font, False)
     share = {"middle": 0.5, "end": 1.0}.get(look.get("text-anchor", ""), 0.0)
     x = float(look["x"]) * _SCALE - share * width
     pen = paper.renderer.new_gc()

@@ -107,8 +107,7 @@ def _show_row(
     air = document["air_temperatures_C"]
     yield from _describe_row(row, words)
     yield _tabulate_winters(row, words).shown("study winters")
-    unproven = [_label(one, words) for one in row["winters"] if not one["is_proven"]]
-    if unproven:
+    if unproven := _list_unproven(row, words):
         yield notes(*unproven, look="notes open")
     for winter in shown:
         drawn = draw_winter(winter, air, words)
@@ -153,6 +152,18 @@ def _describe_row(row: Mapping[str, Any], words: Words) -> list[Paragraph]:
 
 def _label(winter: Mapping[str, Any], words: Words) -> str:
     return words("show.label", label=winter["name"], text=show_text(winter["why"]))
+
+
+def _list_unproven(row: Mapping[str, Any], words: Words) -> list[str]:
+    """Winters without a proven maximum, those of one reason together."""
+    found: dict[str, list[str]] = {}
+    for winter in row["winters"]:
+        if not winter["is_proven"]:
+            found.setdefault(show_text(winter["why"]), []).append(winter["name"])
+    return [
+        words("show.label", label=", ".join(names), text=why)
+        for why, names in found.items()
+    ]
 
 
 def _show_measured(
@@ -349,11 +360,17 @@ def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
             "winter_page.failed_day",
             count=len(dates),
             day=tuple(dates),
-            outcome=words(f"day_outcome.{outcome}"),
-            reason=show_text(reason or MISSING),
+            outcome=_explain(words(f"day_outcome.{outcome}"), reason, words),
         )
         for (outcome, reason), dates in found.items()
     ]
+
+
+def _explain(outcome: str, reason: str, words: Words) -> str:
+    """Outcome of a day, with its reason where it has one."""
+    if not reason:
+        return outcome
+    return words("show.with_note", text=outcome, note=show_text(reason))
 
 
 def _unbroken(text: str) -> Cell:

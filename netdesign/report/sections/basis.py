@@ -352,6 +352,13 @@ def list_notes(study: Study, words: Words) -> list[str]:
 
 # Notes on what is known beside the verdict: they stand with the second opinions.
 _BESIDE = ("own_end_effect", "model_code", "loaded_net", "guys_in_snow")
+# Told among the points that are open; the schedule has the dip of every borehole.
+_OPEN = "row.borehole_rises"
+
+
+def is_of_row(note: Message) -> bool:
+    """A note for the page of its row: neither an open point nor beside the verdict."""
+    return note.key != _OPEN and not is_beside_verdict(note)
 
 
 def is_beside_verdict(note: Message) -> bool:
@@ -365,11 +372,20 @@ def share_notes(study: Study, words: Words) -> dict[str, list[str]]:
     return {note: ids for note, ids in notes.items() if len(ids) > 1}
 
 
-def group_notes(study: Study, words: Words, *, is_beside: bool) -> dict[str, list[str]]:
-    """Rows of each note, word by word: of those beside the verdict, or the others."""
+def group_notes(
+    study: Study, words: Words, *, is_beside: bool, but: Sequence[str] = ()
+) -> dict[str, list[str]]:
+    """Rows of each note, word by word: of those beside the verdict, or the others.
+
+    Left out are those with the keys ``but``.
+    """
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        notes = [one for one in row.notes if is_beside_verdict(one) is is_beside]
+        notes = [
+            one
+            for one in row.notes
+            if one.key not in (_OPEN, *but) and is_beside_verdict(one) is is_beside
+        ]
         for note in dict.fromkeys(words.show(one) for one in notes):
             rows.setdefault(note, []).append(show_text(row.id))
     return rows

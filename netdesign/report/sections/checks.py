@@ -220,9 +220,9 @@ class CheckLine:
     def list_remarks(self, words: Words) -> list[str]:
         """Reasons that say more than the numbers; once where both places share it."""
         told = {
-            one.position == "edge": words.show(_strip_load(one.reason))
+            one.position == "edge": _tell_beside(one, words)
             for one in self.checks
-            if not _is_plain(one.reason)
+            if not _is_plain(one.reason) and not _fails_by_numbers(one)
         }
         shown = list(dict.fromkeys(told.values()))
         if len(shown) > 1 or len(told) < len(self.checks):
@@ -292,6 +292,20 @@ def _is_plain(reason: object) -> bool:
     """True of a pass about which its numbers say everything."""
     told = _strip_load(reason)
     return told is not None and told.key in (_PLAIN, "check.slack")
+
+
+def _fails_by_numbers(check: CheckRecord) -> bool:
+    """True of a failure about which sign and numbers say everything."""
+    told = _strip_load(check.reason)
+    return told is not None and told.key == "check.fails"
+
+
+def _tell_beside(check: CheckRecord, words: Words) -> str:
+    """Sentence of a reason, without what the numbers of a failure say."""
+    told = _strip_load(check.reason)
+    if told is None or told.key != "check.fails_besides":
+        return words.show(told)
+    return words.join(words.show(one) for one in find_gaps(told))
 
 
 def name_checks(checks: Sequence[CheckRecord], words: Words) -> str:
@@ -366,12 +380,25 @@ def is_useful(change: ChangeRecord) -> bool:
 
 
 def describe_flip(change: ChangeRecord, words: Words) -> str:
-    """One change and today's value: ``post spacing at most 1.42 m, now 4 m``."""
+    """One change, today's value and what else it needs.
+
+    ``post spacing at most 1.42 m, now 4 m (as far as the calculated cases show)``
+    """
+    return _add_note(_compare_now(change, words), change, words)
+
+
+def _compare_now(change: ChangeRecord, words: Words) -> str:
     text = describe_change(change, words)
     if change.now is None:
         return text
     now = round(change.now, 3) if change.unit == "m" else change.now  # cos of a slope
     return words("show.change_now", change=text, now=_show(now, change.unit, words))
+
+
+def _add_note(text: str, change: ChangeRecord, words: Words) -> str:
+    if change.note is None:
+        return text
+    return words("show.with_note", text=text, note=words.show(change.note))
 
 
 def describe_change(change: ChangeRecord, words: Words) -> str:
@@ -390,16 +417,14 @@ def _show(value: float | None, unit: str, words: Words) -> str:
 
 def explain_change(change: ChangeRecord, words: Words) -> str:
     """One change with what it took, and what limits it."""
-    text = describe_flip(change, words)
+    text = _compare_now(change, words)
     if change.bound is not None:
         text = words("show.passes_with", change=text)
     if change.solves == 1:
         text = words("show.after_one_solve", change=text)
     elif change.solves:
         text = words("show.after_solves", change=text, count=change.solves)
-    if change.note is None:
-        return text
-    return words("show.with_note", text=text, note=words.show(change.note))
+    return _add_note(text, change, words)
 
 
 def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[str]:
@@ -428,24 +453,28 @@ def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[
 
 
 def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
-    """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``."""
+    """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``.
+
+    One sentence, or none.
+    """
     if check is None:
         return ()
-    key = _choose_sentence(check)
-    return tuple(
+    limits = [
         words(
-            key,
+            "show.limit_now",
             quantity=name_heading(words, hold.quantity),
             limit=_show_limit(check, hold, words),
             now=words.show_given(hold.now),
         )
         for hold in check.holds
         if hold.least is not None or hold.most is not None
-    )
+    ]
+    key = _choose_sentence(check)
+    return (words(key, limits=words.join(limits)),) if limits else ()
 
 
 def _choose_sentence(check: CheckRecord) -> str:
-    """Sentence of a limit: beyond it a check turns, or its force does.
+    """Sentence of limits: beyond one a check turns, or its force does.
 
     A check that carries its force may still not pass: a case without a result, a creep
     law out of its range, a declaration.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
@@ -41,7 +41,13 @@ from netdesign.study.case_records import (
     CaseRecord,
     DriverRecord,
 )
-from netdesign.study.records import CheckRecord, ModelFormRecord, RowStudy, Study
+from netdesign.study.records import (
+    CheckRecord,
+    ModelFormRecord,
+    RowStudy,
+    SpreadRecord,
+    Study,
+)
 from netdesign.words.message import Message
 from netdesign.words.names import name
 
@@ -67,6 +73,7 @@ def show_quality(study: Study, words: Words) -> Part:
         _build_failed(study, words),
         *searched,
         *(one.shown("extremes") for one in rows),
+        *_list_refused(study, words),
         build_opinions(study, words).shown("extremes"),
         *_list_differences(study, words),
         *_list_notes(study, words),
@@ -351,19 +358,49 @@ def _build_spreads(study: Study, words: Words) -> Table:
 def _list_spreads(check: CheckRecord, words: Words, *, in_verdict: bool) -> Cell:
     told = []
     for one in check.spreads:
-        if one.in_verdict is in_verdict:
+        if one.in_verdict is in_verdict and not _is_refused(one):
             band = words.show_band("utilisation", one.low, one.high)
             text = band if band != MISSING else words.show(one.note)
             label = words.show(one.source)
             told.append(words("show.label", label=label, text=text))
-    return text_cell(words.join(told))
+    return text_cell(words.join(told) or MISSING)
+
+
+def _is_refused(spread: SpreadRecord) -> bool:
+    """True of another model that gives no force."""
+    return not spread.in_verdict and None in (spread.low, spread.high)
+
+
+def _list_refused(study: Study, words: Words) -> Iterator[Block]:
+    """Other models that give no force, each reason once, with its net rows."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        check = find_shown(row)
+        for one in check.spreads if check else ():
+            if _is_refused(one):
+                reason = words.show(one.note)
+                named = words.show(one.source)
+                told = reason if named in reason else f"{named}, {reason}"
+                rows.setdefault(told, []).append(row.id)
+    yield from _list_by_rows(rows, study, words)
+
+
+def _list_by_rows(
+    rows: dict[str, list[str]], study: Study, words: Words
+) -> Iterator[Block]:
+    """Sentences, each with the net rows of which it holds."""
+    items = tuple(
+        words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
+        for one, ids in rows.items()
+    )
+    if items:
+        yield Items(items=items, look="small")
 
 
 def build_opinions(study: Study, words: Words) -> Table:
     """Forces by other models beside the coupled one, a line a row."""
-    force = add_unit(show_member(words, "foot_anchor"), "kN")
     headings = [
-        words("show.label", label=force, text=words(f"opinion.{key}"))
+        add_unit(words(f"opinion.{key}"), "kN")
         for key in ("coupled", "load_case_1", "load_case_2", "closed_form")
     ]
     others = words("opinion.other_snow")
@@ -421,23 +458,66 @@ def _list_differences(study: Study, words: Words) -> Iterator[Block]:
         for cause in causes if isinstance(causes, tuple) else ():
             if isinstance(cause, Message):
                 rows.setdefault(words.show(cause), []).append(row.id)
-    if rows:
-        items = tuple(
-            words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
-            for one, ids in rows.items()
-        )
-        yield Items(items=items, look="small")
+    yield from _list_by_rows(rows, study, words)
+
+
+# Notes of which each row has its own numbers: a line of a table for each row.
+_MODEL_CODE, _LOADED = "row.model_code", "row.loaded_net"
+_ON_GUYS = "row.guys_in_snow"
 
 
 def _list_notes(study: Study, words: Words) -> Iterator[Block]:
     """Notes on the rows that no verdict rests on."""
-    notes = group_notes(study, words, is_beside=True)
-    items = tuple(
-        words("show.label", label=name_rows(ids, study, words), text=note)
-        for note, ids in notes.items()
+    told = (_MODEL_CODE, _LOADED, _ON_GUYS)
+    yield _tabulate_notes(study, words).shown("extremes")
+    notes = group_notes(study, words, is_beside=True, but=told)
+    yield from _list_by_rows(notes, study, words)
+
+
+def _tabulate_notes(study: Study, words: Words) -> Table:
+    """Density by a model code, loaded net and snow on guys, a line for each row."""
+    keys = ("code_density", "loaded_net", "of_net", "of_snow", "pressure", "guys")
+    headings = [words(f"beside.{key}") for key in keys]
+    lines = [(row.id, _read_notes(row, words)) for row in study.rows]
+    return Table(
+        caption=words("beside.caption"),
+        columns=(
+            text_column(words("heading.net_row")),
+            *name_columns(headings, numbers=headings[:5]),
+        ),
+        rows=tuple(
+            (text_cell(row_id), *cells)
+            for row_id, cells in lines
+            if any(cell.text != MISSING for cell in cells)
+        ),
+        empty=words("show.none"),
     )
-    if items:
-        yield Items(items=items, look="small")
+
+
+def _read_notes(row: RowStudy, words: Words) -> tuple[Cell, ...]:
+    """Numbers of a row's notes, in the order of their columns."""
+    notes: dict[str, Mapping[str, object]] = {x.key: x.arguments for x in row.notes}
+    code, net = notes.get(_MODEL_CODE, {}), notes.get(_LOADED, {})
+    on_guys = notes.get(_ON_GUYS, {})
+    guys = on_guys.get("guys", ())
+    found = guys if isinstance(guys, tuple) else ()
+    named = (words.show(one) for one in found if isinstance(one, Message))
+    return (
+        _show_share(code, "density", 1.0, 0, words),
+        _show_share(net, "height", 1.0, 2, words),
+        _show_share(net, "of_net", 100.0, 0, words),
+        _show_share(net, "of_snow", 100.0, 0, words),
+        _show_share(on_guys, "pressure", 1.0, 1, words),
+        text_cell(words.join(named) or MISSING),
+    )
+
+
+def _show_share(
+    told: Mapping[str, object], key: str, times: float, decimals: int, words: Words
+) -> Cell:
+    value = told.get(key)
+    number = times * value if isinstance(value, (int, float)) else None
+    return fixed_cell(words, number, decimals)
 
 
 def _stack(

@@ -36,7 +36,7 @@ from netdesign.report.drawing.envelope_maps import draw_envelope
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.governing import find_shown, is_far_from_limit
-from netdesign.report.sections.basis import is_beside_verdict, show_value
+from netdesign.report.sections.basis import is_of_row, show_value
 from netdesign.report.sections.checks import (
     CheckLine,
     describe_loads,
@@ -402,7 +402,7 @@ class RowSections:
         t, row = self.words, self.row
         for note in row.notes:
             text = t.show(note)
-            if text not in self.told and not is_beside_verdict(note):
+            if text not in self.told and is_of_row(note):
                 yield text
         if row.panel and row.panel.assumed:
             names = tuple(map(t.show, row.panel.assumed))

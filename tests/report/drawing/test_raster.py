@@ -5,6 +5,7 @@ import io
 import pytest
 from PIL import Image
 
+from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import Chart
 from netdesign.report.drawing.raster import (
     DOTS_PER_INCH,
@@ -12,6 +13,7 @@ from netdesign.report.drawing.raster import (
     read_title,
     render_png,
 )
+from netdesign.report.drawing.style import TEXT_PT
 
 
 def draw(sketch):
@@ -61,6 +63,18 @@ def test_words_are_set_by_their_anchor(anchor, left):
     picture = draw(sketch).convert("L").point(lambda level: 255 * (level < 128))
     found = picture.getbbox()[0] * 72.0 / DOTS_PER_INCH
     assert found == pytest.approx(left, abs=8.0)
+
+
+@pytest.mark.parametrize("is_bold", [True, False])
+def test_no_line_of_text_is_longer_than_the_drawing_reckons(is_bold):
+    """The font is wider than those of a page: labels side by side would meet."""
+    words = "wwwwww mass \u03b8 = 27.5\u00b0"
+    sketch = Chart()
+    sketch.text(3.0, 40.0, words, bold=is_bold)
+    dark = draw(sketch).convert("L").point(lambda level: 255 * (level < 128))
+    left, _, right, _ = dark.getbbox()
+    most = measure_words(words, TEXT_PT)
+    assert 0.8 * most < (right - left) * 72.0 / DOTS_PER_INCH <= most + 1.0
 
 
 def test_bytes_words_and_size_of_a_drawing():

@@ -1,6 +1,10 @@
 """Page of a winter: days without a force, the trend of the maxima."""
 
-from netdesign.report.page.winter_page import _list_failed, _show_trend
+from netdesign.report.page.winter_page import (
+    _list_failed,
+    _list_unproven,
+    _show_trend,
+)
 from netdesign.report.words import Words
 
 
@@ -30,3 +34,22 @@ def test_a_trend_is_set_off_and_none_is_plain():
     assert (shown.look, plain.look) == ("notes open", "")
     assert "The maxima" in str(shown)
     assert plain.text == "The maxima"
+
+
+def test_a_day_without_a_reason_has_no_brackets():
+    curve = [build_day("2021-04-06", "overtopped")]
+    (told,) = _list_failed({"curve": curve}, Words("en"))
+    assert told.endswith(": 2021-04-06")
+    assert "(" not in told
+
+
+def test_winters_of_one_reason_stand_together():
+    whys = {"2019/2020": "too high", "2020/2021": "a gap", "2021/2022": "too high"}
+    winters = [
+        {"name": name, "why": why, "is_proven": False} for name, why in whys.items()
+    ]
+    winters.append({"name": "2022/2023", "why": "", "is_proven": True})
+    assert _list_unproven({"winters": winters}, Words("en")) == [
+        "2019/2020, 2021/2022: too high",
+        "2020/2021: a gap",
+    ]

@@ -19,7 +19,7 @@ from tests.each import each
 from tests.report.build_study import build_study
 
 ENGLISH = Words("en")
-GAPS = dict.fromkeys(("quantity", "limit", "now", "one", "other"), "")
+GAPS = dict.fromkeys(("limits", "one", "other"), "")
 ROW = build_study().rows[0]
 CHECK = next(one for one in ROW.checks if one.holds)
 

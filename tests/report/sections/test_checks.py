@@ -122,3 +122,15 @@ def test_a_resistance_names_type_basis_and_cell():
     told = describe_resistance(check, ENGLISH)
     assert check.resistance_cell in told
     assert check.resistance_type in told
+
+
+@each("language", LANGUAGES)
+def test_a_failure_says_only_what_its_numbers_do_not(language):
+    words, gap = Words(language), say("bores.rises", rise=7.83)
+    for reason, told in (
+        (say("check.fails"), []),
+        (say("check.fails_besides", gaps=(gap,)), [words.show(gap)]),
+    ):
+        first, last = (replace(one, reason=reason) for one in pair())
+        (line,) = list_lines([first, last])
+        assert line.list_remarks(words) == told
