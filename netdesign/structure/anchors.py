@@ -6,8 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from netdesign.numerics.arrays import Floats, Mask, Number
 from netdesign.numerics.either import as_mask, measure_length, take_larger
 from netdesign.outcome import Outcome, require_positive
@@ -195,10 +193,12 @@ def compute_forces_of_pulls(
 
     Parameters
     ----------
-    points, post_spacing
+    points : SupportPoints
         As there; the post has a length.
     foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
         As there, finite, of one shape [N/m].
+    post_spacing : float
+        As there [m].
 
     Returns
     -------
@@ -210,7 +210,7 @@ def compute_forces_of_pulls(
     tests/envelope/test_support_bands.py
     """
     foot = _scale(foot_pull_per_m, post_spacing)
-    still = np.zeros_like(foot[0])
+    still = 0.0 * foot[0]
     ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
     ways = [find_direction(points.head, end) for end in ends]
     post, uphill, downhill = ((x + still, y + still) for x, y in ways)

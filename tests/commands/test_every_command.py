@@ -42,6 +42,7 @@ def told(request, tmp_path_factory):
     return texts, english
 
 
+@pytest.mark.long
 def test_no_command_tells_english(told):
     texts, english = told
     del texts["completion"]  # a script for a shell

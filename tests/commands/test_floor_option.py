@@ -38,6 +38,7 @@ def test_no_floor_is_said(site, call, language):
     assert said in card.replace("&#39;", "'")
 
 
+@pytest.mark.long
 def test_a_study_without_a_floor_is_verified(site, call):
     options = ("--floor", "none", "--out", "a", "--no-html", "--no-excel")
     assert call("check", "site.xlsx", *QUICK, *options).code in (0, 1, 4)

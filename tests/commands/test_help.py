@@ -69,6 +69,7 @@ def test_options_and_files_stay_as_they_are_typed(language):
         assert sorted(kept.findall(text)) == sorted(kept.findall(english)), english
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_help_speaks_the_language(call, monkeypatch, language, command):

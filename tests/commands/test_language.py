@@ -87,6 +87,7 @@ SPOILT = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fault", SPOILT)
 def test_a_refused_workbook_is_refused_in_the_language(spoil, language, fault):
     ended = spoil(SPOILT[fault], "--dry-run")
@@ -269,6 +270,7 @@ def test_an_envelope_is_told_in_the_language(call, scene, language):
     assert {"fr": "calculés", "de": "gerechnet"}[language] in ended.out
 
 
+@pytest.mark.long
 def test_a_check_and_what_is_told_of_its_study_speak_the_language(
     call, tmp_path, monkeypatch, language
 ):

@@ -76,6 +76,7 @@ def test_the_plan_has_rows_verdicts_sums_and_cost(planned):
     }
 
 
+@pytest.mark.long
 def test_a_plan_that_leaves_ground_open_is_not_proven(zone, call, tmp_path):
     """A wedge of a zone, which narrows to nothing: rows have no room in its tip."""
     document = json.loads((zone / "zone.geojson").read_text())

@@ -26,6 +26,7 @@ def read_study(path):
     return json.loads(path.read_text(encoding="utf-8"))
 
 
+@pytest.mark.long
 def test_sizing_writes_a_study_that_its_own_command_makes_again(site, call):
     ended = call("check", "site.xlsx", *QUICK, "--size", "--out", "a", *BARE)
     assert ended.code == 4, ended.err  # of the site as built

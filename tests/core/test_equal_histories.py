@@ -176,6 +176,7 @@ def settle(number):
         return failure.outcome, failure.reason
 
 
+@pytest.mark.long
 def test_a_net_on_yielding_nodes_is_the_same(in_numpy):
     found, failed = 0, set()
     for number in range(200):

@@ -174,6 +174,7 @@ def test_a_net_is_the_same_in_one_call():
     assert len(lost) == 2  # no equilibrium, and none in which every part rises
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", range(len(PROBLEMS)))
 def test_forces_of_the_stresses_are_the_same_in_one_call(number, monkeypatch):
     problem = PROBLEMS[number]

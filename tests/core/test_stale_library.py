@@ -73,6 +73,7 @@ def test_without_a_compiler_every_run_says_so_in_one_line(checkout):
         assert error.count("\n") == 1
 
 
+@pytest.mark.long
 def test_a_command_says_so_in_its_language(checkout):
     command = ("-m", "netdesign", "doctor", "--language", "de")
     error = run(checkout, *command, PATH="", CC="")[1]

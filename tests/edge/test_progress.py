@@ -158,6 +158,7 @@ def read_lines(text):
     return [(one[1], int(one[2]), int(one[3] or 0)) for one in lines]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
 @pytest.mark.parametrize("method", ["steady", "transient"])
 def test_every_solve_of_a_check_is_counted_in_its_phase(

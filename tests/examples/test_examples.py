@@ -216,6 +216,7 @@ def test_panel(tmp_path):
     assert numbers(upper)[0] > 0.5 * head_size
 
 
+@pytest.mark.long
 def test_own_site(tmp_path):
     *lines, _ = run_as_shown("own_site", tmp_path)
     found = {numbers(line)[0]: (numbers(line)[1], line.split()[-1]) for line in lines}

@@ -56,6 +56,7 @@ def test_an_anchor_of_the_bay_stands_half_way_to_the_next_post():
     assert last == pytest.approx(beyond)
 
 
+@pytest.mark.long
 def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
     site, study = tmp_path / "site.xlsx", tmp_path / "part-study.json"
     assert call("terrain", "--example", "--out", site, "--quiet").code == 0

@@ -50,6 +50,7 @@ def target(request):
     return request.param
 
 
+@pytest.mark.long
 def test_a_few_inputs_end_soundly(target):
     count = max(10, round(IN_THE_SUITE * target.share))
     assert run(target, count, derandomize=True) >= 0.5 * count

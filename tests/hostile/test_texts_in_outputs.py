@@ -114,6 +114,7 @@ def test_a_page_holds_tags_of_the_program_alone(text):
     assert all(sign.isprintable() or sign in "\n\t\u00a0" for sign in page)
 
 
+@pytest.mark.long
 def test_a_workbook_holds_formulas_of_the_program_alone(text):
     """The same formulas whatever the texts are, and no link at all."""
 
@@ -130,12 +131,14 @@ def test_a_workbook_holds_formulas_of_the_program_alone(text):
     assert formulas(spoilt_study(text)) == formulas(spoilt_study("plain"))
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:.* extension is not supported")  # of openpyxl
 def test_a_workbook_of_hostile_texts_opens(text):
     content = render_workbook(spoilt_study(text))
     assert "Decision" in openpyxl.load_workbook(io.BytesIO(content)).sheetnames
 
 
+@pytest.mark.long
 def test_a_terminal_is_not_steered(text):
     shown = io.StringIO()
     console = Console(file=shown, width=200, color_system=None, force_terminal=True)

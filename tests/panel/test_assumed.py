@@ -95,6 +95,7 @@ def find_excess(seed):
     return found
 
 
+@pytest.mark.long
 @each("seed", SEEDS)
 def test_no_panel_as_it_may_be_built_loads_a_member_more(seed):
     assert max(find_excess(seed).values()) < 1.002

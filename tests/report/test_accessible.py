@@ -23,6 +23,7 @@ TEXT = "{http://www.w3.org/2000/svg}text"
 SNOW = (0xF3, 0xF5, 0xF7)  # ground of some labels
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("language", "detail", "width"),
     [("fr", "full", 1100), ("de", "summary", PHONE_PX)],

@@ -76,6 +76,7 @@ def spoil(study, draw):
     return read_document(json.dumps(document))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("seed", range(4))
 def test_any_study_that_can_be_read_renders_in_every_language(language, seed):

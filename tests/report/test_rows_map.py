@@ -72,6 +72,7 @@ def test_a_report_without_a_map_is_what_it_was(study):
     assert 'role="group"' not in page
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("language", "width"), [("en", 1100), ("fr", PHONE_PX), ("de", 1100)]
 )

@@ -169,6 +169,7 @@ def is_shown(number, text):
     )
 
 
+@pytest.mark.long
 def test_no_value_of_a_check_differs(study, outputs):
     language, page, (document, between), book = outputs
     texts = load_texts(language)

@@ -133,6 +133,7 @@ def compare(tmp_path, seeds):
     return asked / len(seeds)
 
 
+@pytest.mark.long
 def test_a_drawn_list_is_read_as_it_was_meant_or_asked_about(tmp_path):
     assert compare(tmp_path, range(60)) < MOST_ASKED
 

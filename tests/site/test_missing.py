@@ -29,6 +29,7 @@ def read_without(path, cells):
     return read_site(path)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("later", LATER, ids=map(str, LATER))
 @pytest.mark.parametrize("first", FORCES)
 def test_what_checks_lack_is_named_with_what_forces_lack(tmp_path, first, later):

@@ -112,6 +112,7 @@ def test_slip_length_at_the_entries_of_the_table(name):
         assert compute_slip_length(glide, 2.7, name) == pytest.approx(2.7 * ratio)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "ratio"), [("boutillier-2004-n1.8", 4.0), ("zwinger-2007-n3.6", 0.25)]
 )

@@ -84,6 +84,7 @@ def test_creep_law_without_a_table():
         compute_slip_length(1.5, 1.0, "gagliardini-1997")
 
 
+@pytest.mark.long
 @each("law, ratio", [*product(load_glide_tables(), (0.025, 1.0, 31.5))][::2])
 def test_recipe_gives_the_stored_table(law, ratio):
     table = load_glide_tables()[law]
@@ -92,6 +93,7 @@ def test_recipe_gives_the_stored_table(law, ratio):
     assert measured == pytest.approx(table.glide_factors[place], abs=1e-4)  # as printed
 
 
+@pytest.mark.long
 @each("law, ratio", [*product(load_glide_tables(), (0.0281, 3.58, 14.1))][1::2])
 def test_between_entries_factor_and_slip_length_are_those_of_the_recipe(law, ratio):
     measured = measure_glide_factor(CREEP_LAWS[law], ratio)

@@ -88,6 +88,7 @@ def test_rows_that_are_solved_alike_go_together():
     ]
 
 
+@pytest.mark.long
 def test_workers_make_the_same_studies_and_keep_what_they_solved(
     in_turn, pool, tmp_path
 ):

@@ -70,6 +70,7 @@ def assert_an_end(solution):
     assert not any(word in str(solution.history.ended) for word in _EXCEPTION)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", FEW)
 def test_a_drawn_history_ends_in_words_or_numbers(seed):
     assert_an_end(follow(seed))

@@ -143,6 +143,7 @@ def test_force_lost_on_the_ground(a_scene, monkeypatch):
     assert result.outcome is Outcome.BALANCE_VIOLATED
 
 
+@pytest.mark.long
 def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
     recipe = measure_glide_factor(BOUTILLIER_2004, 31.5)
     monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 341.0)

@@ -46,6 +46,7 @@ def content(language):
     return render_document(STUDY, language)
 
 
+@pytest.mark.long
 def test_every_check_stands_in_the_document_with_its_numbers(content, language):
     """Verdict, demand, resistance and utilisation of each, at its place."""
     words, tables = Words(language), list_tables(content)
@@ -74,6 +75,7 @@ def test_every_check_stands_in_the_document_with_its_numbers(content, language):
     assert found == sum(x.is_of_force for row in STUDY.rows for x in row.checks) > 10
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("language", "detail"), [("de", "full"), ("fr", "full"), ("en", "full")]
 )
@@ -175,6 +177,7 @@ def test_contents_list_every_section_and_are_a_field(content):
     assert "TOC" in "".join(x.text for x in lines[0]._p.iter(f"{W}instrText"))
 
 
+@pytest.mark.long
 def test_equal_studies_give_equal_bytes(content, language):
     assert render_document(STUDY, language) == content
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
@@ -241,6 +244,7 @@ def test_a_template_keeps_its_look_and_loses_its_text():
     assert across <= (section.page_height - margins) / 635 + 20
 
 
+@pytest.mark.long
 def test_libreoffice_opens_it(tmp_path):
     """In three languages and a template, all converted to PDF in one run."""
     details = dict(zip(LANGUAGES, ("full", "summary", "summary"), strict=True))

@@ -22,6 +22,7 @@ from tests.report.printing import list_meeting
 SEED, ROWS = 20261122, 8
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_no_label_meets_another_or_leaves_its_drawing(language, tmp_path):
     rng, words = random.Random(SEED), Words(language)

@@ -84,6 +84,7 @@ def fresh(tmp_path_factory):
     return recalculate(books, tmp_path_factory.mktemp("books"))
 
 
+@pytest.mark.long
 @each("name", EDITS)
 def test_verdicts_follow_the_numbers_and_never_become_a_pass(fresh, name):
     book = read_workbook(fresh[name])

@@ -125,6 +125,7 @@ def test_a_confirmation_that_does_not_hold_is_refused(
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_questions_are_marked_in_the_copy(example, language, tmp_path):
     path = declare(example, tmp_path, (), Posts_D2=3175)

@@ -174,6 +174,7 @@ def test_a_file_in_the_place_of_a_folder_is_an_output_error(tmp_path):
         write_site_workbook(tmp_path / "file" / "site.xlsx")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("kind", ["example", "blank"])
 def test_what_is_written_in_each_language_is_read_clean(tmp_path, language, kind):

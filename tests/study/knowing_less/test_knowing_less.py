@@ -125,6 +125,7 @@ def test_no_set_of_empty_cells_makes_anything_better(tmp_path, seed):
     assert_never_better(tmp_path / "site.xlsx", seed, SETS_A_SITE)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", FOUND)
 def test_what_was_found_once_stays_mended(tmp_path, seed):
     assert_never_better(tmp_path / "site.xlsx", seed, 20)

@@ -124,6 +124,7 @@ def try_both(monkeypatch, call, tmp_path, text, site):
     return run
 
 
+@pytest.mark.long
 def test_the_study_itself_is_rendered_and_verified(try_both, text):
     ended = try_both(json.loads(text))
     assert [one.code for one in ended] == [0, 0, 0]
@@ -157,6 +158,7 @@ def test_the_first_row_alone_is_sound(first):
     assert rejudge(study, load_standard(study.profile.id), site) == []
 
 
+@pytest.mark.long
 @each("kind", [one for one in KINDS if one not in OF_COMMAND])
 def test_an_alteration_contradicts_itself_or_a_new_solve(contradictions, kind):
     found = contradictions[kind]
