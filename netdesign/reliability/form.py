@@ -17,10 +17,9 @@ from netdesign.words.message import Message, say
 AGREEMENT = 0.05  # of the indices that several starts end with
 _START = 3.0  # distance of a start from the origin
 _MOST_STEPS = 60
-_CLOSE = 1e-4  # distance to the next step at the end
+_CLOSE = 5e-4  # distance to the next step at the end
 _APART = 0.5  # distance from which two design points are two
-_HALVINGS = 12
-_ARMIJO = 1e-4
+_HALVINGS = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,8 +47,8 @@ class DesignPoint:
     @property
     def alpha_squared(self) -> Floats:
         """Shares of the variables in the squared distance; their sum is 1, (U11)."""
-        square: Floats = self.place**2
-        return square / square.sum()
+        shares: Floats = self.place**2 / np.sum(self.place**2)
+        return shares
 
 
 def find_design_points(state: LimitState) -> tuple[DesignPoint, ...] | NotAvailable:
@@ -84,6 +83,18 @@ def _list_starts(slope: Floats, sign: float) -> Iterator[Floats]:
             yield start
 
 
+def follow_design_point(
+    state: LimitState, before: DesignPoint | None
+) -> DesignPoint | None:
+    """One design point, from that of a state that differs little, or from the origin.
+
+    None where it does not converge.
+    """
+    origin = np.zeros(len(state.variables))
+    sign = 1.0 if state.evaluate(origin[None])[0] >= 0.0 else -1.0
+    return _descend(state, origin if before is None else before.place, sign)
+
+
 def _descend(state: LimitState, start: Floats, sign: float) -> DesignPoint | None:
     """Design point from one start (HL-RF with a line search); None without one."""
     caps = state.caps
@@ -100,7 +111,7 @@ def _descend(state: LimitState, start: Floats, sign: float) -> DesignPoint | Non
         if np.linalg.norm(step) <= _CLOSE:
             return DesignPoint(place=target, beta=sign * float(np.linalg.norm(target)))
         penalty = max(penalty, 2.0 * float(np.linalg.norm(place)) / size, 1.0 / size)
-        place = _search_line(state, place, step, margin, penalty)
+        place = _search_line(state, place, step, penalty)
     return None
 
 
@@ -129,17 +140,13 @@ def _find_nearest(
 
 
 def _search_line(
-    state: LimitState, place: Floats, step: Floats, margin: float, penalty: float
+    state: LimitState, place: Floats, step: Floats, penalty: float
 ) -> Floats:
-    """Place on the way of a step at which the merit has fallen, (U9a)."""
-    shares = 0.5 ** np.arange(_HALVINGS)
-    places = place + shares[:, None] * step
+    """Place on the way of a step at which the merit is least, (U9a)."""
+    places = place + 0.5 ** np.arange(_HALVINGS)[:, None] * step
     margins = state.evaluate(places)
     merits = 0.5 * np.sum(places**2, axis=1) + penalty * np.abs(margins)
-    now = 0.5 * place @ place + penalty * abs(margin)
-    falls = merits <= now - _ARMIJO * shares * (step @ step)
-    first = int(np.argmax(falls)) if falls.any() else _HALVINGS - 1
-    chosen: Floats = places[first]
+    chosen: Floats = places[int(np.argmin(merits))]
     return chosen
 
 

@@ -84,6 +84,18 @@ class Variable:
         return float(ndtri_exp(-math.exp(-(value - mode) / scale)))
 
 
+def read_kind(name: str) -> DistributionKind:
+    """Kind of distribution of a name in a document.
+
+    Raises
+    ------
+    ModelError
+        If no kind has it.
+    """
+    require_one_of("distribution", name, KINDS)
+    return next(kind for kind in KINDS if kind == name)
+
+
 def _find_log_deviation(variation: float) -> float:
     """Standard deviation of the logarithm [-], of a coefficient of variation."""
     return math.sqrt(math.log1p(variation**2))
@@ -117,9 +129,7 @@ def build_annual_maximum(
     )
 
 
-def build_by_share(
-    name: str, value: float, place: float, variation: float
-) -> Variable:
+def build_by_share(name: str, value: float, place: float, variation: float) -> Variable:
     """Lognormal variable of which one value has a known standard normal place, (U5).
 
     Such as -1.645 of a characteristic value that is the 5 % fractile.
@@ -127,9 +137,7 @@ def build_by_share(
     require_positive("value", value)
     spread = _find_log_deviation(variation)
     mean = value * math.exp(0.5 * spread**2 - place * spread)
-    return Variable(
-        name=name, kind="lognormal", mean=mean, deviation=variation * mean
-    )
+    return Variable(name=name, kind="lognormal", mean=mean, deviation=variation * mean)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

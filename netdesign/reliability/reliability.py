@@ -9,7 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.reliability.form import NotAvailable, find_design_points
+from netdesign.reliability.form import (
+    DesignPoint,
+    NotAvailable,
+    find_design_points,
+    follow_design_point,
+)
 from netdesign.reliability.limit_state import LimitState
 from netdesign.reliability.sampling import estimate_beta
 from netdesign.words.message import say
@@ -31,6 +36,8 @@ class Reliability:
         Values of the variables there, each in its unit, at most its cap.
     samples : int
         Number of samples.
+    nearest : DesignPoint
+        The design point in standard normal space.
     """
 
     beta: float
@@ -39,6 +46,20 @@ class Reliability:
     alpha_squared: tuple[float, ...]
     design_point: tuple[float, ...]
     samples: int
+    nearest: DesignPoint
+
+
+def find_index_near(state: LimitState, found: Reliability) -> float | None:
+    """Index of a limit state that differs from one that is known by its shift [-].
+
+    By sampling about the design point that follows from the known one; None where it
+    is not available.
+    """
+    point = follow_design_point(state, found.nearest)
+    if point is None:
+        return None
+    estimate = estimate_beta(state, [point])
+    return estimate.beta if estimate.is_sound else None
 
 
 def find_reliability(state: LimitState) -> Reliability | NotAvailable:
@@ -63,4 +84,5 @@ def find_reliability(state: LimitState) -> Reliability | NotAvailable:
         alpha_squared=tuple(float(one) for one in nearest.alpha_squared),
         design_point=tuple(float(one) for one in np.asarray(values)),
         samples=estimate.samples,
+        nearest=nearest,
     )

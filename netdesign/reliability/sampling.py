@@ -52,9 +52,7 @@ def estimate_beta(
     return estimate
 
 
-def _sample(
-    state: LimitState, centres: Floats, random: np.random.Generator
-) -> Floats:
+def _sample(state: LimitState, centres: Floats, random: np.random.Generator) -> Floats:
     """Weights of the failures in one batch, 0 of all others; shape (n,)."""
     drawn = random.integers(len(centres), size=_BATCH)
     u = centres[drawn] + random.standard_normal((_BATCH, centres.shape[1]))
