@@ -26,12 +26,15 @@ class Assumed:
         Key of the text that says where it is from.
     period : float or None
         Return period of the value of the workbook [a].
+    mean_ratio : float or None
+        Mean over the characteristic value [-].
     """
 
     distribution: DistributionKind
     variation: float
     source: str
     period: float | None = None
+    mean_ratio: float | None = None
 
     @property
     def told(self) -> Message:

@@ -179,18 +179,22 @@ def _find_resistance(source: _Source, check: CheckRecord) -> KnownVariable:
     typed = source.find(RESISTANCE)
     assumed = load_assumed()["ground" if check.mode in _OF_GROUND else "steel"]
     variation = typed.variation if typed else assumed.variation
-    tests, least = check.tests, check.read("R_k")
+    ratio, tests, least = assumed.mean_ratio, check.tests, check.read("R_k")
     if typed is not None and typed.mean_ratio is not None:
-        variable = _build(typed, RESISTANCE, 1.0)
+        ratio = typed.mean_ratio
     elif tests is not None and least and tests.mean_kN > least:
         # the mean of so few tests is not known exactly
-        wide = variation * math.sqrt(1.0 + 1.0 / tests.count)
-        mean = tests.mean_kN / least
-        variable = Variable(
-            name=RESISTANCE, kind="lognormal", mean=mean, deviation=wide * mean
-        )
-    else:
+        ratio = tests.mean_kN / least
+        variation *= math.sqrt(1.0 + 1.0 / tests.count)
+    if ratio is None:
         variable = build_by_share(RESISTANCE, 1.0, _CHARACTERISTIC, variation)
+    else:
+        variable = Variable(
+            name=RESISTANCE,
+            kind=read_kind((typed.distribution if typed else "") or "lognormal"),
+            mean=ratio,
+            deviation=variation * ratio,
+        )
     return _tell(variable, typed, assumed.told)
 
 
