@@ -44,9 +44,7 @@ def gumbel(name, mean, deviation):
 
 def find(variables, margin):
     return find_reliability(
-        LimitState(
-            variables=tuple(variables), margin=lambda values: margin(*values.T)
-        )
+        LimitState(variables=tuple(variables), margin=lambda values: margin(*values.T))
     )
 
 
@@ -278,7 +276,5 @@ def test_starts_that_disagree_give_no_number():
 
 
 def test_no_number_where_the_margin_is_none():
-    found = find(
-        [normal("x", 0.0, 1.0)], lambda x: np.where(x > 1.3, np.nan, 2.9 - x)
-    )
+    found = find([normal("x", 0.0, 1.0)], lambda x: np.where(x > 1.3, np.nan, 2.9 - x))
     assert isinstance(found, NotAvailable)
