@@ -58,6 +58,7 @@ def show_reliability(study: Study, words: Words) -> Iterator[Part]:
             Paragraph(text=words("reliability.is_not"), look="small"),
             Paragraph(text=words("reliability.reading"), look="small"),
             tabulate_indices(study, words),
+            *_list_reasons(study, words),
             *(
                 one
                 for row, record in records
@@ -150,7 +151,7 @@ def _list_row(
         text_cell(row.id),
         text_cell(named),
         text_cell(_show_index(record, words)),
-        fixed_cell(words, record.beta_by_form, 1),
+        text_cell(words.show_fixed(record.beta_by_form, 1)),
         text_cell(MISSING if over is None else words.write(f"{over:+.1f}")),
         text_cell(_compare(record.action_factor, record.profile_action_factor, words)),
         text_cell(
@@ -200,6 +201,30 @@ def _name(variable: VariableRecord, words: Words) -> str:
     return words(f"label.{key}" if key else f"variable.{variable.name}")
 
 
+def tabulate_shares(study: Study, words: Words) -> Table:
+    """Shares of the variables in each index, for a sheet that draws their bars."""
+    names = ("share", "at_point")
+    headings = [words(f"reliability.{name}") for name in names]
+    return Table(
+        caption=words("reliability.all_shares"),
+        columns=name_columns(
+            [words("heading.net_row"), words("heading.quantity"), *headings],
+            numbers=headings,
+        ),
+        rows=tuple(
+            (
+                text_cell(row.id),
+                text_cell(_name(one, words)),
+                fixed_cell(words, one.alpha_squared, 2),
+                text_cell(_show_value(one, one.at_design_point, words)),
+            )
+            for row, record in list_records(study)
+            for one in record.variables
+        ),
+        empty=words("show.none"),
+    )
+
+
 def tabulate_variables(study: Study, words: Words) -> Table:
     """Distributions of all rows, with what each is from; equal lines are one."""
     columns = ("distribution", "mean", "variation")
@@ -231,12 +256,19 @@ def tabulate_variables(study: Study, words: Words) -> Table:
 
 
 def _list_texts(variable: VariableRecord, words: Words) -> tuple[str, ...]:
-    form = QUANTITIES.get(variable.key)
-    shown = words.show_given(float(f"{variable.mean:.3g}"))
     return (
         _name(variable, words),
         words(f"distribution.{variable.distribution}"),
-        append_unit(shown, form.unit) if form and form.unit else shown,
+        _show_value(variable, variable.mean, words),
         words.show_fixed(variable.variation, 2),
         words.show(variable.source),
     )
+
+
+def _show_value(variable: VariableRecord, value: float | None, words: Words) -> str:
+    """Value of a variable to three digits, with its unit."""
+    if value is None:
+        return MISSING
+    form = QUANTITIES.get(variable.key)
+    shown = words.show_given(float(f"{value:.3g}"))
+    return append_unit(shown, form.unit) if form and form.unit else shown
