@@ -20,57 +20,15 @@ from netdesign.report.sections.reliability import (
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.case_records import CasePoint
-from netdesign.study.reliability_records import ReliabilityRecord, VariableRecord
+from netdesign.study.reliability_records import ReliabilityRecord
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.each import each
-from tests.report.build_study import build_study
+from tests.report.build_study import build_reliability, build_study
 from tests.report.reading import read_workbook
 
 BARE = build_study()
-POINT = CasePoint(
-    density_kg_m3=417.0, friction_deg=23.0, inclination_deg=31.0, thickness_m=2.71
-)
-
-
-def build_variable(name, key, share, **more):
-    given = {
-        "distribution": "lognormal",
-        "mean": 1.0,
-        "variation": 0.2,
-        "source": say("source.reference_case"),
-        "is_assumed": True,
-        "at_design_point": 1.437,
-    }
-    return VariableRecord(name=name, key=key, alpha_squared=share, **(given | more))
-
-
-KNOWN = ReliabilityRecord(
-    check=BARE.rows[0].checks[0].id,
-    reason=None,
-    variables=[
-        build_variable(
-            "snow_height", "height_vertical_m", 0.471, distribution="gumbel"
-        ),
-        build_variable("density", "density_kg_m3", 0.129, mean=347.0),
-        build_variable("model", "", 0.25, source=say("source.typed", text="fit 2026")),
-        build_variable("resistance", "", 0.15),
-    ],
-    beta=3.4271,
-    standard_error=0.0137,
-    beta_by_form=3.3189,
-    beta_at_full=3.1273,
-    action_factor=1.7133,
-    resistance_factor=1.1877,
-    profile_action_factor=1.5,
-    profile_resistance_factor=1.35,
-    design_point=POINT,
-    force_ratio=1.217,
-    force_ratio_by_model=1.236,
-    samples=4000,
-    solves=7,
-)
+KNOWN = build_reliability(BARE.rows[0].checks[0].id)
 LACKING = ReliabilityRecord(check="", reason=say("reliability.no_check"))
 STUDY = replace(
     BARE,
