@@ -5,7 +5,7 @@ Theory: reliability/THEORY.md, section 3.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +18,7 @@ AGREEMENT = 0.05  # of the indices that several starts end with
 _START = 3.0  # distance of a start from the origin
 _MOST_STEPS = 60
 _CLOSE = 5e-4  # distance to the next step at the end
+_NEAR = 0.1  # distance to a known design point at which a way ends there
 _APART = 0.5  # distance from which two design points are two
 _HALVINGS = 8
 
@@ -60,10 +61,13 @@ def find_design_points(state: LimitState) -> tuple[DesignPoint, ...] | NotAvaila
     if not (np.isfinite(at_origin) and np.isfinite(slope).all() and slope.any()):
         return NotAvailable(reason=say("reliability.no_margin"))
     sign = 1.0 if at_origin >= 0.0 else -1.0
-    found = [_descend(state, start, sign) for start in _list_starts(slope, sign)]
-    points = sorted((one for one in found if one), key=lambda one: abs(one.beta))
-    if len(points) < len(found):
-        return NotAvailable(reason=say("reliability.not_converged"))
+    points: list[DesignPoint] = []
+    for start in _list_starts(slope, sign):
+        found = _descend(state, start, sign, points)
+        if found is None:
+            return NotAvailable(reason=say("reliability.not_converged"))
+        points.append(found)
+    points.sort(key=lambda one: abs(one.beta))
     low, high = points[0].beta, points[-1].beta
     if abs(high - low) > AGREEMENT:
         return NotAvailable(reason=say("reliability.disagree", low=low, high=high))
@@ -95,8 +99,13 @@ def follow_design_point(
     return _descend(state, origin if before is None else before.place, sign)
 
 
-def _descend(state: LimitState, start: Floats, sign: float) -> DesignPoint | None:
-    """Design point from one start (HL-RF with a line search); None without one."""
+def _descend(
+    state: LimitState, start: Floats, sign: float, known: Sequence[DesignPoint] = ()
+) -> DesignPoint | None:
+    """Design point from one start (HL-RF with a line search); None without one.
+
+    A way that comes close to a known design point ends there.
+    """
     caps = state.caps
     place, penalty = np.minimum(start, caps), 0.0
     for _ in range(_MOST_STEPS):
@@ -112,6 +121,9 @@ def _descend(state: LimitState, start: Floats, sign: float) -> DesignPoint | Non
             return DesignPoint(place=target, beta=sign * float(np.linalg.norm(target)))
         penalty = max(penalty, 2.0 * float(np.linalg.norm(place)) / size, 1.0 / size)
         place = _search_line(state, place, step, penalty)
+        for one in known:
+            if np.linalg.norm(place - one.place) <= _NEAR:
+                return one
     return None
 
 
