@@ -1,7 +1,8 @@
 """Reliability indices against closed forms, another code, and drawn repeats.
 
-Theory: reliability/THEORY.md. The figures of pystra 1.6.0 (FORM, and its importance
-sampling of 200,000 samples or more) were worked out apart; the tests do not need it.
+Theory: reliability/THEORY.md. Reference values: FACTS.md, section 15. Those of pystra
+1.6.0 (FORM, and its importance sampling of 200,000 samples or more) were worked out
+apart; the tests do not need it.
 """
 
 import math
