@@ -323,6 +323,8 @@ def list_verdicts(
 class RowStudy:
     """Everything about one net row."""
 
+    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # nobody asked for it
+
     id: str
     verdict: Verdict
     checks: list[CheckRecord]

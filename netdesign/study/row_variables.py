@@ -57,7 +57,7 @@ class KnownVariable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Source:
-    """What is known of the variables of one net row."""
+    """Lines of sheet Uncertainty that hold for one net row."""
 
     site: Site
     row: NetRow
