@@ -23,6 +23,7 @@ from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 
 _INWARDS = 1e-4  # step of a tangent, as a share of a range
+_TRIES = 3  # of a value without a result
 _SPARE = 2  # cases that a model has beyond its trend terms, at least
 _ROUNDING = 1e-9
 _DENSER = 1.3  # of the largest density in the workbook: what is solved beside it
@@ -181,23 +182,19 @@ class Rater:
             self._widths[key] = self.check.widen(ranges) / now if now else 1.0
         return self._widths[key]
 
-    def solve(self, case: Case, moved: Sequence[Mapping[str, float]]) -> list[float]:
+    def solve(
+        self, case: Case, moved: Sequence[Mapping[str, float]]
+    ) -> list[float | None]:
         """Values of ln mu in a case, each with some quantities moved.
 
-        Raises
-        ------
-        ModelError
-            If a case has no result.
+        None of a case without a result.
         """
         cases = [move(case, one) for one in moved]
         wanted = [(self.check.row, one, self.solver.law) for one in cases]
-        rates = []
-        for result, one in zip(self.solver.solve_all(wanted), moved, strict=True):
-            rate = self.rate(result, one)
-            if rate is None:
-                raise ModelError(say("reliability.no_solve"))
-            rates.append(rate)
-        return rates
+        results = self.solver.solve_all(wanted)
+        return [
+            self.rate(result, one) for result, one in zip(results, moved, strict=True)
+        ]
 
 
 def move(case: Case, moved: Mapping[str, float]) -> Case:
@@ -235,18 +232,46 @@ def build_response(
     base = rated[check.governing]
     if len(rated) < count_trend_terms(len(axes)) + _SPARE and axes:
         raise ModelError(say("reliability.few_cases", count=len(rated)))
-    moved = [{name: value} for name, (_, *two) in lines.items() for value in two]
-    denser = [{name: _find_denser(one)} for name, one in axes if name == "density"]
-    rates = rater.solve(check.governing, [*moved, *denser])
-    for one, rate in zip(denser, rates[len(moved) :], strict=True):
-        rated[move(check.governing, one)] = rate
+    asked = [(name, value) for name, (_, *two) in lines.items() for value in two]
+    asked += [(name, _find_denser(one)) for name, one in axes if name == "density"]
+    solved = _solve_beside(rater, asked, {k: v[0] for k, v in lines.items()})
+    if any(name == "density" for name, _ in axes):
+        (_, denser), rate = solved.pop()
+        rated[check.governing.with_value("density", denser)] = rate
     model, ends = _fit(axes, rated) if axes else (None, np.zeros((2, 0)))
-    pairs = iter(rates)
+    changes = [(value, rate - base) for (_, value), rate in solved]
     fitted = tuple(
-        _fit_line(name, values, (next(pairs) - base, next(pairs) - base))
-        for name, values in lines.items()
+        _fit_line(name, values[0], changes[2 * place : 2 * place + 2])
+        for place, (name, values) in enumerate(lines.items())
     )
     return Response(axes=axes, model=model, base=base, ends=ends, lines=fitted)
+
+
+def _solve_beside(
+    rater: Rater, asked: Sequence[tuple[str, float]], centres: Mapping[str, float]
+) -> list[tuple[tuple[str, float], float]]:
+    """Quantities with their values, and ln mu there in the governing case.
+
+    A value without a result comes nearer to that of the governing case.
+
+    Raises
+    ------
+    ModelError
+        If it has none nearby either.
+    """
+    case = rater.check.governing
+    known = {**case.values, **centres}
+    points, found = list(asked), list[float | None]()
+    for _ in range(_TRIES):
+        found = rater.solve(case, [{name: value} for name, value in points])
+        points = [
+            (name, value if rate is not None else math.sqrt(value * known[name]))
+            for (name, value), rate in zip(points, found, strict=True)
+        ]
+        rates = [rate for rate in found if rate is not None]
+        if len(rates) == len(points):
+            return list(zip(points, rates, strict=True))
+    raise ModelError(say("reliability.no_solve"))
 
 
 def _find_denser(span: Interval) -> float:
@@ -269,13 +294,13 @@ def _fit(
     return fit_surrogate(places, rates[:, None]), ends
 
 
-def _fit_line(
-    name: str, values: tuple[float, float, float], changes: tuple[float, float]
-) -> Line:
-    """Parabola through 0 at the first value and two changes at the others."""
-    centre, *others = values
-    (one, other), (first, second) = (math.log(x / centre) for x in others), changes
+def _fit_line(name: str, centre: float, changes: Sequence[tuple[float, float]]) -> Line:
+    """Parabola through 0 at the centre and two changes at other values."""
+    (one, first), (other, second) = (
+        (math.log(value / centre), change) for value, change in changes
+    )
     bend = (first / one - second / other) / (one - other)
+    values = [centre, *(value for value, _ in changes)]
     return Line(
         name=name,
         low=min(values),

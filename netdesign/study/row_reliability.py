@@ -38,6 +38,7 @@ from netdesign.study.response import (
     Response,
     build_response,
     meet,
+    move,
 )
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.row_variables import (
@@ -131,7 +132,7 @@ def _analyse(
         raise ModelError(found.reason)
     state.require_within(found.design_point)
     full = find_index_near(state.build(math.log(used)), found)
-    return _record(check, state, found, full, miss)
+    return _record(check, state, found, full, miss, by_case.governing)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -240,6 +241,8 @@ class _Miss:
 def _solve(state: _State, rater: Rater, values: Mapping[str, float]) -> _Miss:
     at = {name: np.array([one]) for name, one in values.items()}
     (solved,) = rater.solve(rater.check.governing, [_order(values)])
+    if solved is None:
+        raise ModelError(say("reliability.no_solve"))
     return _Miss(by_model=float(state.response.find(at)[0]), solved=solved)
 
 
@@ -249,6 +252,7 @@ def _record(
     found: Reliability,
     full: float | None,
     miss: _Miss,
+    governing: Case,
 ) -> ReliabilityRecord:
     values = dict(zip(state.names, found.design_point, strict=True))
     used = math.log(check.utilisation or math.nan)
@@ -267,7 +271,7 @@ def _record(
         resistance_factor=1.0 / values[RESISTANCE],
         profile_action_factor=check.read("γ_E"),
         profile_resistance_factor=check.read("γ_R"),
-        design_point=record_point(Case.of(_order(point))),
+        design_point=record_point(move(governing, _order(point))),
         force_ratio=math.exp(miss.solved - used),
         force_ratio_by_model=math.exp(miss.by_model - used),
         samples=found.samples,
