@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
+from netdesign.reliability.form import follow_design_point
 from netdesign.site.model import UncertainQuantity
 from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
@@ -93,6 +94,36 @@ def test_the_design_point_is_solved_by_the_full_model(searched, study):
         )
         assert record.force_ratio == pytest.approx(at / now, rel=0.03)
         assert record.force_ratio == pytest.approx(record.force_ratio_by_model, rel=0.1)
+
+
+def test_around_the_design_point_the_model_is_that_of_full_solves(judge, monkeypatch):
+    from netdesign.study import row_reliability
+
+    met, real = [], row_reliability._meet_design_point
+
+    def keep(state, rater):
+        found = real(state, rater)
+        met.append((found[0], rater))
+        return found
+
+    monkeypatch.setattr(row_reliability, "_meet_design_point", keep)
+    judge()
+    rng = np.random.default_rng(17)
+    for state, rater in met:
+        limit = state.build()
+        place = follow_design_point(limit, None).place
+        drawn = place + 0.8 * rng.standard_normal((15, len(place)))
+        points = limit.place(np.minimum(drawn, limit.caps))
+        moved = [state.read_point(one) for one in points.tolist()]
+        solved = [rater.solve(rater.check.governing, [one])[0] for one in moved]
+        errors = [
+            float(state.response.find({k: np.array([v]) for k, v in one.items()})[0])
+            - rate
+            for one, rate in zip(moved, solved, strict=True)
+            if rate is not None
+        ]
+        assert len(errors) > 10
+        assert np.sqrt(np.mean(np.square(errors))) < 0.03
 
 
 def test_what_nobody_typed_is_told_as_assumed(judge, study):
