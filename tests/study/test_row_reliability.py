@@ -18,6 +18,7 @@ from netdesign.study.record_envelope import read_point
 from netdesign.study.rejudge.study import rejudge
 from netdesign.study.response import Line
 from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.side_by_side import name_rows
 from tests.each import each
 from tests.short_example import write_short_example
 from tests.small_site import RUN
@@ -201,6 +202,14 @@ def test_a_whole_run_finds_the_same(searched, study):
     (whole,) = check_site(copy.deepcopy(site), [STANDARD], WITH)
     for row, same in zip(whole.rows, study.rows, strict=True):
         assert row.reliability.beta == pytest.approx(same.reliability.beta, abs=1e-9)
+
+
+def test_the_store_keeps_rows_with_and_without_it_apart(searched):
+    site, _ = searched
+    typed = replace(site, uncertain=(tell("model", 0.19),))
+    pairs = [(site, RUN), (site, WITH), (typed, WITH)]
+    names = [name_rows(one, [STANDARD], run)["R2"] for one, run in pairs]
+    assert len(set(names)) == 3
 
 
 def test_a_line_goes_through_its_values_and_on_along_its_tangent():
