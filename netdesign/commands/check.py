@@ -74,6 +74,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
         jobs=asked["jobs"] or os.cpu_count() or 1,
         command=own_command(),
         started=format_time(),
+        has_reliability=asked["reliability"],
     )
     if asked["dry_run"]:
         from netdesign.commands.check_run import announce

@@ -108,8 +108,8 @@ def _join(opening: str, pairs: Sequence[tuple[str, ...]], closing: str) -> JsonP
 def list_fields(value: Any) -> dict[str, Any]:
     """Fields of a dataclass as they are, not copies of all that is in them.
 
-    Of a mapping that cannot be changed, its members. A class with a true
-    ``LEAVES_OUT_NONE`` has no field that is None.
+    Of a mapping that cannot be changed, its members. Of a class with
+    ``LEAVES_OUT_NONE`` no field that is None: none at all, or none of those it names.
 
     Raises
     ------
@@ -122,9 +122,13 @@ def list_fields(value: Any) -> dict[str, Any]:
         raise TypeError(f"{type(value).__name__} is not JSON serializable")
     kind: Any = type(value)
     found = {name: getattr(value, name) for name in _name_fields(kind)}
-    if getattr(value, "LEAVES_OUT_NONE", False):
-        return {name: one for name, one in found.items() if one is not None}
-    return found
+    leaves_out = getattr(value, "LEAVES_OUT_NONE", ())
+    if not leaves_out:
+        return found
+    named = found if leaves_out is True else leaves_out
+    return {
+        name: one for name, one in found.items() if one is not None or name not in named
+    }
 
 
 @cache

@@ -70,7 +70,9 @@ _PARTS = {
     **dict.fromkeys(("cases", "envelope", "extremes", "forces", "statics"), "cases"),
     **dict.fromkeys(("checks", "reasons", "questions", "unsaid"), "checks"),
     **dict.fromkeys(("drawing", "anchors", "head", "pulls", "panel"), "forces"),
-    **dict.fromkeys(("guideline", "floor", "slab", "model_form"), "opinions"),
+    **dict.fromkeys(
+        ("guideline", "floor", "slab", "model_form", "reliability"), "opinions"
+    ),
     **dict.fromkeys(("end_effects", "held_sideways", "tilt", "independent"), "forces"),
     **dict.fromkeys(("inputs", "range_inputs", "parts"), "inputs"),
     "rows": "order",

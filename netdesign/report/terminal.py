@@ -25,6 +25,7 @@ from netdesign.report.sections.checks import (
     name_case,
 )
 from netdesign.report.sections.decision import list_open_points
+from netdesign.report.sections.reliability import list_reliability
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,
@@ -179,6 +180,7 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
     if has_other_floor(study):
         floor = words("heading.floor")
         yield words("show.label", label=floor, text=describe_floor(study, words))
+    yield from list_reliability(study, words)
     points = list(list_open_points(study, words))
     if is_short:
         yield words("show.more_points", count=len(points))

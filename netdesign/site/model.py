@@ -542,6 +542,37 @@ class Project:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class UncertainQuantity:
+    """What is known of the scatter of one quantity, of one net row or of all.
+
+    Attributes
+    ----------
+    row_id : str
+        Empty for all net rows.
+    name : str
+        As in ``reliability/assumed.toml``: "snow_height", "model", "resistance", ...
+    distribution : str
+        "gumbel", "lognormal" or "normal"; empty for that which is usual.
+    mean_ratio : float or None
+        Mean over the value of the workbook [-].
+    variation : float
+        Coefficient of variation [-].
+    period : float or None
+        Return period of the snow height of the workbook [a].
+    source : str
+        Where it is from, as typed.
+    """
+
+    row_id: str
+    name: str
+    variation: float
+    source: str
+    distribution: str = ""
+    mean_ratio: float | None = None
+    period: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Site:
     """Everything read from one workbook."""
 
@@ -563,12 +594,18 @@ class Site:
     links: Mapping[str, tuple[Link, ...]] = field(default_factory=dict)  # by type
     what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
     left_out: tuple[str, ...] = ()  # ids of net rows that are not to be checked
+    uncertain: tuple[UncertainQuantity, ...] = ()  # for the notional reliability alone
 
     def take_rows(self, ids: Container[str]) -> Site:
         """Site with some of its net rows; it says which were left out."""
         kept = tuple(row for row in self.rows if row.id in ids)
         left_out = tuple(row.id for row in self.rows if row.id not in ids)
         return replace(self, rows=kept, left_out=(*self.left_out, *left_out))
+
+    def find_uncertain(self, row_id: str, name: str) -> UncertainQuantity | None:
+        """What is known of the scatter of a quantity: of the row, else of all."""
+        found = {one.row_id: one for one in self.uncertain if one.name == name}
+        return found.get(row_id, found.get(""))
 
     @property
     def questions(self) -> tuple[Message, ...]:

@@ -30,6 +30,7 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     SNOW,
     TESTS,
+    UNCERTAINTY,
     WINTER,
     is_heading,
 )
@@ -95,6 +96,7 @@ from netdesign.site.type_resistances import (
     fill_in_resistances,
     fill_in_section,
 )
+from netdesign.site.uncertainty_sheet import read_uncertainty
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 
@@ -143,6 +145,7 @@ def read_site(
     net_rows = _build_rows(tables[RANGES.name], nets, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
     winter = read_winter(tables[WINTER.name], lines.places, findings)
+    uncertain = read_uncertainty(tables[UNCERTAINTY.name], lines.places, findings)
     links = read_links(lines.links, lines.types, findings)
     declared, confirmed = read_declared(
         tables[DECLARED.name], workbook, lines.places, findings
@@ -172,6 +175,7 @@ def read_site(
         catalogue=list_catalogue(lines.types),
         links=links,
         what_if=replaced,
+        uncertain=uncertain,
     )
 
 

@@ -27,7 +27,10 @@ def read_method(name: str) -> Method:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckRun:
-    """Settings of the solves of a site."""
+    """Settings of the solves of a site.
+
+    With ``has_reliability`` the notional reliability of each row is worked out, too.
+    """
 
     settings: SolverSettings
     method: Method = "steady"
@@ -35,3 +38,4 @@ class CheckRun:
     jobs: int = 1
     command: str = "netdesign check"
     started: str = ""  # ISO 8601, UTC; given, so that equal input gives equal bytes
+    has_reliability: bool = False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import TypeVar
 
@@ -62,7 +63,9 @@ from netdesign.study.records import (
     list_verdicts,
     merge_rows,
 )
-from netdesign.study.row_checks import check_row, distrust
+from netdesign.study.reliability_records import ReliabilityRecord
+from netdesign.study.row_checks import RowChecks, check_row, distrust
+from netdesign.study.row_reliability import record_reliability
 from netdesign.study.row_to_check import Basis, CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.study.winter_row import record_monitoring
@@ -162,7 +165,8 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     solved, extremes = task.solved, task.solved.extremes
     floor = task.find_floor(site.ranges)
     known = know_row(task.basis, solved.results, extremes, solved.gap, floor)
-    checks, model_form = _check_row(task, extremes, known)
+    found, model_form = _check_row(task, extremes, known)
+    checks = found.records
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
@@ -202,23 +206,37 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         held_sideways=None if isinstance(held, Message) else held,
         tilt=known.tilt,
         envelope=_record_search(solved, checks),
+        reliability=_find_reliability(task, found, run),
     )
+
+
+def _find_reliability(
+    task: RowToCheck, found: RowChecks, run: CheckRun
+) -> ReliabilityRecord | None:
+    """Notional reliability of the governing check, where it is asked for."""
+    if not run.has_reliability:
+        return None
+    worst = find_worst(found.records)
+    by_case = found.by_case.get(worst.id) if worst else None
+    solver = CaseSolver(run.settings, run.creep_law)
+    return record_reliability(task.basis.site, worst, by_case, solver)
 
 
 def _check_row(
     task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
-) -> tuple[list[CheckRecord], ModelFormRecord | None]:
+) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
     Where the program fails in one of those, it is not trusted in the checks either.
     """
-    checks = check_row(task, extremes, known)
-    worst = find_worst(checks)
+    found = check_row(task, extremes, known)
+    worst = find_worst(found.records)
     before = task.count_faults()
     form = _find_model_form(task, worst, _governing_result(worst, extremes))
     if task.count_faults() > before:
-        checks = [distrust(check) for check in checks]
-    return checks, form
+        doubted = [distrust(check) for check in found.records]
+        found = replace(found, records=doubted)
+    return found, form
 
 
 def _record_extremes(extremes: Mapping[str, Extreme]) -> list[ExtremeRecord]:

@@ -141,6 +141,7 @@ def build_run(study: Study, jobs: int) -> CheckRun:
             jobs=jobs,
             command=made.command,
             started=made.started,
+            has_reliability=any(row.reliability for row in study.rows),
         )
     except (KeyError, ValueError):
         told = tuple(f"{name} = {given.get(name)!r:.60}" for name in _REPEATED)

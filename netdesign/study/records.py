@@ -35,6 +35,7 @@ from netdesign.study.case_records import (
     GuidelineRecord,
 )
 from netdesign.study.parts import PartRecord
+from netdesign.study.reliability_records import ReliabilityRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
@@ -321,6 +322,8 @@ def list_verdicts(
 class RowStudy:
     """Everything about one net row."""
 
+    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # nobody asked for it
+
     id: str
     verdict: Verdict
     checks: list[CheckRecord]
@@ -349,6 +352,7 @@ class RowStudy:
     model_form: ModelFormRecord | None = None  # None where nothing governs
     end_effects: list[EndEffectRecord] = field(default_factory=list)
     parts: list[PartRecord] = field(default_factory=list)  # that it is built of
+    reliability: ReliabilityRecord | None = None  # None where nobody asks for it
 
     @cached_property
     def written(self) -> JsonPart:

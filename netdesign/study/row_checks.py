@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, partial
 
 from netdesign.envelope.extremes import Extreme, find_extreme
@@ -43,9 +43,17 @@ from netdesign.words.names import name
 _FAULT_BESIDE = say("check.fault_beside")
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowChecks:
+    """Every check of a row, and by their ids those that follow solved cases."""
+
+    records: list[CheckRecord]
+    by_case: Mapping[str, CheckByCase]
+
+
 def check_row(
     task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
-) -> list[CheckRecord]:
+) -> RowChecks:
     """Every check of a row: the members of both supports, then the geometry.
 
     ``extremes`` are those of its solved cases, ``known`` what these tell.
@@ -75,7 +83,11 @@ def check_row(
         )
         for one, (spreads, changes) in zip(judged, beside, strict=True)
     ]
-    return [*checks, *record_others(known, judged)]
+    pairs = zip(judged, followed, strict=True)
+    return RowChecks(
+        records=[*checks, *record_others(known, judged)],
+        by_case={one.id: by_case for one, by_case in pairs if by_case is not None},
+    )
 
 
 def _solve_beside(

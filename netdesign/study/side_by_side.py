@@ -50,6 +50,7 @@ def cut_site(site: Site, row: NetRow) -> Site:
         winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
         links=site.links,
+        uncertain=tuple(one for one in site.uncertain if one.row_id in ("", row.id)),
     )
 
 
@@ -72,7 +73,7 @@ def name_rows(
     Command, time and number of processes are no part of a name: no record has them.
     A row with a value of a new kind has no name, and is judged every time.
     """
-    settings = [run.settings, run.method, run.creep_law]
+    settings = [run.settings, run.method, run.creep_law, run.has_reliability]
     names = {}
     with suppress(TypeError):
         shared = write_parts([identify_installation(), settings, list(standards)])

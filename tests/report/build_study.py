@@ -46,6 +46,7 @@ from netdesign.study.records import (
     Study,
     VariantRecord,
 )
+from netdesign.study.reliability_records import ReliabilityRecord, VariableRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Arrow,
@@ -490,6 +491,56 @@ def build_model_form(extreme: ExtremeRecord) -> ModelFormRecord:
                 reason=as_given(f"it shrinks {SCRIPT}"),
             ),
         ],
+    )
+
+
+def build_reliability(check: str) -> ReliabilityRecord:
+    """Notional reliability of one check, by a made-up analysis."""
+    return ReliabilityRecord(
+        check=check,
+        reason=None,
+        variables=[
+            build_variable("snow_height", "height_vertical_m", 0.471),
+            build_variable("density", "density_kg_m3", 0.129, mean=347.0),
+            build_variable("model", "", 0.25, text="fit 2026"),
+            build_variable("resistance", "", 0.15),
+        ],
+        beta=3.4271,
+        standard_error=0.0137,
+        beta_by_form=3.3189,
+        beta_at_full=3.1273,
+        action_factor=1.7133,
+        resistance_factor=1.1877,
+        profile_action_factor=1.5,
+        profile_resistance_factor=1.35,
+        design_point=CasePoint(
+            density_kg_m3=417.0,
+            friction_deg=23.0,
+            inclination_deg=31.0,
+            thickness_m=2.71,
+        ),
+        force_ratio=1.217,
+        force_ratio_by_model=1.236,
+        samples=4000,
+        solves=7,
+    )
+
+
+def build_variable(
+    name: str, key: str, share: float, *, mean: float = 1.0, text: str = ""
+) -> VariableRecord:
+    """Random variable of that analysis, typed where it has a text."""
+    typed, assumed = say("source.typed", text=text), say("source.reference_case")
+    return VariableRecord(
+        name=name,
+        key=key,
+        distribution="gumbel" if name == "snow_height" else "lognormal",
+        mean=mean,
+        variation=0.2,
+        source=typed if text else assumed,
+        is_assumed=not text,
+        alpha_squared=share,
+        at_design_point=1.437,
     )
 
 

@@ -15,7 +15,11 @@ from netdesign.study.parts import PartRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
 from tests.each import each
-from tests.report.build_study import build_independent, build_study
+from tests.report.build_study import (
+    build_independent,
+    build_reliability,
+    build_study,
+)
 
 UNTOLD = (
     ("provenance", "started"),
@@ -177,7 +181,8 @@ def test_every_value_of_a_study_is_compared():
     """Whatever one leaf of the document is altered to: it is told, save two."""
     small = obey_laws(build_study(samples=2, rows=2))
     drawn = [replace(row, drawing=replace(row.drawing, mesh_edges_m=[(0.0, 0.0, 1.0,
-             1.0)])) for row in small.rows]  # fmt: skip
+             1.0)]), reliability=build_reliability(row.checks[0].id))
+             for row in small.rows]  # fmt: skip
     text = write_document(replace(small, rows=drawn))
     old = read_document(text)
     leaves = list_leaves(json.loads(text))

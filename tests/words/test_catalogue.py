@@ -43,6 +43,7 @@ FAMILIES: tuple[str, ...] = (
     *("method.", "method_used.", "setting.", "start.", "end."),
     *("paper_call.", "paper_said.", "paper_found.", "paper_reason."),
     *("paper_value.", "paper_plate."),
+    *("reliability.", "source.", "variable.", "distribution.", "consequences."),
     *(
         "profile_about.",
         "profile_title.",

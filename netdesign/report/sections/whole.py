@@ -13,6 +13,7 @@ from netdesign.report.sections import (
     decision,
     guideline,
     quality,
+    reliability,
     schedule,
     worked,
 )
@@ -93,6 +94,7 @@ def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
     yield basis.show_profile(study, words)
     yield quality.show_quality(study, words)
     yield annexes.show_verification(study, words)
+    yield from reliability.show_reliability(study, words)
 
 
 def _map_rows(
@@ -110,7 +112,9 @@ def _list_contents(study: Study, words: Words, *, has_map: bool) -> Contents:
     parts = ("basis", "map", "schedule") if has_map else _PARTS
     named = {name: words(f"heading.{name}") for name in parts}
     named["inputs"] = words("heading.inputs_of_rows")
-    named |= {name: words(f"heading.{name.replace('-', '_')}") for name in _ANNEXES}
+    further = ("annex-reliability",) if reliability.list_records(study) else ()
+    for name in (*_ANNEXES, *further):
+        named[name] = words(f"heading.{name.replace('-', '_')}")
     lines = [_list_links(named.items())]
     if study.rows:
         label = words("show.label", label=words("heading.net_rows"), text="")

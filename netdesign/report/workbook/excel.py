@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import UTC, datetime
 
 from netdesign.outcome import NetDesignError
@@ -23,6 +24,12 @@ from netdesign.report.sections.quality import (
     build_cases,
     build_extremes,
     stack_tables,
+)
+from netdesign.report.sections.reliability import (
+    list_records,
+    tabulate_indices,
+    tabulate_shares,
+    tabulate_variables,
 )
 from netdesign.report.sections.schedule import build_quantities, build_schedule
 from netdesign.report.sections.whole import title_pages
@@ -53,6 +60,8 @@ SHEETS = (
     "notes",
     "provenance",
 )
+_RELIABILITY = "reliability"  # a sheet more, where somebody asks for it
+_SHARE = 2  # column of the shares, zero-based
 
 
 def render_workbook(study: Study, language: Language = "en") -> bytes:
@@ -97,7 +106,8 @@ def render_workbook(study: Study, language: Language = "en") -> bytes:
         book = Book(workbook, running, words)
         _add_sheets(book, study)
         names = tuple(sheet.get_name() for sheet in workbook.worksheets())
-        if names != tuple(book.name(sheet) for sheet in SHEETS):
+        further = (_RELIABILITY,) if list_records(study) else ()
+        if names != tuple(book.name(sheet) for sheet in (*SHEETS, *further)):
             raise NetDesignError(f"the workbook is incomplete: it has only {names}")
     return buffer.getvalue()
 
@@ -124,6 +134,8 @@ def _add_sheets(book: Book, study: Study) -> None:
     )
     made = [build_provenance(study, words)]
     book.add_table_sheet("provenance", words("heading.provenance"), made)
+    if list_records(study):
+        _add_reliability(book, study)
     cells.watch()
     link_sheets(book, SHEETS[1:])
 
@@ -164,6 +176,20 @@ def _add_cases(book: Book, study: Study) -> None:
         stack_tables(words("caption.extremes"), extremes, words),
     ]
     book.add_table_sheet("cases", words("heading.all_cases"), shown)
+
+
+def _add_reliability(book: Book, study: Study) -> None:
+    """Sheet of the notional reliability, with bars behind its shares."""
+    words = book.words
+    indices, shares = tabulate_indices(study, words), tabulate_shares(study, words)
+    note = words("reliability.is_not")
+    told = words("reliability.captioned", caption=indices.caption, note=note)
+    tables = [replace(indices, caption=told), shares, tabulate_variables(study, words)]
+    sheet = book.add_table_sheet(_RELIABILITY, words("heading.reliability"), tables)
+    first = _FIRST_LINE + len(indices.rows) + _BETWEEN
+    if shares.rows:
+        last = first + len(shares.rows) - 1
+        book.add_ratio_bars(sheet, (first, _SHARE, last, _SHARE), full=1.0)
 
 
 def _list_notes(book: Book, study: Study) -> Iterator[Table]:

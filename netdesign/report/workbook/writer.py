@@ -145,6 +145,9 @@ def _show_literally(text: str) -> str:
     return re.sub(r"&([G\[])", r"& \1", text).replace("&", "&&")
 
 
+_FULL = 1.5  # utilisation of a full bar
+
+
 class Book:
     """A workbook being written; keeps one format for each set of properties."""
 
@@ -334,8 +337,10 @@ class Book:
             }
             sheet.conditional_format(*area, rule)
 
-    def add_ratio_bars(self, sheet: Any, area: tuple[int, int, int, int]) -> None:
-        """Bars behind utilisations, full at 1.5."""
+    def add_ratio_bars(
+        self, sheet: Any, area: tuple[int, int, int, int], full: float = _FULL
+    ) -> None:
+        """Bars behind ratios, utilisations unless ``full`` is that of others."""
         rule = {
             "type": "data_bar",
             "data_bar_2010": True,
@@ -344,7 +349,7 @@ class Book:
             "min_type": "num",
             "max_type": "num",
             "min_value": 0,
-            "max_value": 1.5,
+            "max_value": full,
         }
         sheet.conditional_format(*area, rule)
 

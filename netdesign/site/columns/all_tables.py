@@ -141,7 +141,7 @@ NETS, RANGES, SNOW = _PLANS["Nets"], _PLANS["Ranges"], _PLANS["Snow"]
 ANCHORS, ROPES, POSTS = _PLANS["Anchors"], _PLANS["Ropes"], _PLANS["Posts"]
 TESTS, LINKS, ENDS = _PLANS["Tests"], _PLANS["Links"], _PLANS["Ends"]
 MONITORING, DECLARED = _PLANS["Monitoring"], _PLANS["Declared"]
-WINTER = _PLANS["Winter"]
+WINTER, UNCERTAINTY = _PLANS["Winter"], _PLANS["Uncertainty"]
 # Also with what holds for all net rows; the template does not offer that.
 PROJECT = replace(_PLANS["Project"], items=(*PROJECT_ITEMS, *NETS.list_site_wide()))
 SHEETS: tuple[SheetPlan, ...] = tuple((_PLANS | {PROJECT.name: PROJECT}).values())

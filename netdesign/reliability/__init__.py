@@ -1,0 +1,1 @@
+"""Notional reliability: limit states of random variables, FORM, importance sampling."""

@@ -1,0 +1,78 @@
+"""Reliability index by importance sampling about the design points.
+
+Theory: reliability/THEORY.md, section 4.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
+from netdesign.reliability.form import DesignPoint
+from netdesign.reliability.limit_state import LimitState
+
+LARGEST_ERROR = 0.02  # standard error of an index that is stated
+_GOAL = 0.015  # at which the sampling ends
+_BATCH = 2000
+_MOST_BATCHES = 50
+SEED = 1945
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Estimate:
+    """Index with its standard error, and the number of samples."""
+
+    beta: float
+    standard_error: float
+    samples: int
+
+    @property
+    def is_sound(self) -> bool:
+        """The error is known and small enough to state the index."""
+        return self.standard_error < LARGEST_ERROR
+
+
+def estimate_beta(
+    state: LimitState, points: Sequence[DesignPoint], seed: int = SEED
+) -> Estimate:
+    """Reliability index by samples around all design points, (U12) to (U14)."""
+    random = np.random.default_rng(seed)
+    centres = np.array([one.place for one in points])
+    values: list[Floats] = []
+    estimate = Estimate(beta=math.nan, standard_error=math.inf, samples=0)
+    for _ in range(_MOST_BATCHES):
+        values.append(_sample(state, centres, random))
+        estimate = _rate(np.concatenate(values))
+        if estimate.standard_error <= _GOAL:
+            break
+    return estimate
+
+
+def _sample(state: LimitState, centres: Floats, random: np.random.Generator) -> Floats:
+    """Weights of the failures in one batch, 0 of all others; shape (n,)."""
+    drawn = random.integers(len(centres), size=_BATCH)
+    u = centres[drawn] + random.standard_normal((_BATCH, centres.shape[1]))
+    fails = state.evaluate(np.minimum(u, state.caps)) < 0.0
+    # logarithms of the mixture's density over the standard normal one
+    exponents = u @ centres.T - 0.5 * np.sum(centres**2, axis=1)
+    most = exponents.max(axis=1)
+    ratio = np.exp(exponents - most[:, None]).mean(axis=1)
+    weights: Floats = np.where(fails, np.exp(-most) / ratio, 0.0)
+    return weights
+
+
+def _rate(weights: Floats) -> Estimate:
+    """Index of the mean weight, which estimates the probability of failure."""
+    from scipy.special import ndtri
+
+    probability = float(weights.mean())
+    if not 0.0 < probability < 1.0:
+        return Estimate(beta=math.nan, standard_error=math.inf, samples=len(weights))
+    beta = -float(ndtri(probability))
+    error = float(weights.std(ddof=1)) / math.sqrt(len(weights))
+    density = math.exp(-0.5 * beta**2) / math.sqrt(2.0 * math.pi)
+    return Estimate(beta=beta, standard_error=error / density, samples=len(weights))

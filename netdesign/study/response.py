@@ -1,0 +1,317 @@
+"""Logarithm of a check's utilisation as a function of what varies, for samples.
+
+The search's own model over the ranges of the workbook, a parabola along each other
+quantity, and one shift by which the model meets a case that was solved. Theory:
+reliability/THEORY.md, section 2.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from netdesign.envelope.ranges import Case, Interval
+from netdesign.envelope.run import CaseResult
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import ModelError
+from netdesign.search.surrogate import Surrogate, count_trend_terms, fit_surrogate
+from netdesign.study.check_by_case import TRIED_DENSITIES, CheckByCase
+from netdesign.study.row_to_check import CaseSolver
+from netdesign.words.message import say
+
+_INWARDS = 1e-4  # step of a tangent, as a share of a range
+_TRIES = 3  # of a value without a result
+_SPARE = 2  # cases that a model has beyond its trend terms, at least
+_ROUNDING = 1e-9
+_DENSER = 1.3  # of the largest density in the workbook: what is solved beside it
+# Beside what ranges: the end effect of a support follows the glide factor.
+_WIDENING = ("thickness", "slip_length", "glide_factor")
+
+Values = Mapping[str, Floats]  # by the names of the quantities, each of shape (n,)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """Parabola of ln mu over the logarithm of one quantity, 0 at its centre.
+
+    Attributes
+    ----------
+    name : str
+        The quantity.
+    low, centre, high : float
+        Values that were solved [SI].
+    slope, bend : float
+        Coefficients of the first and the second power.
+    """
+
+    name: str
+    low: float
+    centre: float
+    high: float
+    slope: float
+    bend: float
+
+    def find(self, values: Floats) -> Floats:
+        """Change of ln mu at some values; beyond those solved along the tangent."""
+        at = np.log(np.maximum(values, 1e-12) / self.centre)
+        low, high = (math.log(end / self.centre) for end in (self.low, self.high))
+        inside = np.clip(at, low, high)
+        steep = self.slope + 2.0 * self.bend * inside
+        result: Floats = (
+            self.slope * inside + self.bend * inside**2 + steep * (at - inside)
+        )
+        return result
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Response:
+    """Model of ln mu.
+
+    Attributes
+    ----------
+    axes : tuple of (str, Interval)
+        What ranges in the workbook.
+    model : Surrogate or None
+        Of the solved cases over the unit cube of the axes; None without axes.
+    base : float
+        ln mu in the governing case; it counts where there is no model.
+    ends : ndarray, shape (2, axes)
+        Least and largest coordinates that were solved: the ranges, and denser snow.
+    lines : tuple of Line
+        Of the other quantities.
+    shift : float
+        Added everywhere.
+    """
+
+    axes: tuple[tuple[str, Interval], ...]
+    model: Surrogate | None
+    base: float
+    ends: Floats
+    lines: tuple[Line, ...] = ()
+    shift: float = 0.0
+
+    def find(self, values: Values) -> Floats:
+        """Values of ln mu, shape (n,), of quantities of shape (n,) each."""
+        result = self._find_over_axes(values) + self.shift
+        for line in self.lines:
+            result = result + line.find(values[line.name])
+        return result
+
+    def _find_over_axes(self, values: Values) -> Floats:
+        """Mean of the search's model; beyond the ranges along its tangent."""
+        if self.model is None:
+            return np.full(1, self.base)
+        at = self._place(values)
+        inside = np.clip(at, *self.ends)
+        (found,) = self.model.evaluate(inside, 0)
+        beyond = at - inside
+        far = np.abs(beyond).max(axis=1) > 0.0
+        if far.any():
+            size = np.linalg.norm(beyond[far], axis=1)
+            back = inside[far] - _INWARDS * beyond[far] / size[:, None]
+            (before,) = self.model.evaluate(back, 0)
+            found[far] += (found[far] - before) / _INWARDS * size
+        return found
+
+    def _place(self, values: Values) -> Floats:
+        columns = [
+            (values[name] - span.low) / (span.high - span.low)
+            for name, span in self.axes
+        ]
+        return np.column_stack(columns)
+
+    def find_error(self, values: Mapping[str, float]) -> float:
+        """Standard error of the search's model at one place [-, of ln mu]."""
+        if self.model is None:
+            return 0.0
+        at = self._place({name: np.array([one]) for name, one in values.items()})
+        return float(self.model.predict(np.clip(at, *self.ends)).standard_error[0, 0])
+
+    def find_beyond(self, values: Mapping[str, float]) -> str | None:
+        """First quantity whose value lies beyond those that were solved."""
+        spans = {
+            name: tuple(span.low + end * (span.high - span.low) for end in ends)
+            for (name, span), ends in zip(self.axes, self.ends.T, strict=True)
+        }
+        spans |= {line.name: (line.low, line.high) for line in self.lines}
+        for name, (low, high) in spans.items():
+            room = _ROUNDING * max(abs(low), abs(high))
+            if not low - room <= values[name] <= high + room:
+                return name
+        return None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Rater:
+    """Solves cases of a check and rates them: ln mu.
+
+    Attributes
+    ----------
+    check : CheckByCase
+        The check.
+    solver : CaseSolver
+        Of the cases.
+    scale : float
+        Factor on a utilisation that takes off the numerical error's upper side [-].
+    """
+
+    check: CheckByCase
+    solver: CaseSolver
+    scale: float = 1.0
+    _widths: dict[tuple[tuple[str, float], ...], float] = field(default_factory=dict)
+
+    def rate(self, result: CaseResult, moved: Mapping[str, float]) -> float | None:
+        """Value of ln mu in a case with some quantities moved; None without a force."""
+        used = self.check.utilisation(result)
+        if not used or used <= 0.0 or not math.isfinite(used):
+            return None
+        return math.log(used * self.scale * self._widen(moved))
+
+    def _widen(self, moved: Mapping[str, float]) -> float:
+        """Load of the support by its end, of what is moved over that of the row."""
+        moved = {name: one for name, one in moved.items() if name in _WIDENING}
+        key = tuple(moved.items())
+        if key not in self._widths:
+            ranges = self.check.ranges
+            for name, value in moved.items():
+                ranges = ranges.with_value(name, value)
+            now = self.check.widen(self.check.ranges)
+            self._widths[key] = self.check.widen(ranges) / now if now else 1.0
+        return self._widths[key]
+
+    def solve(
+        self, case: Case, moved: Sequence[Mapping[str, float]]
+    ) -> list[float | None]:
+        """Values of ln mu in a case, each with some quantities moved.
+
+        None of a case without a result.
+        """
+        cases = [move(case, one) for one in moved]
+        wanted = [(self.check.row, one, self.solver.law) for one in cases]
+        results = self.solver.solve_all(wanted)
+        return [
+            self.rate(result, one) for result, one in zip(results, moved, strict=True)
+        ]
+
+
+def move(case: Case, moved: Mapping[str, float]) -> Case:
+    """Case with some quantities moved."""
+    for name, value in moved.items():
+        case = case.with_value(name, value)
+    return case
+
+
+def build_response(
+    rater: Rater, lines: Mapping[str, tuple[float, float, float]]
+) -> Response:
+    """Model of a check from its solved cases, and two solves along each line.
+
+    Parameters
+    ----------
+    rater : Rater
+        Of the check.
+    lines : mapping of str to (float, float, float)
+        Value of the row and two others, by the quantity's name [SI].
+
+    Raises
+    ------
+    ModelError
+        If there are too few cases, or one of a line has no result.
+    """
+    check = rater.check
+    axes = tuple(
+        (name, span) for name, span in check.ranges.intervals if span.low < span.high
+    )
+    known = [(one, rater.rate(one, {})) for one in check.results]
+    rated = {one.case: rate for one, rate in known if rate is not None}
+    if check.governing not in rated:
+        raise ModelError(say("reliability.no_case"))
+    base = rated[check.governing]
+    if len(rated) < count_trend_terms(len(axes)) + _SPARE and axes:
+        raise ModelError(say("reliability.few_cases", count=len(rated)))
+    asked = [(name, value) for name, (_, *two) in lines.items() for value in two]
+    asked += [(name, _find_denser(one)) for name, one in axes if name == "density"]
+    solved = _solve_beside(rater, asked, {k: v[0] for k, v in lines.items()})
+    if any(name == "density" for name, _ in axes):
+        (_, denser), rate = solved.pop()
+        rated[check.governing.with_value("density", denser)] = rate
+    model, ends = _fit(axes, rated) if axes else (None, np.zeros((2, 0)))
+    changes = [(value, rate - base) for (_, value), rate in solved]
+    fitted = tuple(
+        _fit_line(name, values[0], changes[2 * place : 2 * place + 2])
+        for place, (name, values) in enumerate(lines.items())
+    )
+    return Response(axes=axes, model=model, base=base, ends=ends, lines=fitted)
+
+
+def _solve_beside(
+    rater: Rater, asked: Sequence[tuple[str, float]], centres: Mapping[str, float]
+) -> list[tuple[tuple[str, float], float]]:
+    """Quantities with their values, and ln mu there in the governing case.
+
+    A value without a result comes nearer to that of the governing case.
+
+    Raises
+    ------
+    ModelError
+        If it has none nearby either.
+    """
+    case = rater.check.governing
+    known = {**case.values, **centres}
+    points, found = list(asked), list[float | None]()
+    for _ in range(_TRIES):
+        found = rater.solve(case, [{name: value} for name, value in points])
+        points = [
+            (name, value if rate is not None else math.sqrt(value * known[name]))
+            for (name, value), rate in zip(points, found, strict=True)
+        ]
+        rates = [rate for rate in found if rate is not None]
+        if len(rates) == len(points):
+            return list(zip(points, rates, strict=True))
+    raise ModelError(say("reliability.no_solve"))
+
+
+def _find_denser(span: Interval) -> float:
+    """Density beyond the range, up to which the design point may lie [kg/m3]."""
+    return max(span.high, min(_DENSER * span.high, TRIED_DENSITIES[1]))
+
+
+def _fit(
+    axes: Sequence[tuple[str, Interval]], rated: Mapping[Case, float]
+) -> tuple[Surrogate, Floats]:
+    """Model over the coordinates of the axes, and the ends of what was solved."""
+    values = [case.values for case in rated]
+    columns = [
+        [(one[name] - span.low) / (span.high - span.low) for one in values]
+        for name, span in axes
+    ]
+    places = np.array(columns).T
+    rates = np.array(list(rated.values()))
+    ends = np.vstack([places.min(axis=0), places.max(axis=0)])
+    return fit_surrogate(places, rates[:, None]), ends
+
+
+def _fit_line(name: str, centre: float, changes: Sequence[tuple[float, float]]) -> Line:
+    """Parabola through 0 at the centre and two changes at other values."""
+    (one, first), (other, second) = (
+        (math.log(value / centre), change) for value, change in changes
+    )
+    bend = (first / one - second / other) / (one - other)
+    values = [centre, *(value for value, _ in changes)]
+    return Line(
+        name=name,
+        low=min(values),
+        centre=centre,
+        high=max(values),
+        slope=first / one - bend * one,
+        bend=bend,
+    )
+
+
+def meet(response: Response, values: Mapping[str, float], rate: float) -> Response:
+    """Model shifted so that it has a solved value of ln mu at one place."""
+    at = {name: np.array([one]) for name, one in values.items()}
+    return replace(response, shift=response.shift + rate - float(response.find(at)[0]))

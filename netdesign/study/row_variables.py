@@ -1,0 +1,232 @@
+"""Random variables of a row's governing check: typed, assumed, or of a range.
+
+Theory: reliability/THEORY.md, section 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from netdesign.envelope.parameters import PARAMETERS
+from netdesign.outcome import ModelError
+from netdesign.reliability.assumed import load_assumed
+from netdesign.reliability.limit_state import (
+    Variable,
+    build_annual_maximum,
+    build_by_share,
+    read_kind,
+)
+from netdesign.site.model import NetRow, Site, UncertainQuantity
+from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
+from netdesign.study.check_by_case import CheckByCase
+from netdesign.study.records import CheckRecord
+from netdesign.words.message import Message, say
+
+HEIGHT, MODEL, RESISTANCE = "snow_height", "model", "resistance"
+_GLIDES = ("glide_factor", "slip_length")
+_WITHIN = 1.645  # place of the ends of a range: its middle nine tenths
+_CHARACTERISTIC = -1.645  # place of a characteristic resistance: the 5 % fractile
+_OF_GROUND = ("pull_out", "bearing", "sliding")  # modes of a resistance
+# Shares of the row's value between which a quantity is solved.
+_SHARES: Mapping[str, tuple[float, float]] = {
+    "thickness": (0.6, 2.0),
+    "glide_factor": (0.7, 1.8),
+    "slip_length": (0.4, 2.5),
+    "density": (0.75, 1.4),
+    "friction_angle": (0.6, 1.5),
+}
+_LEAST_GLIDE = 1.05
+_TOO_NEAR = 0.03  # to the row's value, in logarithms
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KnownVariable:
+    """A random variable, and where its distribution is from."""
+
+    variable: Variable
+    source: Message
+    is_assumed: bool
+
+    @property
+    def name(self) -> str:
+        """Key of the variable."""
+        return self.variable.name
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Source:
+    """Lines of sheet Uncertainty that hold for one net row."""
+
+    site: Site
+    row: NetRow
+
+    def find(self, name: str) -> UncertainQuantity | None:
+        return self.site.find_uncertain(self.row.id, name)
+
+
+def list_variables(
+    site: Site, check: CheckByCase, record: CheckRecord
+) -> tuple[KnownVariable, ...]:
+    """Random variables of a check; those of its case are in SI units.
+
+    Raises
+    ------
+    ModelError
+        If one has no distribution, neither typed nor assumed.
+    """
+    source, case = _Source(site=site, row=check.row), check.governing
+    found = [_find_height(source)]
+    for name, span in check.ranges.intervals:
+        if span.low < span.high:
+            found.append(_find_ranged(source, name, span.low, span.high))
+        elif name in _SHARES and case.values[name] > 0.0:
+            found.append(_find_single(source, name, case.values[name]))
+    if not set(_GLIDES) & set(check.ranges.axes):
+        found += _list_glide(source)
+    found.append(_find_single(source, MODEL, 1.0))
+    found.append(_find_resistance(source, record))
+    return tuple(found)
+
+
+def _list_glide(source: _Source) -> list[KnownVariable]:
+    """Glide of a row whose ground slides, by the quantity that was typed."""
+    row = source.row
+    if row.glide_factor is not None:
+        return [_find_single(source, "glide_factor", row.glide_factor)]
+    if row.ground.kind == "sliding":
+        return [_find_single(source, "slip_length", row.ground.slip_length)]
+    return []
+
+
+def _find_height(source: _Source) -> KnownVariable:
+    """Annual maximum of the vertical snow height, capped by the net."""
+    row, typed, assumed = source.row, source.find(HEIGHT), load_assumed()[HEIGHT]
+    variation = typed.variation if typed else assumed.variation
+    cosine = math.cos(row.slope_angle)
+    height, cap = row.snow_thickness / cosine, row.net_height / cosine
+    if typed and typed.mean_ratio is not None:
+        mean = typed.mean_ratio * height
+        variable = Variable(
+            name=HEIGHT,
+            kind=read_kind(typed.distribution or assumed.distribution),
+            mean=mean,
+            deviation=variation * mean,
+            cap=cap,
+        )
+    else:
+        period = (typed.period if typed else None) or assumed.period or math.nan
+        variable = build_annual_maximum(HEIGHT, height, period, variation, cap)
+    return _tell(variable, typed, assumed.told)
+
+
+def _tell(
+    variable: Variable, typed: UncertainQuantity | None, assumed: Message
+) -> KnownVariable:
+    return KnownVariable(
+        variable=variable,
+        source=say("source.typed", text=typed.source) if typed else assumed,
+        is_assumed=typed is None,
+    )
+
+
+def _find_single(source: _Source, name: str, value: float) -> KnownVariable:
+    """Variable whose mean is a single value of the workbook, or in a ratio to it."""
+    typed, assumed = source.find(name), load_assumed().get(name)
+    if typed is not None:
+        return _tell(_build(typed, name, value), typed, say("source.range"))
+    if assumed is None:
+        told = say("reliability.no_distribution", name=PARAMETERS[name].label)
+        raise ModelError(told)
+    variable = Variable(
+        name=name,
+        kind=assumed.distribution,
+        mean=value,
+        deviation=assumed.variation * value,
+    )
+    return _tell(variable, None, assumed.told)
+
+
+def _build(typed: UncertainQuantity, name: str, value: float) -> Variable:
+    """Variable of a line of the workbook, by the value that its ratio refers to."""
+    mean = value * (1.0 if typed.mean_ratio is None else typed.mean_ratio)
+    return Variable(
+        name=name,
+        kind=read_kind(typed.distribution or "lognormal"),
+        mean=mean,
+        deviation=typed.variation * mean,
+    )
+
+
+def _find_ranged(source: _Source, name: str, low: float, high: float) -> KnownVariable:
+    """Variable of a range of the workbook: its middle nine tenths, if nobody says."""
+    typed, middle = source.find(name), 0.5 * (low + high)
+    if typed is not None:
+        variable = _build(typed, name, middle)
+    elif low > 0.0 and name != "inclination":
+        spread = math.log(high / low) / (2.0 * _WITHIN)
+        variation = math.sqrt(math.expm1(spread**2))
+        variable = build_by_share(name, math.sqrt(low * high), 0.0, variation)
+    else:
+        deviation = (high - low) / (2.0 * _WITHIN)
+        variable = Variable(name=name, kind="normal", mean=middle, deviation=deviation)
+    return _tell(variable, typed, say("source.range"))
+
+
+def _find_resistance(source: _Source, check: CheckRecord) -> KnownVariable:
+    """Resistance over its characteristic value."""
+    typed = source.find(RESISTANCE)
+    assumed = load_assumed()["ground" if check.mode in _OF_GROUND else "steel"]
+    variation = typed.variation if typed else assumed.variation
+    ratio, tests, least = assumed.mean_ratio, check.tests, check.read("R_k")
+    if typed is not None and typed.mean_ratio is not None:
+        ratio = typed.mean_ratio
+    elif tests is not None and least and tests.mean_kN > least:
+        # the mean of so few tests is not known exactly
+        ratio = tests.mean_kN / least
+        variation *= math.sqrt(1.0 + 1.0 / tests.count)
+    if ratio is None:
+        variable = build_by_share(RESISTANCE, 1.0, _CHARACTERISTIC, variation)
+    else:
+        variable = Variable(
+            name=RESISTANCE,
+            kind=read_kind((typed.distribution if typed else "") or "lognormal"),
+            mean=ratio,
+            deviation=variation * ratio,
+        )
+    return _tell(variable, typed, assumed.told)
+
+
+def list_lines(
+    check: CheckByCase, known: tuple[KnownVariable, ...]
+) -> dict[str, tuple[float, float, float]]:
+    """Value of the row and two beside it, of what is solved along a line [SI].
+
+    That is every variable but those over which the search went.
+    """
+    row = check.row
+    names = {"thickness" if one.name == HEIGHT else one.name for one in known}
+    values = {"thickness": row.snow_thickness, "slip_length": row.ground.slip_length}
+    values |= check.governing.values
+    if row.glide_factor is not None:
+        values["glide_factor"] = row.glide_factor
+    ends = {"thickness": (0.0, row.net_height)}
+    ends["glide_factor"] = (_LEAST_GLIDE, LARGEST_GLIDE_FACTOR)
+    return {
+        name: _choose_values(values[name], shares, ends.get(name, (0.0, math.inf)))
+        for name, shares in _SHARES.items()
+        if name in names and name not in check.ranges.axes
+    }
+
+
+def _choose_values(
+    value: float, shares: tuple[float, float], ends: tuple[float, float]
+) -> tuple[float, float, float]:
+    """Value and two others within the ends; both on one side if it is at an end."""
+    low, high = max(shares[0] * value, ends[0]), min(shares[1] * value, ends[1])
+    if math.log(high / value) < _TOO_NEAR:
+        high = math.sqrt(low * value)
+    elif math.log(value / low) < _TOO_NEAR:
+        low = math.sqrt(high * value)
+    return value, low, high

@@ -1,0 +1,61 @@
+"""Sheet Uncertainty: lines of quantities, for a net row or all; every fault."""
+
+import pytest
+
+from netdesign.outcome import SiteDataError
+from netdesign.site.reader import read_site
+from tests.each import each
+
+HEADINGS = [
+    *("net row", "variable", "distribution", "coefficient of variation"),
+    *("mean over typed value", "return period", "source"),
+]
+HEIGHT = [None, "snow height", None, 0.27, None, 80, "station 1964-2019"]
+MODEL = ["R1", "model factor", "lognormal", 0.17, 1.08, None, "fit of 2026"]
+
+
+def with_lines(sheets, *lines):
+    sheets["Uncertainty"] = [HEADINGS, *map(list, lines)]
+    return sheets
+
+
+def test_without_the_sheet_nothing_is_known(sheets, save):
+    assert read_site(save(sheets)).uncertain == ()
+
+
+def test_a_line_holds_for_its_row_before_that_of_all(sheets, save):
+    of_all = [None, "model factor", None, 0.23, None, None, "judgement"]
+    site = read_site(save(with_lines(sheets, HEIGHT, of_all, MODEL)))
+    first, second = (one.id for one in site.rows)
+    height = site.find_uncertain(second, "snow_height")
+    assert (height.variation, height.period) == (0.27, 80.0)
+    assert (height.distribution, height.mean_ratio) == ("", None)
+    assert height.source == "station 1964-2019"
+    own, general = (site.find_uncertain(one, "model") for one in (first, second))
+    assert (own.variation, own.mean_ratio) == (0.17, 1.08)
+    assert own.distribution == "lognormal"
+    assert general.variation == 0.23
+    assert site.find_uncertain(first, "density") is None
+
+
+def test_german_words_are_read(sheets, save):
+    line = [None, "Schneehöhe", "Gumbel", 0.31, None, 100, "Messreihe"]
+    (found,) = read_site(save(with_lines(sheets, line))).uncertain
+    assert (found.name, found.distribution) == ("snow_height", "gumbel")
+
+
+@each(
+    "lines, cell",
+    [
+        ([["R9", *MODEL[1:]]], "A2"),
+        ([MODEL, MODEL], "B3"),
+        ([[*MODEL[:3], 17, *MODEL[4:]]], "D2"),
+        ([[*MODEL[:6], None]], "G2"),
+        ([[None, "weather", *MODEL[2:]]], "B2"),
+    ],
+)
+def test_faults_are_refused_at_their_cells(sheets, save, lines, cell):
+    with pytest.raises(SiteDataError) as caught:
+        read_site(save(with_lines(sheets, *lines)))
+    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
+    assert (finding.sheet, finding.cell) == ("Uncertainty", cell)
