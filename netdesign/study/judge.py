@@ -219,7 +219,7 @@ def _find_reliability(
     worst = find_worst(found.records)
     by_case = found.by_case.get(worst.id) if worst else None
     solver = CaseSolver(run.settings, run.creep_law)
-    return record_reliability(task.basis.site, worst, by_case, solver)
+    return record_reliability(task.basis.site, found.records, worst, by_case, solver)
 
 
 def _check_row(

@@ -16,7 +16,7 @@ import numpy as np
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Fault, ModelError, catch_fault
+from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
 from netdesign.reliability.form import (
     DesignPoint,
     NotAvailable,
@@ -50,6 +50,7 @@ from netdesign.study.row_variables import (
     list_variables,
 )
 from netdesign.words.message import Message, say
+from netdesign.words.names import name_check
 
 MOST_ROUNDS = 3  # in which the design point is solved again
 LARGEST_MISS = 0.1  # of ln mu at the last one
@@ -59,16 +60,21 @@ _HEIGHTS = ("thickness", "snow_height")
 
 def record_reliability(
     site: Site,
+    checks: Sequence[CheckRecord],
     check: CheckRecord | None,
     by_case: CheckByCase | None,
     solver: CaseSolver,
 ) -> ReliabilityRecord:
     """Reliability of a row's governing check, or the reason why there is none.
 
+    There is none of a row with a check that has no numbers: it may be the weakest.
+
     Parameters
     ----------
     site : Site
         What is known of the variables.
+    checks : sequence of CheckRecord
+        All of the row.
     check : CheckRecord or None
         The governing check.
     by_case : CheckByCase or None
@@ -76,7 +82,7 @@ def record_reliability(
     solver : CaseSolver
         One of its own: what fails here is no fault of the checks.
     """
-    reason = _find_lack(check, by_case)
+    reason = _find_open(checks) or _find_lack(check, by_case)
     if check is None or by_case is None or reason is not None:
         return ReliabilityRecord(check=check.id if check else "", reason=reason)
     analysis = partial(_analyse, site, check, by_case, solver)
@@ -88,6 +94,16 @@ def record_reliability(
         told = say("reliability.fault", kind=found.kind)
         found = ReliabilityRecord(check=check.id, reason=told)
     return replace(found, solves=solver.count)
+
+
+def _find_open(checks: Sequence[CheckRecord]) -> Message | None:
+    """First check that is not proven by its numbers, nor fails by them."""
+    for one in checks:
+        is_met = one.verdict is Verdict.PASS
+        if not is_met and (one.verdict is not Verdict.FAIL or one.utilisation is None):
+            named = name_check(one.member, one.mode, one.position)
+            return say("reliability.open_check", check=named)
+    return None
 
 
 def _find_lack(

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
+from netdesign.outcome import Verdict
 from netdesign.reliability.form import follow_design_point
 from netdesign.site.model import UncertainQuantity
 from netdesign.site.reader import read_site
@@ -17,6 +18,7 @@ from netdesign.study.judge import find_worst, judge_site
 from netdesign.study.record_envelope import read_point
 from netdesign.study.rejudge.study import rejudge
 from netdesign.study.response import Line
+from netdesign.study.row_reliability import record_reliability
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import name_rows
 from tests.each import each
@@ -64,6 +66,20 @@ def test_everything_else_is_the_same_without_it(judge, study):
     without = [replace(row, reliability=None) for row in study.rows]
     assert without == list(bare.rows)
     assert study.verdict is bare.verdict
+
+
+@pytest.mark.parametrize("verdict", [Verdict.NOT_PROVEN, Verdict.DECLARED])
+def test_a_row_with_an_open_check_has_none_however_safe_the_others_are(study, verdict):
+    row = study.rows[0]
+    for number in range(0, len(row.checks), 7):
+        checks = list(row.checks)
+        checks[number] = replace(checks[number], verdict=verdict)
+        found = record_reliability(None, checks, find_worst(checks), None, None)
+        assert found.reason.key == "reliability.open_check"
+        assert found.beta is None
+    failing = replace(row.checks[3], verdict=Verdict.FAIL, utilisation=None)
+    found = record_reliability(None, [*row.checks, failing], None, None, None)
+    assert found.reason.key == "reliability.open_check"
 
 
 def test_it_is_of_the_governing_check_and_has_a_number(study):
