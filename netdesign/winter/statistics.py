@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Mask
+from netdesign.numerics.arrays import Floats
 
 LEAST_WINTERS = 15  # fewer tell no return value
 RETURN_PERIODS = (30.0, 100.0)  # [a]
