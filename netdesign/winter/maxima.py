@@ -346,7 +346,7 @@ def find_equivalent(
 def _judge(
     winter: str, days: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
 ) -> AnnualMaximum:
-    """How a winter ends, with its bound where a day that may govern has no force."""
+    """Ending of a winter, with its bound where a day that may govern has no force."""
     best = find_largest(solved)
     if any(day.ending == "overtopped" for day in days):
         return AnnualMaximum(winter=winter, ending="overtopped")

@@ -116,9 +116,9 @@ class LimitedGumbel:
     count, below : int
         Number of winters, and of those below the limit.
     limit : float
-        In the unit of the maxima, as all that follows.
+        In the unit of the maxima.
     location, scale : float
-        By maximum likelihood.
+        By maximum likelihood, in the unit of the maxima.
     locations, scales : ndarray, shape (n_samples,)
         Of samples that are drawn with both and have the same limit.
     """
@@ -187,7 +187,7 @@ def fit_limited(maxima: Sequence[float], limit: float) -> LimitedGumbel | None:
     Parameters
     ----------
     maxima : sequence of float
-        One of each winter; what lies below the limit may be any number below it.
+        One of each winter, in any unit; those below the limit may be any number below.
     limit : float
         In the unit of the maxima.
 
