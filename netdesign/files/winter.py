@@ -301,6 +301,7 @@ def _write_maximum(
     return {
         "outcome": maximum.ending.replace(" ", "_"),
         "uniform_peak_kN_per_m": _in_kilonewton(maximum.foot),
+        "uniform_at_most_kN_per_m": _in_kilonewton(maximum.bound),
         "date": day.isoformat() if day else None,
         "density_kg_m3": maximum.density,
         "uniform_equivalent_density_kg_m3": maximum.equivalent_density,

@@ -232,9 +232,9 @@ def _show_peaks(winter: Mapping[str, Any], words: Words) -> list[Cell]:
 
 def _show_uniform(winter: Mapping[str, Any], words: Words) -> Cell:
     """Annual maximum of uniform snow, or what it is at most."""
-    bound = winter["uniform_at_most_kN_per_m"]
+    bound = winter.get("uniform_at_most_kN_per_m")
     if bound is None:
-        return fixed_cell(words, winter["uniform_peak_kN_per_m"], 1)
+        return fixed_cell(words, winter.get("uniform_peak_kN_per_m"), 1)
     return text_cell(words("winter_page.at_most", bound=bound))
 
 
@@ -275,10 +275,7 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
         rows.append(
             (
                 _unbroken(one["name"]),
-                *(
-                    fixed_cell(words, part.get("uniform_peak_kN_per_m"), 1)
-                    for part in every
-                ),
+                *(_show_uniform(part, words) for part in every),
                 *(
                     fixed_cell(words, part.get("uniform_equivalent_density_kg_m3"), 0)
                     for part in every
@@ -307,10 +304,10 @@ def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
     keys = ("period", "return_value", "interval", "error", "gev", "interval")
     headings = [words(f"winter_column.{key}") for key in keys]
     is_limited = statistics["limit_kN_per_m"] is not None
-    caption = "limited_caption" if is_limited else "statistics_caption"
+    moments, limited = "winter_page.statistics_caption", "winter_page.limited_caption"
     return Table(
         caption=words(
-            f"winter_page.{caption}",
+            limited if is_limited else moments,
             count=statistics["winters"],
             mean=statistics["mean_kN_per_m"],
             variation=statistics["variation"],
