@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-from scipy.stats import gumbel_r
+from scipy.stats import genextreme, gumbel_r
 
 from netdesign.winter import statistics
 from netdesign.winter.statistics import LEAST_ABOVE, fit_limited
@@ -122,3 +122,18 @@ def test_upper_ends_hold_in_nineteen_of_twenty_samples(winters, monkeypatch):
         values, errors = np.array([one.find_return_value(period) for one in fits]).T
         assert values.mean() == pytest.approx(truth, rel=0.025)
         assert errors.mean() == pytest.approx(values.std(), rel=0.08)
+
+
+@pytest.mark.long
+@each("shape, low, held", [(0.1, -0.079, 0.83), (0.2, -0.159, 0.56)])
+def test_a_heavier_tail_makes_the_value_too_low(shape, low, held, monkeypatch):
+    """By as much as winter/THEORY.md says."""
+    monkeypatch.setattr(statistics, "_BOOTSTRAP", 200)
+    tail = genextreme(-shape, MODE, SCALE)
+    samples = tail.rvs(size=(1000, 40), random_state=5)
+    fits = [fit_limited(list(one), float(tail.ppf(0.3))) for one in samples]
+    truth = tail.ppf(0.99)
+    values = [one.find_return_value(100.0)[0] for one in fits if one]
+    highs = np.array([one.find_interval(100.0)[1] for one in fits if one])
+    assert np.mean(values) / truth - 1.0 == pytest.approx(low, abs=0.015)
+    assert np.mean(highs >= truth) == pytest.approx(held, abs=0.04)
