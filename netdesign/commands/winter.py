@@ -63,7 +63,8 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     Daily snow heights become layers, each day's snow is solved at rest: forces against
     date, the governing day, annual maxima of many winters, and a range of density that
     sheet Ranges may use. With measured forces --fit narrows the force to
-    design for. Exit code 4 if a winter has no proven maximum, or a fit is refused.
+    design for. Exit code 4 if a winter may be the largest and has no proven maximum,
+    or a fit is refused.
     """
     from netdesign.files.winter import write_winter_document
     from netdesign.report.page.winter_page import (
@@ -105,10 +106,10 @@ def _refuse_idle(site_file: Path | None, asked: Mapping[str, Any]) -> None:
 
 
 def _is_proven(document: dict[str, Any]) -> bool:
-    """Every winter has a proven maximum, and no fit is refused."""
+    """Every winter has a proven maximum or is not the largest; no fit is refused."""
     rows = document["rows"]
     return all(
-        all(one["is_proven"] for one in row["winters"])
+        all(one["is_proven"] or one["is_below_largest"] for one in row["winters"])
         and (row["fit"] is None or row["fit"]["outcome"] == "fitted")
         for row in rows
     )
@@ -195,17 +196,7 @@ def _solve(
 def _show(document: dict[str, Any]) -> None:
     for row in document["rows"]:
         for one in row["winters"]:
-            tell(
-                say(
-                    "winter.line",
-                    row=row["id"],
-                    winter=one["name"],
-                    foot=one["foot_peak_kN_per_m"],
-                    head=one["head_peak_kN_per_m"] or 0.0,
-                    day=one["governing_date"] or "-",
-                    why=one["why"],
-                )
-            )
+            tell(_tell_winter(row["id"], one))
             if one["days_without_force"]:
                 tell(_count_failed(row["id"], one))
         if row["equivalent_density"]:
@@ -214,6 +205,21 @@ def _show(document: dict[str, Any]) -> None:
             tell(told)
         if row["fit"]:
             print_fit(row["id"], row["fit"])
+
+
+def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
+    """Line on the pulls of a winter, or on their bound."""
+    if winter["uniform_at_most_kN_per_m"] is not None:
+        return say("show.label", label=f"{row} {winter['name']}", text=winter["why"])
+    return say(
+        "winter.line",
+        row=row,
+        winter=winter["name"],
+        foot=winter["foot_peak_kN_per_m"],
+        head=winter["head_peak_kN_per_m"] or 0.0,
+        day=winter["governing_date"] or "-",
+        why=winter["why"],
+    )
 
 
 def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
@@ -229,7 +235,8 @@ def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
             high=one["high_kN_per_m"],
             count=found["winters"],
         )
-    yield say("show.label", label=row["id"], text=row["trend"]["why"])
+    for text in (*row["statistics_notes"], row["trend"]["why"]):
+        yield say("show.label", label=row["id"], text=text)
 
 
 def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,12 +22,14 @@ from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.fit import SeasonFit
 from netdesign.winter.maxima import AnnualMaximum
 from netdesign.winter.measured import Comparison, ComputedForce
+from netdesign.winter.sample import Sample
 from netdesign.winter.season import RowWinters, Season, StationPacks, list_complete
 from netdesign.winter.statistics import (
     LEAST_FOR_TREND,
     RETURN_PERIODS,
     ExtremeValue,
     Gumbel,
+    LimitedGumbel,
     Trend,
 )
 from netdesign.words.catalogue import Language, render
@@ -200,11 +202,13 @@ def _write_row(
     packs = run.packs.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
+    largest = max((one.foot for one in result.maxima if one.is_proven), default=0.0)
     fitted = run.fits.get(row.id)
     winters = [
         _write_winter(maximum, packs[maximum.winter], seasons.get(maximum.winter), run)
         | {
             "complete": maximum.winter in complete,
+            "is_below_largest": (maximum.bound or math.inf) <= largest,
             "models": {
                 name: _write_maximum(group, maximum.winter, run)
                 for name, group in result.others.items()
@@ -212,8 +216,8 @@ def _write_row(
         }
         for maximum in result.maxima
     ]
-    for winter in winters:
-        winter["why"] = render(_explain(winter), language)
+    for winter, maximum in zip(winters, result.maxima, strict=True):
+        winter["why"] = render(_explain(winter, maximum), language)
         for day in winter["curve"]:
             reason = day["reason"]
             day["reason"] = render(reason, language) if reason else ""
@@ -228,7 +232,11 @@ def _write_row(
         "ground": scene.ground.kind,
         "slip_length_m": scene.ground.slip_length,
         "winters": winters,
-        "statistics": _write_statistics(result.statistics, result.extreme_values),
+        "statistics": _write_statistics(result.sample.fit, result.extreme_values),
+        "statistics_notes": [
+            render(one, language) for one in _note_sample(result.sample)
+        ],
+        "winters_left_out": result.sample.left_out,
         "trend": _write_trend(result.trend, language),
         "equivalent_density": _write_range(result, run, language),
         "fit": write_fit(fitted, run.winter.series, language) if fitted else None,
@@ -266,6 +274,7 @@ def _write_winter(
         "head_peak_kN_per_m": _in_kilonewton(head),
         "members_peak_kN": _largest_members(season) if season else {},
         "uniform_peak_kN_per_m": _in_kilonewton(maximum.foot),
+        "uniform_at_most_kN_per_m": _in_kilonewton(maximum.bound),
         "foot_at_height_max_kN_per_m": _in_kilonewton(season.highest.pull)
         if season
         else None,
@@ -292,6 +301,7 @@ def _write_maximum(
     return {
         "outcome": maximum.ending.replace(" ", "_"),
         "uniform_peak_kN_per_m": _in_kilonewton(maximum.foot),
+        "uniform_at_most_kN_per_m": _in_kilonewton(maximum.bound),
         "date": day.isoformat() if day else None,
         "density_kg_m3": maximum.density,
         "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
@@ -347,13 +357,16 @@ def _largest_members(season: Season) -> dict[str, float]:
 
 
 def _write_statistics(
-    fit: Gumbel | None, other: ExtremeValue | None
+    fit: Gumbel | LimitedGumbel | None, other: ExtremeValue | None
 ) -> dict[str, Any] | None:
     if fit is None:
         return None
+    limit = fit.limit if isinstance(fit, LimitedGumbel) else None
     return {
-        "distribution": "Gumbel, by moments",
+        "distribution": _LIMITED if limit else "Gumbel, by moments",
         "winters": fit.count,
+        "winters_below": fit.below if isinstance(fit, LimitedGumbel) else 0,
+        "limit_kN_per_m": _in_kilonewton(limit),
         "mean_kN_per_m": kilonewton_from_newton(fit.mean),
         "variation": fit.variation,
         "gev_shape": other.shape if other else None,
@@ -361,8 +374,28 @@ def _write_statistics(
     }
 
 
+_LIMITED = "Gumbel, by maximum likelihood above a limit"
+
+
+def _note_sample(sample: Sample) -> Iterator[Message]:
+    """Sentences on winters that count by a bound, or not at all."""
+    if sample.lack:
+        yield sample.lack
+        return
+    if isinstance(sample.fit, LimitedGumbel):
+        yield say(
+            "winter_sample.limited",
+            bounded=len(sample.bounds),
+            count=sample.fit.count,
+            below=sample.fit.below,
+            limit=kilonewton_from_newton(sample.fit.limit),
+        )
+    if sample.left_out:
+        yield say("winter_sample.left_out", winters=tuple(sample.left_out))
+
+
 def _write_value(
-    period: float, fit: Gumbel, other: ExtremeValue | None
+    period: float, fit: Gumbel | LimitedGumbel, other: ExtremeValue | None
 ) -> dict[str, Any]:
     """Return value by both distributions, with the ends of 5 and 95 %."""
     value, error = fit.find_return_value(period)
@@ -439,12 +472,15 @@ def _name_source(run: WinterRun) -> str:
     return ", ".join(named) or run.site.file_name
 
 
-def _explain(winter: Mapping[str, Any]) -> Message:
+def _explain(winter: Mapping[str, Any], maximum: AnnualMaximum) -> Message:
     """Reason why that day governs, or why no maximum is proven."""
-    if winter["outcome"] == "overtopped":
+    if maximum.ending == "overtopped":
         return say("winter.why_overtopped")
-    if winter["outcome"] == "doubtful":
-        return say("winter.why_doubtful")
+    if maximum.ending == "doubtful":
+        reason, bound = maximum.reason or "-", winter["uniform_at_most_kN_per_m"]
+        if bound is None:
+            return say("winter.why_doubtful", reason=reason)
+        return say("winter.why_bounded", reason=reason, bound=bound)
     if winter["governing_date"] is None:
         return say("winter.why_no_snow")
     share = winter["governing_height_m"] / winter["height_max_m"]

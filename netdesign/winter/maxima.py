@@ -16,7 +16,8 @@ from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import require_positive
 from netdesign.snow.snowpack import GRAVITY
 from netdesign.snowpack.pack import DayPack
-from netdesign.winter.day import DaySolver, RowDay
+from netdesign.winter.day import LEAST_DENSITY, DaySolver, RowDay
+from netdesign.words.message import Message
 
 _THICKNESSES, _DENSITIES = 9, 7  # of a table
 _DEGREE = 2  # of its splines
@@ -169,6 +170,10 @@ class AnnualMaximum:
         Pulls of that day [N/m].
     equivalent_density : float or None
         Of uniform snow of the winter's largest height that pulls as much [kg/m3].
+    bound : float or None
+        The foot pulls at most that in a ``doubtful`` winter [N/m]; None without one.
+    reason : Message or None
+        Why a day of a ``doubtful`` winter has no force.
     """
 
     winter: str
@@ -179,6 +184,8 @@ class AnnualMaximum:
     foot: float = 0.0
     head: float = 0.0
     equivalent_density: float | None = None
+    bound: float | None = None
+    reason: Message | None = None
 
     @property
     def is_proven(self) -> bool:
@@ -203,12 +210,11 @@ def find_annual_maximum(
     days = solver.prepare(packs, layered=False)
     solved = solver.solve(choose_days(days, solver))
     best = find_largest(solved)
-    ending = _judge(days, solved, best, solver)
+    known = _judge(winter, days, solved, solver)
     if best is None or best.foot is None or best.head is None:
-        return AnnualMaximum(winter=winter, ending=ending), solved
-    maximum = AnnualMaximum(
-        winter=winter,
-        ending=ending,
+        return known, solved
+    maximum = replace(
+        known,
         index=best.index,
         thickness=best.thickness,
         density=best.density,
@@ -338,18 +344,90 @@ def find_equivalent(
 
 
 def _judge(
-    days: Sequence[RowDay],
-    solved: Sequence[RowDay],
-    best: RowDay | None,
-    solver: DaySolver,
-) -> MaximumEnding:
+    winter: str, days: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
+) -> AnnualMaximum:
+    """Ending of a winter, with its bound where a day that may govern has no force."""
+    best = find_largest(solved)
     if any(day.ending == "overtopped" for day in days):
-        return "overtopped"
+        return AnnualMaximum(winter=winter, ending="overtopped")
+    doubted = _list_doubted(solved, best, solver)
+    if not doubted:
+        return AnnualMaximum(winter=winter, ending="solved" if best else "no snow")
+    bound = find_bound(doubted, solved, solver)
+    largest = best.foot.high if best and best.foot else 0.0
+    if bound is not None and bound <= largest:
+        return AnnualMaximum(winter=winter, ending="solved")
+    return AnnualMaximum(
+        winter=winter, ending="doubtful", bound=bound, reason=doubted[0].reason
+    )
+
+
+def _list_doubted(
+    solved: Sequence[RowDay], best: RowDay | None, solver: DaySolver
+) -> list[RowDay]:
+    """Failed days that may govern, those that may pull most first."""
     failed = [day for day in solved if day.ending == "failed"]
-    if best is None:
-        return "doubtful" if failed else "no snow"
-    ranks = rank_days([best, *failed], solver.row.scene.ground.kind)
-    return "doubtful" if (ranks[1:] > DOUBTED * ranks[0]).any() else "solved"
+    every = [best, *failed] if best else failed
+    ranks = rank_days(every, solver.row.scene.ground.kind)
+    least = DOUBTED * float(ranks[0]) if best else 0.0
+    order = np.argsort(-ranks, kind="stable")
+    return [every[k] for k in order if every[k] is not best and ranks[k] > least]
+
+
+_THICKER = 1.1  # from one snow to the next that is tried for a bound
+
+
+def find_bound(
+    failed: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
+) -> float | None:
+    """Upper bound of the pulls of failed days [N/m], eq. (Y26).
+
+    Parameters
+    ----------
+    failed : sequence of RowDay
+        At least one.
+    solved : sequence of RowDay
+        Uniform snow of the same row; those that failed do not count.
+    solver : DaySolver
+        Of the row.
+
+    Returns
+    -------
+    float or None
+        None where no thicker snow of a day's density has a force, up to the head.
+    """
+    known = [day for day in solved if day.foot]
+    bound = 0.0
+    for day in sorted(failed, key=lambda one: -one.density):
+        above = [one.foot.high for one in known if one.foot and _covers(one, day)]
+        if not above:
+            thicker = _solve_thicker(day, solver)
+            if thicker is None or thicker.foot is None:
+                return None
+            known.append(thicker)
+            above = [thicker.foot.high]
+        bound = max(bound, min(above))
+    return bound
+
+
+def _covers(one: RowDay, other: RowDay) -> bool:
+    """The snow is neither thinner nor lighter than the other."""
+    return one.thickness >= other.thickness and one.density >= other.density
+
+
+def _solve_thicker(day: RowDay, solver: DaySolver) -> RowDay | None:
+    """Least thick snow of a day's density that has a force; None without any."""
+    top = solver.row.scene.net.height_normal
+    steps = math.ceil(math.log(top / day.thickness) / math.log(_THICKER))
+    density = max(day.density, LEAST_DENSITY)
+    for thickness in np.geomspace(day.thickness, top, max(steps, 1) + 1)[1:]:
+        snow = replace(
+            day, thickness=float(thickness), density=density, layers=(), ending="open"
+        )
+        (found,) = solver.solve([snow])
+        if found.foot:
+            return found
+    return None
 
 
 def _build_table(

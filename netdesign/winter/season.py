@@ -23,13 +23,12 @@ from netdesign.winter.maxima import (
     find_largest,
     find_many_maxima,
 )
+from netdesign.winter.sample import Sample, choose_sample
 from netdesign.winter.statistics import (
     ExtremeValue,
-    Gumbel,
     Trend,
     find_trend,
     fit_extreme_values,
-    fit_gumbel,
 )
 
 HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
@@ -240,13 +239,13 @@ class RowWinters:
         Winters with their layers: all of a few, else the largest.
     others : mapping of str to tuple of AnnualMaximum
         The same winters by the other settling models.
-    statistics : Gumbel or None
-        Of the complete winters with a proven maximum [N/m]; None of fewer than
-        ``gumbel.LEAST_WINTERS``, or where a complete winter proves none.
+    sample : Sample
+        Complete winters, with the distribution of their maxima.
     extreme_values : ExtremeValue or None
-        Of the same winters [N/m]; None where all maxima are the same, too.
+        Of the same winters [N/m]; None where one of them has no proven maximum, of
+        fewer than ``statistics.LEAST_WINTERS``, or where all maxima are the same.
     trend : Trend or None
-        Of the same winters [N/m]; None of fewer than ``trend.LEAST_FOR_TREND``.
+        Likewise; None of fewer than ``statistics.LEAST_FOR_TREND``.
     """
 
     row_id: str
@@ -254,7 +253,7 @@ class RowWinters:
     maxima: tuple[AnnualMaximum, ...]
     seasons: tuple[Season, ...]
     others: Mapping[str, tuple[AnnualMaximum, ...]]
-    statistics: Gumbel | None
+    sample: Sample
     extreme_values: ExtremeValue | None
     trend: Trend | None
 
@@ -360,17 +359,17 @@ def follow_winters(
     if not maxima:
         maxima = {one: _find_maxima(station.packs[one], solver) for one in rest}
         maxima[chosen] = tuple(season.maximum for season in seasons)
-    counted = _count(maxima[chosen], list_complete(station.series))
-    pulls = [one.foot for one in counted]
+    sample = choose_sample(maxima[chosen], list_complete(station.series))
+    pulls = [one.foot for one in sample.proven]
     return RowWinters(
         row_id=solver.row.id,
         model=chosen,
         maxima=maxima[chosen],
         seasons=seasons,
         others={one: maxima[one] for one in rest},
-        statistics=fit_gumbel(pulls),
+        sample=sample,
         extreme_values=fit_extreme_values(pulls),
-        trend=find_trend([int(one.winter[:4]) for one in counted], pulls),
+        trend=find_trend([int(one.winter[:4]) for one in sample.proven], pulls),
     )
 
 
@@ -380,11 +379,3 @@ def _find_maxima(
     return tuple(
         find_annual_maximum(name, one, solver)[0] for name, one in packs.items()
     )
-
-
-def _count(
-    maxima: Sequence[AnnualMaximum], complete: Sequence[str]
-) -> list[AnnualMaximum]:
-    """Maxima of the complete winters; none where one of these is not proven."""
-    counted = [one for one in maxima if one.winter in complete]
-    return counted if all(one.is_proven for one in counted) else []

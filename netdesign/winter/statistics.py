@@ -1,6 +1,6 @@
 """Return values of annual maxima, and their trend over the years.
 
-Theory: winter/THEORY.md, sections 4, 8 and 10.
+Theory: winter/THEORY.md, sections 4, 8, 10 and 11.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ RETURN_PERIODS = (30.0, 100.0)  # [a]
 CERTAINTY = 0.95  # of each end of a return value's interval
 _SAMPLES = 20_000  # by which the ends are found
 _SEED = 1958
+_EULER = float(np.euler_gamma)
 _FLAT = 1e-6  # a shape below it is Gumbel's [-]
 
 
@@ -56,8 +57,7 @@ class Gumbel:
         (float, float)
             Estimate and its standard error, in the unit of the maxima.
         """
-        reduced = -math.log(-math.log(1.0 - 1.0 / period))
-        factor = math.sqrt(6.0) / math.pi * (reduced - float(np.euler_gamma))
+        factor = math.sqrt(6.0) / math.pi * (_reduce_gumbel(period) - _EULER)
         spread = math.sqrt(1.0 + 1.1396 * factor + 1.1 * factor**2)
         error = self.deviation * spread / math.sqrt(self.count)
         return self.mean + factor * self.deviation, error
@@ -80,9 +80,8 @@ class Gumbel:
         tests/verification/test_return_values.py
         """
         means, deviations = _draw_moments(self.count)
-        truth = -math.log(-math.log(1.0 - 1.0 / period))
-        low, high = _find_ends((truth - means) / deviations)
-        return self.mean + low * self.deviation, self.mean + high * self.deviation
+        pivots = (_reduce_gumbel(period) - means) / deviations
+        return _find_ends(pivots, self.mean, self.deviation)
 
 
 @lru_cache(maxsize=4)
@@ -92,9 +91,156 @@ def _draw_moments(count: int) -> tuple[Floats, Floats]:
     return samples.mean(axis=1), samples.std(axis=1, ddof=1)
 
 
-def _find_ends(pivots: Floats) -> tuple[float, float]:
+def _find_ends(pivots: Floats, value: float, unit: float) -> tuple[float, float]:
+    """Ends of a value's interval: it moves and stretches with the pivots' quantiles."""
     low, high = np.quantile(pivots, (1.0 - CERTAINTY, CERTAINTY))
-    return float(low), float(high)
+    return value + float(low) * unit, value + float(high) * unit
+
+
+def _reduce_gumbel(period: float) -> float:
+    """Reduced value of Gumbel's distribution exceeded once in so many years."""
+    return -math.log(-math.log(1.0 - 1.0 / period))
+
+
+_BOOTSTRAP = 1000  # samples of a fit above a limit
+_HALVINGS = 45
+LEAST_ABOVE = 8  # maxima above the limit (assumed)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LimitedGumbel:
+    """Gumbel's distribution of maxima of which those below a limit are not known.
+
+    Attributes
+    ----------
+    count, below : int
+        Number of winters, and of those below the limit.
+    limit : float
+        In the unit of the maxima.
+    location, scale : float
+        By maximum likelihood, in the unit of the maxima.
+    locations, scales : ndarray, shape (n_samples,)
+        Of samples that are drawn with both and have the same limit.
+    """
+
+    count: int
+    below: int
+    limit: float
+    location: float
+    scale: float
+    locations: Floats
+    scales: Floats
+
+    @property
+    def mean(self) -> float:
+        """Mean, in the unit of the maxima."""
+        return self.location + _EULER * self.scale
+
+    @property
+    def variation(self) -> float:
+        """Coefficient of variation [-]."""
+        return math.pi / math.sqrt(6.0) * self.scale / self.mean
+
+    def find_return_value(self, period: float) -> tuple[float, float]:
+        """Value exceeded once in so many years, and its error by the samples.
+
+        Parameters
+        ----------
+        period : float
+            T [a], above 1.
+
+        Returns
+        -------
+        (float, float)
+            Estimate and its standard error, in the unit of the maxima.
+        """
+        reduced = _reduce_gumbel(period)
+        error = float(np.std(self.locations + reduced * self.scales))
+        return self.location + reduced * self.scale, error
+
+    def find_interval(self, period: float) -> tuple[float, float]:
+        """Ends below and above which the value lies in one of twenty, eq. (Y29).
+
+        Parameters
+        ----------
+        period : float
+            T [a], above 1.
+
+        Returns
+        -------
+        (float, float)
+            Lower and upper end, in the unit of the maxima.
+
+        Verified by
+        -----------
+        tests/verification/test_limited_gumbel.py
+        """
+        reduced = _reduce_gumbel(period)
+        value = self.location + reduced * self.scale
+        found = self.locations + reduced * self.scales
+        return _find_ends((value - found) / self.scales, value, self.scale)
+
+
+def fit_limited(maxima: Sequence[float], limit: float) -> LimitedGumbel | None:
+    """Gumbel's distribution of maxima that are known above a limit alone.
+
+    Parameters
+    ----------
+    maxima : sequence of float
+        One of each winter, in any unit; those below the limit may be any number below.
+    limit : float
+        In the unit of the maxima.
+
+    Returns
+    -------
+    LimitedGumbel or None
+        None of fewer than ``LEAST_WINTERS``, or of fewer than ``LEAST_ABOVE`` above
+        the limit.
+
+    Verified by
+    -----------
+    tests/verification/test_limited_gumbel.py
+    """
+    values = np.maximum(np.array(maxima, dtype=np.float64), limit)
+    above = int((values > limit).sum())
+    if values.size < LEAST_WINTERS or above < LEAST_ABOVE:
+        return None
+    fit = _fit_limited(values[None], limit)
+    location, scale = (float(one[0]) for one in fit)
+    rng = np.random.default_rng(_SEED)
+    drawn = rng.gumbel(location, scale, size=(_BOOTSTRAP, values.size))
+    locations, scales = _fit_limited(np.maximum(drawn, limit), limit)
+    return LimitedGumbel(
+        count=values.size,
+        below=values.size - above,
+        limit=limit,
+        location=location,
+        scale=scale,
+        locations=locations,
+        scales=scales,
+    )
+
+
+def _fit_limited(samples: Floats, limit: float) -> tuple[Floats, Floats]:
+    """Location and scale of samples, shape (m, n) -> (m,) each; by halving (Y27).
+
+    Samples with fewer than two values above the limit are left out.
+    """
+    is_known = samples > limit
+    number = is_known.sum(axis=1)
+    is_enough = number > 1
+    samples, number = samples[is_enough], number[is_enough]
+    mean = (samples * is_known[is_enough]).sum(axis=1) / number
+    least = samples.min(axis=1)
+    above = samples - least[:, None]
+    low, high = np.zeros_like(mean), mean - least
+    for _ in range(_HALVINGS):
+        scale = (low + high) / 2.0
+        weights = np.exp(-above / scale[:, None])
+        weighted = (above * weights).sum(axis=1) / weights.sum(axis=1)
+        is_large = scale + weighted > mean - least
+        low, high = np.where(is_large, low, scale), np.where(is_large, scale, high)
+    return least + scale * np.log(number / weights.sum(axis=1)), scale
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,9 +295,8 @@ class ExtremeValue:
         locations, scales, shapes = _draw_fits(self.count, round(self.shape, 6))
         found = locations + scales * _reduce(period, shapes)
         truth = _reduce(period, np.array(self.shape))
-        low, high = _find_ends((truth - found) / scales)
         value = self.find_return_value(period)
-        return value + low * self.scale, value + high * self.scale
+        return _find_ends((truth - found) / scales, value, self.scale)
 
 
 @lru_cache(maxsize=4)

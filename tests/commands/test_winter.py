@@ -71,7 +71,12 @@ def test_document_is_that_of_the_interface(call, site, heights):
 def test_terminal_has_each_return_value_with_its_ends_and_winters():
     fit = Gumbel(count=23, mean=17.3e3, deviation=5.2e3)
     statistics = _write_statistics(fit, None)
-    row = {"id": "R1", "statistics": statistics, "trend": {"why": "Flat."}}
+    row = {
+        "id": "R1",
+        "statistics": statistics,
+        "statistics_notes": ["Two are left out."],
+        "trend": {"why": "Flat."},
+    }
     told = [render(one, "en") for one in _list_statistics(row)]
     ends = [
         tuple(f"{one[f'{end}_kN_per_m']:.1f}" for end in ("foot", "low", "high"))
@@ -82,7 +87,7 @@ def test_terminal_has_each_return_value_with_its_ends_and_winters():
         f"R1: foot's pull once in {period} years {foot} kN/m, between {low} and {high}"
         " kN/m (5 and 95 %), from 23 winters"
         for period, (foot, low, high) in zip((30, 100), ends, strict=True)
-    ] + ["R1: Flat."]
+    ] + ["R1: Two are left out.", "R1: Flat."]
     alone = [render(one, "en") for one in _list_statistics(row | {"statistics": None})]
     assert alone == told[2:]
 

@@ -63,10 +63,12 @@ def test_winter_above_the_net_proves_no_maximum():
 
 
 def test_winter_without_a_solved_day_proves_no_maximum():
-    """New snow alone is lighter than the creep law allows."""
+    """New snow alone is lighter than the creep law allows; denser snow bounds it."""
     packs = follow([0.0, 0.9])
     maximum, _ = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
     assert (maximum.ending, maximum.foot) == ("doubtful", 0.0)
+    assert 100.0 < maximum.bound < 2000.0
+    assert maximum.reason
 
 
 def test_winter_of_thin_snow_pulls_nothing():

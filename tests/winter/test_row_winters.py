@@ -13,8 +13,9 @@ from netdesign.winter.season import (
     list_complete,
     split_packs,
 )
-from netdesign.winter.statistics import find_trend
-from tests.winter.made_up_row import a_formula_solver
+from netdesign.winter.statistics import find_trend, fit_limited
+from tests.winter.made_up_row import FormulaSolver, a_formula_solver
+from tests.winter.test_bounds import hide_thin
 
 
 def a_series(tops, first=date(1990, 9, 1)):
@@ -51,7 +52,7 @@ def test_few_winters_have_curves_and_no_return_values():
     found = follow_winters(station, a_formula_solver(), step=40)
     assert [season.name for season in found.seasons] == ["1990/1991", "1991/1992"]
     assert found.maxima == tuple(season.maximum for season in found.seasons)
-    assert (found.statistics, found.trend) == (None, None)
+    assert (found.sample.fit, found.trend) == (None, None)
     assert found.model == "hs2swe"
     assert [one.winter for one in found.others["delta-snow"]] == [
         "1990/1991",
@@ -65,14 +66,14 @@ def test_many_winters_have_return_values_and_curves_of_the_largest():
     tops = [1.0 + 0.07 * ((7 * k) % 16) for k in range(16)]
     station = follow_station(a_series(tops), [HS2SWE, MODELS["delta-snow"]])
     found = follow_winters(station, a_formula_solver(), step=60)
-    assert len(found.maxima) == found.statistics.count == 16
+    assert len(found.maxima) == found.sample.fit.count == 16
     largest = sorted(found.maxima, key=lambda one: -one.foot)[:3]
     assert {s.name for s in found.seasons} == {one.winter for one in largest}
     assert [one.winter for one in found.others["delta-snow"]] == [
         one.winter for one in found.maxima
     ]
     mean = sum(one.foot for one in found.maxima) / 16
-    assert found.statistics.mean == pytest.approx(mean, rel=1e-12)
+    assert found.sample.fit.mean == pytest.approx(mean, rel=1e-12)
     assert found.trend == find_trend(range(16), [one.foot for one in found.maxima])
     for season in found.seasons:
         (looked_up,) = [one for one in largest if one.winter == season.name]
@@ -85,4 +86,27 @@ def test_one_winter_above_the_net_and_there_are_no_return_values():
     station = follow_station(a_series(tops), [HS2SWE])
     found = follow_winters(station, a_formula_solver(), step=0)
     assert [one.winter for one in found.maxima if not one.is_proven] == ["1995/1996"]
-    assert (found.statistics, found.trend) == (None, None)
+    assert "1995/1996" in str(found.sample.lack)
+    assert (found.sample.fit, found.trend) == (None, None)
+
+
+def test_winters_of_thin_snow_without_a_force_leave_return_values():
+    """The same as if all that lies below the largest bound were unknown."""
+    tops = [0.5 + 0.13 * ((7 * k) % 20) for k in range(20)]
+    station = follow_station(a_series(tops), [HS2SWE])
+    whole = follow_winters(station, a_formula_solver(), step=0)
+    solver = hide_thin(FormulaSolver, a_formula_solver(), 0.9)
+    found = follow_winters(station, solver, step=0)
+    unproven = [one for one in found.maxima if not one.is_proven]
+    assert 4 <= len(unproven) == len(found.sample.bounds)
+    assert (found.trend, found.extreme_values) == (None, None)
+    assert whole.sample.lack is found.sample.lack is None
+    fit = found.sample.fit
+    assert fit.count == whole.sample.fit.count == 20
+    assert fit.limit == max(found.sample.bounds)
+    known = [one.foot for one in whole.maxima]
+    alike = fit_limited(known, fit.limit)
+    assert (fit.location, fit.scale) == pytest.approx((alike.location, alike.scale))
+    value, _ = whole.sample.fit.find_return_value(100.0)
+    low, high = fit.find_interval(100.0)
+    assert low < value < high

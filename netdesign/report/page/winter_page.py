@@ -124,11 +124,7 @@ def _show_row(
     if members.rows:
         yield members.shown("study winters")
     yield _tabulate_models(row, document["model"], words).shown("study winters")
-    statistics = _tabulate_statistics(row["statistics"], words)
-    without = Paragraph(text=words("winter_page.no_statistics"))
-    yield statistics.shown("study") if statistics else without
-    yield from _compare_tails(row["statistics"] or {"return_values": ()}, words)
-    yield _show_trend(row["trend"])
+    yield from _show_statistics(row, words)
     yield Heading(text=words("winter_page.density_heading"), level=3)
     for text in _describe_range(row, document, words):
         yield Paragraph(text=text)
@@ -155,10 +151,10 @@ def _label(winter: Mapping[str, Any], words: Words) -> str:
 
 
 def _list_unproven(row: Mapping[str, Any], words: Words) -> list[str]:
-    """Winters without a proven maximum, those of one reason together."""
+    """Winters that may have the largest force, those of one reason together."""
     found: dict[str, list[str]] = {}
     for winter in row["winters"]:
-        if not winter["is_proven"]:
+        if not (winter["is_proven"] or winter["is_below_largest"]):
             found.setdefault(show_text(winter["why"]), []).append(winter["name"])
     return [
         words("show.label", label=", ".join(names), text=why)
@@ -217,14 +213,13 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
             fixed_cell(words, one["height_max_m"], 2),
             _unbroken(one["height_max_date"]),
             fixed_cell(words, one["swe_max_kg_m2"], 0),
-            fixed_cell(words, one["foot_peak_kN_per_m"], 1),
-            fixed_cell(words, one["head_peak_kN_per_m"], 1),
+            *_show_peaks(one, words),
             _unbroken(one["governing_date"] or MISSING),
             fixed_cell(words, one["foot_at_height_max_kN_per_m"], 1),
-            fixed_cell(words, one["uniform_peak_kN_per_m"], 1),
+            _show_uniform(one, words),
             fixed_cell(words, one["equivalent_density_kg_m3"], 0),
             fixed_cell(words, one["days_above_90_percent"], 0),
-            text_cell(words(f"winter_outcome.{one['outcome']}")),
+            text_cell(words(f"winter_outcome.{_name_outcome(one)}")),
         )
         for one in row["winters"]
     )
@@ -233,6 +228,26 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
         columns=name_columns(headings, numbers=numbers),
         rows=rows,
     )
+
+
+def _show_peaks(winter: Mapping[str, Any], words: Words) -> list[Cell]:
+    """Foot and head; nothing where no day has a force, though snow pulls."""
+    peaks = [winter[f"{end}_peak_kN_per_m"] for end in ("foot", "head")]
+    is_known = winter["is_proven"] or winter["governing_date"]
+    return [fixed_cell(words, one if is_known else None, 1) for one in peaks]
+
+
+def _show_uniform(winter: Mapping[str, Any], words: Words) -> Cell:
+    """Annual maximum of uniform snow, or what it is at most."""
+    bound = winter.get("uniform_at_most_kN_per_m")
+    if bound is None:
+        return fixed_cell(words, winter.get("uniform_peak_kN_per_m"), 1)
+    return text_cell(words("winter_page.at_most", bound=bound))
+
+
+def _name_outcome(winter: Mapping[str, Any]) -> str:
+    is_bounded = winter["uniform_at_most_kN_per_m"] is not None
+    return "bounded" if is_bounded else str(winter["outcome"])
 
 
 def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
@@ -267,10 +282,7 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
         rows.append(
             (
                 _unbroken(one["name"]),
-                *(
-                    fixed_cell(words, part.get("uniform_peak_kN_per_m"), 1)
-                    for part in every
-                ),
+                *(_show_uniform(part, words) for part in every),
                 *(
                     fixed_cell(words, part.get("uniform_equivalent_density_kg_m3"), 0)
                     for part in every
@@ -284,16 +296,25 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
     )
 
 
-def _tabulate_statistics(
-    statistics: Mapping[str, Any] | None, words: Words
-) -> Table | None:
-    if statistics is None:
-        return None
+def _show_statistics(row: Mapping[str, Any], words: Words) -> Iterator[Block]:
+    """Return values, winters that count by a bound or not at all, trend."""
+    statistics = row["statistics"]
+    if statistics:
+        yield _tabulate_statistics(statistics, words).shown("study")
+    if told := [show_text(one) for one in row["statistics_notes"]]:
+        yield notes(*told, look="notes open")
+    yield from _compare_tails(statistics or {"return_values": ()}, words)
+    yield _show_trend(row["trend"])
+
+
+def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
     keys = ("period", "return_value", "interval", "error", "gev", "interval")
     headings = [words(f"winter_column.{key}") for key in keys]
+    is_limited = statistics["limit_kN_per_m"] is not None
+    moments, limited = "winter_page.statistics_caption", "winter_page.limited_caption"
     return Table(
         caption=words(
-            "winter_page.statistics_caption",
+            limited if is_limited else moments,
             count=statistics["winters"],
             mean=statistics["mean_kN_per_m"],
             variation=statistics["variation"],

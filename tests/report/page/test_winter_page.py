@@ -46,9 +46,14 @@ def test_a_day_without_a_reason_has_no_brackets():
 def test_winters_of_one_reason_stand_together():
     whys = {"2019/2020": "too high", "2020/2021": "a gap", "2021/2022": "too high"}
     winters = [
-        {"name": name, "why": why, "is_proven": False} for name, why in whys.items()
+        {"name": name, "why": why, "is_proven": False, "is_below_largest": False}
+        for name, why in whys.items()
     ]
-    winters.append({"name": "2022/2023", "why": "", "is_proven": True})
+    winters.append(
+        {"name": "2022/2023", "why": "", "is_proven": True, "is_below_largest": False}
+    )
+    below = {"name": "2023/2024", "why": "thin", "is_proven": False}
+    winters.append(below | {"is_below_largest": True})
     assert _list_unproven({"winters": winters}, Words("en")) == [
         "2019/2020, 2021/2022: too high",
         "2020/2021: a gap",

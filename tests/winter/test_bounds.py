@@ -1,0 +1,147 @@
+"""Upper bounds of winters whose thin snow has no force."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.snow.ground import GroundLaw
+from netdesign.snowpack.delta_snow import DELTA_SNOW
+from netdesign.snowpack.follow import follow_heights
+from netdesign.winter.day import DaySolver, RowDay
+from netdesign.winter.maxima import find_annual_maximum, find_bound
+from netdesign.words.message import say
+from tests.winter.made_up_row import SLOPE, FormulaSolver, a_solver, slides
+
+
+def draw_solver(rng, kind, accuracy=0.02):
+    height = rng.uniform(2.0, 4.5)
+    grounds = {
+        "no-slip": None,
+        "sliding": slides(rng.uniform(1.2, 3.2), height / math.cos(SLOPE)),
+        "free": GroundLaw(kind="free"),
+    }
+    return a_solver(
+        grounds[kind],
+        accuracy=accuracy,
+        slack=rng.uniform(0.0, 0.12),
+        net_height=height,
+        inclination_deg=rng.uniform(15.0, 40.0),
+    )
+
+
+def solve_snow(solver, thicknesses, densities):
+    days = [
+        RowDay(index=k, thickness=float(d), density=float(rho), ending="open")
+        for k, (d, rho) in enumerate(np.broadcast(thicknesses, densities))
+    ]
+    return [day.foot.value for day in solver.solve(days) if day.foot]
+
+
+def rises(solver, rng, number):
+    """Pulls of drawn snow that grows thicker, and of snow that grows denser, rise."""
+    top = solver.row.scene.net.height_normal
+    thick = np.geomspace(0.26, 0.999 * top, number)
+    dense = np.geomspace(105.0, 520.0, number)
+    each_way = (
+        solve_snow(solver, thick, rng.uniform(110.0, 480.0)),
+        solve_snow(solver, rng.uniform(0.2, 0.95) * top, dense),
+    )
+    return [bool(np.all(np.diff(pulls) > 0.0)) for pulls in each_way]
+
+
+@pytest.mark.parametrize("kind", ["no-slip", "sliding", "free"])
+def test_more_snow_never_pulls_less(kind):
+    rng = np.random.default_rng(1905)
+    found = [rises(draw_solver(rng, kind), rng, 8) for _ in range(4)]
+    assert np.all(found)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", ["no-slip", "sliding", "free"])
+def test_more_snow_never_pulls_less_on_sixty_scenes(kind):
+    rng = np.random.default_rng(2211)
+    found = [rises(draw_solver(rng, kind), rng, 14) for _ in range(20)]
+    assert np.all(found)
+
+
+def hide_thin(base, solver, least):
+    """The same solver, for which snow thinner than some thickness has no force."""
+
+    class Hiding(base):
+        def _run(self, days):
+            return [
+                replace(
+                    day,
+                    ending="failed",
+                    foot=None,
+                    head=None,
+                    reason=say("net.would_touch_ground"),
+                )
+                if day.thickness < least
+                else day
+                for day in super()._run(days)
+            ]
+
+    return Hiding(row=solver.row, settings=solver.settings)
+
+
+def draw_winter(rng):
+    """Heights [m] of some storms between which the snow settles and melts."""
+    height, heights = 0.0, [0.0]
+    for _ in range(90):
+        height = 0.985 * height + (rng.random() < 0.2) * rng.exponential(0.18)
+        heights.append(height)
+    scale = rng.uniform(0.5, 2.0) / max(heights)
+    return [scale * h for h in heights]
+
+
+def compare(base, solver, rng):
+    """Winter as it is and with its thin snow hidden: how it ends, both ways."""
+    packs = dict(enumerate(follow_heights(draw_winter(rng), DELTA_SNOW)))
+    truth, _ = find_annual_maximum("2001/2002", packs, solver)
+    hiding = hide_thin(base, solver, rng.uniform(0.3, 1.6))
+    found, _ = find_annual_maximum("2001/2002", packs, hiding)
+    if found.is_proven:
+        assert found.foot == pytest.approx(truth.foot)
+    else:
+        assert found.reason == say("net.would_touch_ground")
+        assert truth.foot <= found.bound
+    return found.ending
+
+
+def test_a_bound_is_never_below_the_maximum():
+    """150 drawn winters whose pulls follow a formula."""
+    rng = np.random.default_rng(61)
+    solver = FormulaSolver(row=a_solver().row, settings=a_solver().settings)
+    endings = [compare(FormulaSolver, solver, rng) for _ in range(150)]
+    assert endings.count("doubtful") > 30
+    assert endings.count("solved") > 30
+
+
+def test_a_bound_is_never_below_the_maximum_that_a_tauter_net_has():
+    """Solves of a net so taut that all its snow has a force."""
+    rng = np.random.default_rng(83)
+    solver = a_solver(accuracy=0.03, slack=0.0)
+    endings = {compare(DaySolver, solver, rng) for _ in range(4)}
+    assert "doubtful" in endings
+
+
+def test_snow_without_a_force_up_to_the_head_has_no_bound():
+    solver = hide_thin(FormulaSolver, a_solver(), 99.0)
+    day = RowDay(index=0, thickness=1.3, density=290.0, ending="failed")
+    assert find_bound([day], [], solver) is None
+
+
+def test_thicker_and_denser_snow_of_the_winter_needs_no_further_solve():
+    solver = hide_thin(FormulaSolver, a_solver(), 99.0)
+    formula = FormulaSolver(row=solver.row, settings=solver.settings)
+    sizes = [(1.5, 300.0), (1.9, 310.0), (1.2, 400.0)]
+    snow = [
+        RowDay(index=k, thickness=d, density=rho, ending="open")
+        for k, (d, rho) in enumerate(sizes)
+    ]
+    solved = formula.solve(snow)
+    day = RowDay(index=9, thickness=1.4, density=290.0, ending="failed")
+    assert find_bound([day], solved, solver) == solved[0].foot.high
