@@ -209,7 +209,8 @@ def _show(document: dict[str, Any]) -> None:
 
 def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
     """Line on the pulls of a winter, or on their bound."""
-    if winter["uniform_at_most_kN_per_m"] is not None:
+    has_none = winter["foot_peak_kN_per_m"] is None
+    if has_none or winter["uniform_at_most_kN_per_m"] is not None:
         return say("show.label", label=f"{row} {winter['name']}", text=winter["why"])
     return say(
         "winter.line",

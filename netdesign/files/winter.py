@@ -254,7 +254,9 @@ def _write_winter(
     heaviest = max(packs, key=lambda k: packs[k].mass)
     governing = season.governing if season else None
     index = governing.index if governing else maximum.index
-    head = _largest_head(season) if season else maximum.head
+    uniform = maximum.foot if maximum.has_pull else None
+    foot = governing.pull if governing else uniform
+    head = maximum.head if maximum.has_pull else None
     return {
         "name": maximum.winter,
         "outcome": maximum.ending.replace(" ", "_"),
@@ -268,12 +270,10 @@ def _write_winter(
         "governing_date": series.day(index).isoformat() if index is not None else None,
         "governing_height_m": packs[index].height if index is not None else None,
         "governing_density_kg_m3": packs[index].density if index is not None else None,
-        "foot_peak_kN_per_m": _in_kilonewton(
-            governing.pull if governing else maximum.foot
-        ),
-        "head_peak_kN_per_m": _in_kilonewton(head),
+        "foot_peak_kN_per_m": _in_kilonewton(foot),
+        "head_peak_kN_per_m": _in_kilonewton(_largest_head(season) if season else head),
         "members_peak_kN": _largest_members(season) if season else {},
-        "uniform_peak_kN_per_m": _in_kilonewton(maximum.foot),
+        "uniform_peak_kN_per_m": _in_kilonewton(uniform),
         "uniform_at_most_kN_per_m": _in_kilonewton(maximum.bound),
         "foot_at_height_max_kN_per_m": _in_kilonewton(season.highest.pull)
         if season
@@ -300,7 +300,9 @@ def _write_maximum(
     day = run.winter.series.day(maximum.index) if maximum.index is not None else None
     return {
         "outcome": maximum.ending.replace(" ", "_"),
-        "uniform_peak_kN_per_m": _in_kilonewton(maximum.foot),
+        "uniform_peak_kN_per_m": _in_kilonewton(
+            maximum.foot if maximum.has_pull else None
+        ),
         "uniform_at_most_kN_per_m": _in_kilonewton(maximum.bound),
         "date": day.isoformat() if day else None,
         "density_kg_m3": maximum.density,

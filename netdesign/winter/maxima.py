@@ -188,6 +188,11 @@ class AnnualMaximum:
     reason: Message | None = None
 
     @property
+    def has_pull(self) -> bool:
+        """Its pulls are those of a day, or 0 of a winter without snow."""
+        return self.index is not None or self.is_proven
+
+    @property
     def is_proven(self) -> bool:
         """The winter's maximum is known."""
         return self.ending in ("solved", "no snow")

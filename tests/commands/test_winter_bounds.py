@@ -53,6 +53,8 @@ def test_page_and_terminal_say_at_most(call, tmp_path, language):
     assert (large["uniform_at_most_kN_per_m"], thin["is_proven"]) == (None, False)
     assert 0.0 < bound < large["uniform_peak_kN_per_m"]
     assert thin["is_below_largest"]
+    none = ("foot_peak_kN_per_m", "head_peak_kN_per_m", "uniform_peak_kN_per_m")
+    assert [thin[one] is None for one in none] == [thin["governing_date"] is None] * 3
     assert ended.code == 0
     page = (folder / "winter.html").read_text(encoding="utf-8")
     shown = set_marks(f"{bound:.1f}", language)

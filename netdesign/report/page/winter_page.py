@@ -233,8 +233,7 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
 def _show_peaks(winter: Mapping[str, Any], words: Words) -> list[Cell]:
     """Foot and head; nothing where no day has a force, though snow pulls."""
     peaks = [winter[f"{end}_peak_kN_per_m"] for end in ("foot", "head")]
-    is_known = winter["is_proven"] or winter["governing_date"]
-    return [fixed_cell(words, one if is_known else None, 1) for one in peaks]
+    return [fixed_cell(words, one, 1) for one in peaks]
 
 
 def _show_uniform(winter: Mapping[str, Any], words: Words) -> Cell:
