@@ -119,8 +119,8 @@ def tabulate_indices(study: Study, words: Words) -> Table:
     rows = [_list_row(row, one, words) for row, one in list_records(study)]
     rows += [
         (
-            text_cell("JCSS"),
-            text_cell(words(f"consequences.{name}")),
+            text_cell(MISSING),
+            text_cell(f"JCSS, {words(f'consequences.{name}')}"),
             text_cell(words.show_fixed(index, 1)),
             *_NONE,
         )
