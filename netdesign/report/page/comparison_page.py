@@ -26,6 +26,7 @@ from netdesign.report.words import (
     Words,
     show_check,
     show_member,
+    show_own,
     show_text,
     show_verdict,
 )
@@ -194,7 +195,15 @@ def _find_verdict(checks: Sequence[CheckRecord]) -> str | None:
 
 
 def _build_values(studies: Sequence[Study], words: Words) -> Table:
-    """Values of the profiles by their names, where they are not all alike."""
+    """Values of the profiles, where they are not all alike.
+
+    Each is named as the first profile that has it does.
+    """
+    texts = {
+        one.id: show_own(words, one.text)
+        for study in reversed(studies)
+        for one in study.profile.values
+    }
     by_profile = [
         {
             one.id: words.show_quantity(one.value, one.unit)
@@ -204,7 +213,7 @@ def _build_values(studies: Sequence[Study], words: Words) -> Table:
     ]
     names = dict.fromkeys(name for values in by_profile for name in values)
     lines = [
-        (text_cell(name), *(text_cell(v.get(name, MISSING)) for v in by_profile))
+        (text_cell(texts[name]), *(text_cell(v.get(name, MISSING)) for v in by_profile))
         for name in names
         if len({values.get(name) for values in by_profile}) > 1
     ]
