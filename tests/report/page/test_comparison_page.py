@@ -7,8 +7,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.report.governing import find_governing
 from netdesign.report.page.comparison_page import render_comparison
-from netdesign.report.words import ENGLISH, show_own
-from netdesign.report.words import VERDICTS, Words
+from netdesign.report.words import ENGLISH, VERDICTS, Words, show_own
 from netdesign.site.model import ReplacedCell
 from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
