@@ -229,6 +229,7 @@ def show_schedule(study: Study, words: Words) -> Part:
         words("heading.schedule"),
         build_schedule(study, words).shown("schedule"),
         build_quantities(study, words).shown("schedule quantities"),
+        look="wide",
     )
 
 

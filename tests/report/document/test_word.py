@@ -275,12 +275,12 @@ def test_measured_forces_stand_in_the_document_as_a_picture():
     assert kinds == {"svg", "png"}
 
 
-def test_inputs_of_all_rows_stand_on_pages_across(content):
-    """Upright pages, those across, upright pages again: each with its own size."""
+def test_schedule_and_inputs_of_all_rows_stand_on_pages_across(content):
+    """Upright pages between them, before and after: each with its own size."""
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         xml = archive.read("word/document.xml").decode()
     sizes = re.findall(r"<w:pgSz [^>]*>", xml)
-    assert ["landscape" in one for one in sizes] == [False, True, False]
+    assert ["landscape" in one for one in sizes] == [False, True, False, True, False]
     upright, across = (
         {name: re.search(rf'w:{name}="(\d+)"', one)[1] for name in "wh"}
         for one in sizes[:2]
