@@ -39,6 +39,7 @@ from netdesign.report.sections.basis import (
     name_rows,
 )
 from netdesign.report.sections.checks import (
+    MANY_UNSAID,
     badge_cell,
     describe_briefly,
     describe_cause,
@@ -65,7 +66,6 @@ from netdesign.words.message import Message
 
 _STIFFNESS = "column.quantities.net_stiffness"
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
-_MANY = "check.unsaid_many"  # key of a gap: the row lacks more than a check says
 _OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
 
 
@@ -92,7 +92,8 @@ def show_decision(study: Study, words: Words, *, has_rows: bool) -> Part:
     )
     heading = Heading(text=words("heading.verdict"), level=2, look=HIDDEN, on="page")
     matrix: tuple[Block, ...] = ()
-    if len(study.rows) > _FEW_ROWS:
+    has_forces = any(one.is_of_force for row in study.rows for one in row.checks)
+    if len(study.rows) > _FEW_ROWS and has_forces:
         matrix = (build_matrix(study, words).shown("matrix"),)
     todo = tuple(list_open_points(study, words)) or (words("todo.none"),)
     pairs = tuple(Pair(name=a, text=b) for a, b in identify(study, words))
@@ -274,7 +275,7 @@ def _add_change(checks: list[CheckRecord], cause: str, words: Words) -> str:
 def _is_told_of_row(check: CheckRecord) -> bool:
     """All that the check lacks is told of its row, as a point of its own."""
     gaps = find_gaps(check.reason)
-    return bool(gaps) and all(one.key == _MANY for one in gaps)
+    return bool(gaps) and all(one.key == MANY_UNSAID for one in gaps)
 
 
 def _list_unsaid(study: Study, words: Words) -> Iterator[str]:

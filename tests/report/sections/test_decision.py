@@ -8,6 +8,7 @@ from netdesign.checks import Proof
 from netdesign.outcome import NetDesignError, Verdict
 from netdesign.report.governing import SEVERITY
 from netdesign.report.page.html import render_html
+from netdesign.report.sections.checks import describe_briefly
 from netdesign.report.sections.decision import (
     build_matrix,
     list_open_points,
@@ -77,6 +78,10 @@ def test_inputs_that_rows_lack_stand_in_the_points_once_and_in_reasons_shortly(
     assert not any(words.show(gap) in one for one in points)
     places = [one for one in points if words.show(names[0]) in one]
     assert places[0].startswith("A, C")
+    row = replace(rows[0], verdict=Verdict.NOT_PROVEN)
+    told = describe_briefly(row, words)
+    assert "5" in told  # two that are named, and three
+    assert len(told.split()) <= 10
 
 
 def test_many_checks_with_one_cause_are_counted():
