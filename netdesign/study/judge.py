@@ -174,6 +174,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     drawing, anchors, head = record_drawn(row, governing, effects.lateral_share)
     independent = record_independent(governing, head)
     panel = record_panel(row, solved.results, extremes, governing)
+    notes = list_judged_notes(known, checks, cases, panel)
     return RowStudy(
         id=row.id,
         verdict=merge_verdicts(list_verdicts(checks, independent)),
@@ -197,10 +198,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
         model_form=model_form,
         panel=panel,
-        notes=[
-            *list_judged_notes(known, checks, cases, panel),
-            *list_history_notes(extremes),
-        ],
+        notes=[*notes, *list_history_notes(extremes)],
         statics=record_statics(row, solved.results, extremes, floor),
         end_effects=record_end_effects(row, site.ranges, run.creep_law, standard),
         held_sideways=None if isinstance(held, Message) else held,
