@@ -1,4 +1,8 @@
-"""One row per reported quantity: the only place for its unit and decimals."""
+"""One row per reported quantity: the only place for its unit and decimals.
+
+A force has three significant digits, a utilisation two decimals (three where two would
+read 1.00), a direction whole degrees. All digits are in the JSON and in the workbook.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from netdesign.words.catalogue import FORCE_ENDS, count_force_decimals
 from netdesign.words.message import Message, say
 
 
@@ -27,6 +32,10 @@ class Form:
     most : int
         Digits after the point at most where ``decimals`` is None: a search goes to
         values that nobody would type.
+    is_force : bool
+        Written with three significant digits.
+    near_one : bool
+        Written with one decimal more where it would read 1 without.
     scientific : bool
         Written with an exponent.
     """
@@ -36,12 +45,53 @@ class Form:
     unit: str
     decimals: int | None
     most: int = 4
+    is_force: bool = False
+    near_one: bool = False
     scientific: bool = False
+
+    def count_decimals(self, value: float) -> int | None:
+        """Number of decimals of a finite value; None: as given.
+
+        Examples
+        --------
+        >>> [QUANTITIES["demand_kN"].count_decimals(x) for x in (9.994, 9.996, 441.4)]
+        [2, 1, 0]
+        >>> [QUANTITIES["utilisation"].count_decimals(x) for x in (0.994, 0.996, 1.01)]
+        [2, 3, 2]
+        """
+        if self.decimals is None:
+            return None
+        if self.is_force:
+            return count_force_decimals(value)
+        return self.decimals + (self.near_one and abs(value - 1.0) < _NEAR_ONE)
+
+    @property
+    def number_format(self) -> str:
+        """Number format of a workbook's cells, which shows the same digits."""
+        if self.decimals is None:
+            return "General"
+        fewest, one_more, two_more = (
+            f"0.{'0' * (self.decimals + more)}".rstrip(".") for more in range(3)
+        )
+        if self.near_one:
+            below, above = 1.0 - _NEAR_ONE, 1.0 + _NEAR_ONE
+            return f"[<={below:g}]{fewest};[<{above:g}]{one_more};{fewest}"
+        if self.is_force:
+            tens, ones = FORCE_ENDS
+            return f"[>={tens:g}]{fewest};[>={ones:g}]{one_more};{two_more}"
+        return f"{fewest}E+00" if self.scientific else fewest
 
     @property
     def label(self) -> Message:
         """A few words for a table heading."""
         return say(f"label.{self.key}")
+
+
+_NEAR_ONE = 0.005
+
+
+def _force(key: str, symbol: str, unit: str = "kN") -> Form:
+    return Form(key=key, symbol=symbol, unit=unit, decimals=0, is_force=True)
 
 
 def _row(
@@ -70,75 +120,75 @@ _ROWS = (
     _row("snow_thickness_m", "d", "m", 2),
     _row("sag_m", "f", "m", 3),
     # net, per metre of width
-    _row("foot_size_kN_per_m", "T₁", "kN/m", 2),
-    _row("head_size_kN_per_m", "T₂", "kN/m", 2),
-    _row("tension_max_kN_per_m", "T", "kN/m", 2),
-    _row("force_x_kN_per_m", "Fx", "kN/m", 2),
-    _row("force_y_kN_per_m", "Fy", "kN/m", 2),
-    _row("error_kN_per_m", "", "kN/m", 2),
+    _force("foot_size_kN_per_m", "T₁", "kN/m"),
+    _force("head_size_kN_per_m", "T₂", "kN/m"),
+    _force("tension_max_kN_per_m", "T", "kN/m"),
+    _force("force_x_kN_per_m", "Fx", "kN/m"),
+    _force("force_y_kN_per_m", "Fy", "kN/m"),
+    _force("error_kN_per_m", "", "kN/m"),
     # members, per anchor, characteristic
-    _row("foot_anchor_kN", "F", "kN", 1),
-    _row("uphill_guy_kN", "F", "kN", 1),
-    _row("downhill_guy_kN", "F", "kN", 1),
-    _row("post_kN", "F", "kN", 1),
-    _row("max_kN", "F", "kN", 1),
+    _force("foot_anchor_kN", "F"),
+    _force("uphill_guy_kN", "F"),
+    _force("downhill_guy_kN", "F"),
+    _force("post_kN", "F"),
+    _force("max_kN", "F"),
     # support and its place in the row
-    _row("solved_kN", "E_s", "kN", 1),
+    _force("solved_kN", "E_s"),
     _row("post_spacing_m", "b", "m", 2),
     _row("loaded_width_m", "b_e", "m", 2),
     _row("end_factor", "f_R", "", 2),
     _row("end_length_m", "Δl", "m", 2),
     _row("lateral_factor", "k_q", "", 3),
-    _row("coupled_kN", "E_c", "kN", 1),
-    _row("panel_kN", "E_p0", "kN", 1),
-    _row("panel_support_kN", "E_p", "kN", 1),
-    _row("along_kN", "H", "kN", 1),
-    _row("tension_kN", "T", "kN", 1),
-    _row("breaking_kN", "F_min", "kN", 1),
-    _row("floor_kN", "E_g0", "kN", 1),
-    _row("guideline_kN", "E_g", "kN", 1),
-    _row("force_x_kN", "F_x", "kN", 1),
-    _row("force_y_kN", "F_y", "kN", 1),
-    _row("lateral_kN", "F_z", "kN", 1),
-    _row("size_kN", "F", "kN", 1),
-    _row("direction_deg", "α", "°", 1),
-    _row("least_deg", "α_min", "°", 1),
-    _row("largest_deg", "α_max", "°", 1),
-    _row("axis_deg", "α_0", "°", 1),
+    _force("coupled_kN", "E_c"),
+    _force("panel_kN", "E_p0"),
+    _force("panel_support_kN", "E_p"),
+    _force("along_kN", "H"),
+    _force("tension_kN", "T"),
+    _force("breaking_kN", "F_min"),
+    _force("floor_kN", "E_g0"),
+    _force("guideline_kN", "E_g"),
+    _force("force_x_kN", "F_x"),
+    _force("force_y_kN", "F_y"),
+    _force("lateral_kN", "F_z"),
+    _force("size_kN", "F"),
+    _row("direction_deg", "α", "°", 0),
+    _row("least_deg", "α_min", "°", 0),
+    _row("largest_deg", "α_max", "°", 0),
+    _row("axis_deg", "α_0", "°", 0),
     _row("angle_deg", "δ", "°", 1),
     _row("share", "g", "", 4),
     _row("added_kN", "A", "kN", 2),
     _row("part", "c", "", 3),
-    _row("pull_kN", "P", "kN", 1),
-    _row("splay_deg", "β", "°", 1),
-    _row("least_tension_kN", "T_min", "kN", 1),
+    _force("pull_kN", "P"),
+    _row("splay_deg", "β", "°", 0),
+    _force("least_tension_kN", "T_min"),
     # the guideline
     _row("height_vertical_m", "H", "m", 2),
     _row("creep_factor", "K", "", 3),
     _row("glide_factor", "N", "", 3),
-    _row("rigid_kN_per_m", "S'_N", "kN/m", 1),
-    _row("load_kN_per_m", "R_x", "kN/m", 1),
-    _row("force_kN", "E_g0", "kN", 1),
-    _row("load_along_kN_per_m", "R_x", "kN/m", 2),
-    _row("load_across_kN_per_m", "R_y", "kN/m", 2),
-    _row("chord_tension_kN_per_m", "T", "kN/m", 2),
+    _force("rigid_kN_per_m", "S'_N", "kN/m"),
+    _force("load_kN_per_m", "R_x", "kN/m"),
+    _force("force_kN", "E_g0"),
+    _force("load_along_kN_per_m", "R_x", "kN/m"),
+    _force("load_across_kN_per_m", "R_y", "kN/m"),
+    _force("chord_tension_kN_per_m", "T", "kN/m"),
     _row("load_difference_percent", "", "%", 0),
     _row("foot_difference_percent", "", "%", 0),
     # second opinions
     _row("matched_slip_m", "D*", "m", 2),
     _row("influence_length_m", "l", "m", 2),
-    _row("dynamic_kN_per_m", "", "kN/m", 1),
-    _row("at_rest_kN_per_m", "", "kN/m", 1),
-    _row("wedge_kN_per_m", "G_x", "kN/m", 1),
+    _force("dynamic_kN_per_m", "", "kN/m"),
+    _force("at_rest_kN_per_m", "", "kN/m"),
+    _force("wedge_kN_per_m", "G_x", "kN/m"),
     _row("exponent", "n", "", None),
     # checks
-    _row("action_kN", "E_k", "kN", 1),
+    _force("action_kN", "E_k"),
     _row("action_factor", "γ_E", "", None),
-    _row("demand_kN", "E_d", "kN", 1),
-    _row("resistance_characteristic_kN", "R_k", "kN", 1),
+    _force("demand_kN", "E_d"),
+    _force("resistance_characteristic_kN", "R_k"),
     _row("resistance_factor", "γ_R", "", None),
-    _row("resistance_kN", "R_d", "kN", 1),
-    _row("utilisation", "μ", "", 3),
+    _force("resistance_kN", "R_d"),
+    Form(key="utilisation", symbol="μ", unit="", decimals=2, near_one=True),
     # comparison of two numbers
     _row("change_percent", "", "%", 1),
     # quality of a solution
@@ -153,18 +203,3 @@ _ROWS = (
 )
 
 QUANTITIES: Mapping[str, Form] = MappingProxyType({row.key: row for row in _ROWS})
-
-# Digits after the point of symbols of a calculation: by their unit, but for some.
-_DIGITS_OF_UNIT = {"kN": 1, "m": 2, "deg": 1, "-": 4}
-_DIGITS: Mapping[str, int | None] = {
-    **dict.fromkeys(("γ_E", "γ_R", "ξ_m", "ξ_min", "μ_b"), None),  # as given
-    **{"ξ_5": 3, "f_R": 2, "A": 2, "c": 3, "w": 3, "k_q": 3},
-}
-
-
-def find_form(symbol: str, unit: str) -> Form:
-    """Form of a symbol of a calculation, in the unit that the calculation has."""
-    if symbol == "μ":
-        return QUANTITIES["utilisation"]
-    digits = _DIGITS.get(symbol, _DIGITS_OF_UNIT.get(unit, 4))
-    return Form(key="", symbol=symbol, unit=unit, decimals=digits)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from statistics import fmean
@@ -19,7 +18,7 @@ from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.running import require_places, write_outputs
 from netdesign.commands.stored_study import require_sound
 from netdesign.commands.usage import tell
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import Language, render, round_force_up
 from netdesign.words.message import Message, say
 from netdesign.words.names import as_given, name
 
@@ -87,7 +86,7 @@ def _write_plan(site_file: Path, study_file: Path, asked: Mapping[str, Any]) -> 
     for told in open_points:
         tell(told, err=True)
     lines = [
-        {"type": one.type_id, "proof_load": math.ceil(10.0 * one.proof_load) / 10.0}
+        {"type": one.type_id, "proof_load": round_force_up(one.proof_load)}
         | ({"ground": one.ground} if one.ground else {})
         for one in planned
         for _ in one.rows

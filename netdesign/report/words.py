@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
-from netdesign.quantities import QUANTITIES, Form, find_form
+from netdesign.quantities import QUANTITIES
 from netdesign.site.columns.fields import normalise
 from netdesign.words.catalogue import (
     Language,
@@ -22,6 +22,7 @@ from netdesign.words.catalogue import (
     load_tables,
     load_texts,
     render,
+    round_force_up,
     set_marks,
 )
 from netdesign.words.message import Argument, Message, say
@@ -77,7 +78,7 @@ class Words:
         Examples
         --------
         >>> ENGLISH.show_number("demand_kN", 126.26)
-        '126.3'
+        '126'
         >>> Words("fr").show_number("sag_m", 2.5)
         '2,500'
         >>> ENGLISH.show_number("utilisation", 1.0004)  # never rounded down to a pass
@@ -85,22 +86,24 @@ class Words:
         >>> ENGLISH.show_number("utilisation", math.inf)  # nothing resists
         '∞'
         """
-        return self._show_in_form(QUANTITIES[key], value)
-
-    def _show_in_form(self, form: Form, value: float | None) -> str:
-        is_ratio = form.key == "utilisation"
+        form, is_ratio = QUANTITIES[key], key == "utilisation"
         if is_ratio and value == math.inf:
             return UNBOUNDED
         if value is None or not math.isfinite(value):
             return MISSING
-        if form.decimals is None:
+        decimals = form.count_decimals(value)
+        if decimals is None:
             return self.show_given(round(value, form.most))
-        kind = "e" if form.scientific else "f"
-        shown = f"{value:.{form.decimals}{kind}}"
+        shown = f"{value:.{decimals}{'e' if form.scientific else 'f'}}"
         if not float(shown):
             shown = shown.removeprefix("-")
         over = is_ratio and value > 1 and float(shown) <= 1
         return self.write(f">{shown}" if over else shown)
+
+    def show_minimum(self, force: float | None) -> str:
+        """Force in kN that has to be reached, rounded up."""
+        known = None if force is None else round_force_up(force)
+        return self.show_number("demand_kN", known)
 
     def show_fixed(self, value: float | None, decimals: int) -> str:
         """Number with so many decimals; "-" for none."""
@@ -144,11 +147,6 @@ class Words:
     def show_with_unit(self, key: str, value: float | None) -> str:
         """Number and unit; the sign of a missing number has no unit."""
         return append_unit(self.show_number(key, value), QUANTITIES[key].unit)
-
-    def show_symbol(self, symbol: str, unit: str, value: float | None) -> str:
-        """Value of a symbol of a calculation, with its unit."""
-        shown = self._show_in_form(find_form(symbol, unit), value)
-        return append_unit(shown, unit)
 
     def show_band(self, key: str, low: float | None, high: float | None) -> str:
         """Band of a number: ``0.842 to 0.871``."""
@@ -307,12 +305,3 @@ _OWN = (
 @lru_cache(maxsize=1)
 def _list_own_texts() -> dict[str, str]:
     return {text: key for key, text in load_tables("en", _OWN).items()}
-
-
-def number_format(key: str) -> str:
-    """Number format of a workbook cell for the quantity ``key``."""
-    quantity = QUANTITIES[key]
-    if quantity.decimals is None:
-        return "General"
-    places = "0." + "0" * quantity.decimals if quantity.decimals else "0"
-    return f"{places}E+00" if quantity.scientific else places

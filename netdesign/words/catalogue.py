@@ -6,13 +6,15 @@ gap is ``{name}``, or ``{name:.2f}`` for a number that is rounded; ``{{`` is a b
 A number has the decimal mark of the language; an argument that is text stays as it is.
 Of a list, what stands behind the colon joins its parts: ``{names: or }``; a sentence
 that becomes part of another loses its full stop by ``{reason:clause}``; a day in ISO
-form is written as the language has it by ``{day:date}``; a count brings its noun along,
-``{count:# row|# rows}``.
+form is written as the language has it by ``{day:date}``; a force in kN or kN/m has
+three significant digits by ``{load:force}``, rounded up by ``{load:minimum}``; a count
+brings its noun along, ``{count:# row|# rows}``.
 Every language has every key with the same gaps; a test says so.
 """
 
 from __future__ import annotations
 
+import math
 import re
 import string
 import tomllib
@@ -51,6 +53,29 @@ def set_marks(number: str, language: Language) -> str:
     return number.translate(marks) if marks else number
 
 
+def count_force_decimals(force: float) -> int:
+    """Number of decimals of a force in kN or kN/m, for three significant digits.
+
+    Examples
+    --------
+    >>> [count_force_decimals(force) for force in (1234.5, 99.96, 25.0, -3.2)]
+    [0, 0, 1, 2]
+    """
+    return sum(abs(force) < end for end in FORCE_ENDS)
+
+
+def round_force_up(force: float) -> float:
+    """Force that has to be reached, to three significant digits.
+
+    Examples
+    --------
+    >>> [round_force_up(force) for force in (441.2, 44.01, 4.4, 99.951)]
+    [442.0, 44.1, 4.4, 100.0]
+    """
+    scale = 10.0 ** count_force_decimals(force)
+    return math.ceil(force * scale * (1.0 - _LAST_BITS)) / scale
+
+
 def write_day(day: str, language: Language) -> str:
     """Day in ISO form as a sentence of the language has it; any other text stays.
 
@@ -69,7 +94,10 @@ def write_day(day: str, language: Language) -> str:
     return _NO_BREAK.join((first, _MONTHS[int(month) - 1], year))
 
 
+FORCE_ENDS = (99.95, 9.995)  # below each a force has one decimal more
+_LAST_BITS = 1e-12  # relative; of a force that is a round number but for them
 _CLAUSE, _DATE, _ONE_OR_MANY = "clause", "date", "|"
+_FORCE, _MINIMUM = "force", "minimum"
 _GAP = re.compile(r"(\{[^{}]*\})")
 _TABLE = re.compile(r"^\[([\w-]+)", re.MULTILINE)  # first name in its heading
 _FORMATTER = string.Formatter()
@@ -132,6 +160,11 @@ def _fill(value: Any, form: str, language: Language) -> str:
         return _join(value, form, language)
     if isinstance(value, int | float) and _ONE_OR_MANY in form:
         return _count(value, *form.split(_ONE_OR_MANY), language=language)
+    if form.endswith(_MINIMUM):
+        value = round_force_up(value)
+        form = form.removesuffix(_MINIMUM) + _FORCE
+    if form.endswith(_FORCE):
+        form = f"{form.removesuffix(_FORCE)}.{count_force_decimals(value)}f"
     text = format(value, form)
     return set_marks(text, language) if isinstance(value, int | float) else text
 

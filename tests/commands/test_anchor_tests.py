@@ -9,6 +9,7 @@ from netdesign.site.template.form import build_form, read_form
 from netdesign.study.document import write_document
 from netdesign.study.planned_tests import STEPS, plan_tests
 from tests.checks.given_pulls import study_row
+from tests.digits import write_force
 from tests.study.test_pull_out_tests import ROW, STEEL
 
 HELD = {"en": "held", "fr": "tenu", "de": "gehalten"}
@@ -98,7 +99,7 @@ def test_a_form_tells_resistance_acceptance_and_lines(tmp_path, call):
     assert ended.code == 0
     assert "3 tests, 2 held, 2 held the planned proof load" in ended.out
     r_k = min(310.0 / 1.2, 290.0 / 1.05)
-    assert f"R_k = {r_k:.1f} kN by correlation factors" in ended.out
+    assert f"R_k = {write_force(r_k)} kN by correlation factors" in ended.out
     assert "it counts" in ended.out
     assert "two tests that pulled out" in ended.out
     assert "A\ttill\t290\tpulled out\t300\t" in ended.out

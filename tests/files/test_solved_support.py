@@ -20,6 +20,7 @@ from netdesign.report.words import Words
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study.record_support import record_solved_panel
+from tests.digits import write_force
 
 SETTINGS = SolverSettings(accuracy=0.1)
 LAYOUT = SupportLayout(
@@ -147,7 +148,7 @@ def test_page_has_every_force_and_a_drawing(section, language):
         written["row_end"]["foot_kN"]["z"],
         written["panel"]["upper_rope"]["T_kN"],
     ):
-        assert Words(language).write(f"{force:.1f}") in shown
+        assert Words(language).write(write_force(force)) in shown
     drawn = draw_panel(record_solved_panel(solved.result), Words(language))
     size = written["row_end"]["foot_kN"]["size"]
-    assert Words(language).write(f"{size:.1f}") in drawn
+    assert Words(language).write(write_force(size)) in drawn

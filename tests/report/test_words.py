@@ -1,7 +1,12 @@
 import math
+import re
 from dataclasses import replace
+from operator import ge, le, lt
 
+import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from netdesign.commands.running import EXIT_CODES
 from netdesign.outcome import SolveError, Verdict
@@ -59,13 +64,46 @@ def test_a_no_break_space_stays_between_words():
     assert "\u00a0" in told
 
 
+def apply_format(code, value):
+    """Positive number as a spreadsheet shows it by a format with conditions."""
+    for section in code.split(";"):
+        condition, places = re.fullmatch(r"(?:\[(.*)\])?([0.]+)", section).groups()
+        sign, end = re.fullmatch(r"(\D+)([\d.]+)", condition or ">=0").groups()
+        if {">=": ge, "<=": le, "<": lt}[sign](value, float(end)):
+            return f"{value:.{len(places.partition('.')[2])}f}"
+    raise AssertionError(code)
+
+
 @each("key", QUANTITIES)
-def test_number_format_writes_as_many_decimals_as_the_text(key):
-    quantity, code = QUANTITIES[key], words.number_format(key)
-    if quantity.decimals is None:
-        assert code == "General"
-    else:
-        assert code.split("E")[0].partition(".")[2] == "0" * quantity.decimals
+def test_a_cell_of_a_workbook_shows_the_digits_of_the_text(key):
+    form = QUANTITIES[key]
+    if form.decimals is None or form.scientific:
+        whole = f"0.{'0' * (form.decimals or 0)}E+00"
+        assert form.number_format == ("General" if form.decimals is None else whole)
+        return
+    sizes = np.random.default_rng(3).uniform(-2.0, 4.0, 200)
+    for value in (*np.power(10.0, sizes), 0.9951, 1.0049, 0.995, 9.996, 99.96, 100.0):
+        shown = words.ENGLISH.show_number(key, float(value)).removeprefix(">")
+        assert apply_format(form.number_format, float(value)) == shown
+
+
+@given(force=st.floats(0.01, 999.0), part=st.floats(0.0, 1.0))
+def test_forces_have_three_digits_and_a_minimum_is_never_rounded_down(force, part):
+    shown = words.ENGLISH.show_number("demand_kN", force)
+    assert abs(float(shown) - force) <= max(0.0051, 0.0051 * force)
+    least = float(words.ENGLISH.show_minimum(force))
+    assert least >= force * (1.0 - 1e-11)
+    assert least <= force * 1.011 + 0.011
+    smaller = float(words.ENGLISH.show_minimum(part * force))
+    assert smaller <= least
+
+
+@each("value", [0.9951, 0.9996, 1.00001, 1.0004, 1.0049])
+def test_a_utilisation_that_is_not_one_does_not_read_as_one(value):
+    """Three decimals where two would read 1.00; beyond 1 never as a pass."""
+    shown = words.ENGLISH.show_number("utilisation", value)
+    assert len(shown.removeprefix(">")) == len("1.000")
+    assert (value > 1) == (shown.startswith(">") or float(shown) > 1)
 
 
 def test_names_of_checks_and_cases():

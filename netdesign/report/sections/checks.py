@@ -27,6 +27,7 @@ from netdesign.report.governing import (
 from netdesign.report.words import (
     MISSING,
     Words,
+    append_unit,
     name_heading,
     show_check,
     show_text,
@@ -116,7 +117,7 @@ def describe_loads(check: CheckRecord, words: Words) -> str:
         symbol = check.name_force(letter)
         _, force = check.read_band(symbol)
         if force is not None:
-            shown = words.show_symbol(symbol, "kN", force)
+            shown = words.show_with_unit("max_kN", force)
             found[load] = words(f"load_force.{load}", force=shown)
     if len(found) < 2:
         return ""
@@ -163,12 +164,23 @@ def describe_cause(check: CheckRecord, words: Words) -> str:
     gaps = find_gaps(check.reason)
     has_numbers = check.is_of_force and not check.is_unbounded
     if check.verdict is Verdict.FAIL and has_numbers and check.demand_kN is not None:
-        demand = words.show_with_unit("demand_kN", check.demand_kN)
-        resistance = words.show_with_unit("resistance_kN", check.resistance_kN)
+        demand, resistance = _show_apart(check.demand_kN, check.resistance_kN, words)
         return words("show.exceeds", demand=demand, resistance=resistance)
     if gaps:
         return words.join(words.show(one) for one in gaps)
     return words.show(_strip_load(check.reason))
+
+
+def _show_apart(
+    demand: float, resistance: float | None, words: Words
+) -> tuple[str, str]:
+    """Both forces in kN; with two more digits where they would read the same."""
+    forces = {"demand_kN": demand, "resistance_kN": resistance}
+    shown = [words.show_number(key, force) for key, force in forces.items()]
+    if shown[0] == shown[1]:
+        shown = [words.show_digits(force) for force in forces.values()]
+    first, second = (append_unit(one, "kN") for one in shown)
+    return first, second
 
 
 def find_gaps(reason: object) -> tuple[Message, ...]:
@@ -417,6 +429,8 @@ def describe_change(change: ChangeRecord, words: Words) -> str:
     if change.bound is None:
         return words("show.change_none", quantity=quantity)
     bound = _show(change.bound, change.unit, words)
+    if change.unit == "kN" and change.sense == "at least":
+        bound = append_unit(words.show_minimum(change.bound), "kN")
     return words(_SENSES[change.sense], quantity=quantity, bound=bound)
 
 

@@ -163,7 +163,7 @@ def _show_single(
         number_cell(words, "demand_kN", one.proof_load_kN),
         text_cell(MISSING if moved is None else words.write(f"{moved:.1f}")),
         text_cell(words(f"tested.{outcome}")),
-        number_cell(words, "demand_kN", wanted),
+        Cell(text=words.show_minimum(wanted), number=wanted),
         text_cell(words(f"tested.{_judge(one, wanted)}")),
     )
 

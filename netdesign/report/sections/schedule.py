@@ -177,7 +177,7 @@ def describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
         if known and len(known) == len(found):
             needed[mode] = max(known)
     shown = {
-        words.show(name_mode(mode)): words.show_number("resistance_kN", value)
+        words.show(name_mode(mode)): words.show_minimum(value)
         for mode, value in needed.items()
     }
     if len(set(shown.values())) == 1:

@@ -93,7 +93,7 @@ def _describe_given(
 
 
 def _show(quantity: Quantity, words: Words) -> str:
-    return words.show_symbol(quantity.symbol, quantity.unit, quantity.value)
+    return append_unit(_show_digits(quantity.value, words), quantity.unit)
 
 
 def _write(quantity: Quantity, show: Callable[[Quantity], str], words: Words) -> str:

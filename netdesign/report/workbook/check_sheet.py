@@ -26,7 +26,6 @@ from netdesign.report.words import (
     UNBOUNDED,
     Words,
     add_unit,
-    number_format,
     show_check,
     show_text,
 )
@@ -257,7 +256,7 @@ class _LineWriter:
             otherwise = UNBOUNDED if is_unbounded else MISSING
             link = write_link(source, ">=0", otherwise=otherwise)
             form = self.book.format(
-                align="right", num_format=number_format(field.quantity)
+                align="right", num_format=QUANTITIES[field.quantity].number_format
             )
             self.sheet.write_formula(*self._place(name), link, form, show_cached(value))
             cell = self._at(name)

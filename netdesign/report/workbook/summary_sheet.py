@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Cell, Column
 from netdesign.report.governing import find_case, find_governing, find_highest
 from netdesign.report.sections.decision import (
@@ -19,7 +20,6 @@ from netdesign.report.words import (
     MISSING,
     UNBOUNDED,
     Words,
-    number_format,
     show_check,
     show_text,
 )
@@ -218,7 +218,8 @@ def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     known = [check.used_band[1] for check in row.checks]
     ends = [end for end in known if end is not None]
     cached = (highest.used if highest else None, max(ends, default=None))
-    form = book.format(align="right", num_format=number_format("utilisation"))
+    shown = QUANTITIES["utilisation"].number_format
+    form = book.format(align="right", num_format=shown)
     for column, (name, value) in enumerate(
         zip(("check_utilisation", "check_utilisation_high"), cached, strict=True),
         _RATIO,

@@ -11,8 +11,9 @@ from types import MappingProxyType
 from typing import Any
 
 from netdesign.outcome import Verdict
+from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Cell, Column, Table
-from netdesign.report.words import Words, number_format, show_verdict
+from netdesign.report.words import Words, show_verdict
 
 # Widths are in digits of the default font.
 BOLD = 1.1  # width of bold letters over that of others
@@ -377,7 +378,7 @@ def _find_look(shown: str | int | None) -> dict[str, Any]:
     if shown == _WRAPPED:
         return {"text_wrap": True}
     decimals = f"0.{'0' * shown}".rstrip(".") if isinstance(shown, int) else ""
-    return {"num_format": decimals or number_format(str(shown))}
+    return {"num_format": decimals or QUANTITIES[str(shown)].number_format}
 
 
 def _align(column: Column) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from netdesign.study.case_records import (
     LineRecord,
     MapRecord,
 )
+from tests.digits import write_force
 from tests.report.build_study import build_row
 
 NS = "{http://www.w3.org/2000/svg}"
@@ -149,7 +150,7 @@ def test_a_grid_has_the_same_maps_with_a_cross_where_a_case_has_no_result(sample
     svg = draw_maps(record_grid(row))
     shown = [one.text for one in shapes(svg, "text")]
     for extreme in row.extremes:
-        assert f"{extreme.max_kN:.1f}" in svg
+        assert write_force(extreme.max_kN) in svg
     assert len(shapes(svg, "circle")) == len(row.extremes)
     assert f"θ = {row.extremes[0].case.inclination_deg:.0f}°" in shown
     assert {"×", "× no result"} <= set(shown)

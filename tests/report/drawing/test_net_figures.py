@@ -14,6 +14,7 @@ from netdesign.report.drawing.net_figures import (
     draw_node_forces,
     draw_stick_slip,
 )
+from tests.digits import write_force
 
 PRESSURE, SHEAR = 30e3, 6e3  # [Pa]
 TILT = math.radians(30.0)
@@ -66,7 +67,7 @@ def test_longest_arrow_is_the_largest_force():
     face = build_face()
     largest = np.hypot(*face.forces).max() / 1e3
     shown = texts(draw_node_forces(face))
-    assert f"{largest:.1f} kN/m" in shown
+    assert f"{write_force(largest)} kN/m" in shown
 
 
 def picture(density):

@@ -15,6 +15,7 @@ from netdesign.report.sections.checks import (
 from netdesign.report.words import Words, show_check
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
+from tests.digits import write_force
 from tests.each import each
 from tests.report.build_study import build_row, build_study
 
@@ -113,7 +114,7 @@ def test_a_cause_is_the_gap_alone_or_both_design_values():
     row = replace(STUDY.rows[2], checks=[lacking], verdict=Verdict.NOT_PROVEN)
     assert "Anchors!C6" not in describe_briefly(row, ENGLISH)
     failing = replace(check, verdict=Verdict.FAIL, reason=say("check.fails"))
-    shown = [f"{x:.1f} kN" for x in (check.demand_kN, check.resistance_kN)]
+    shown = [f"{write_force(x)} kN" for x in (check.demand_kN, check.resistance_kN)]
     assert all(one in describe_cause(failing, ENGLISH) for one in shown)
 
 

@@ -170,7 +170,7 @@ def test_the_matrix_shows_the_worst_verdict_of_each_member():
         assert VERDICTS[worst].symbol in symbols
         used = [one.utilisation for one in row.checks if one.utilisation is not None]
         shown = [float(c.text.split()[1]) for c in cells[1:] if " " in c.text]
-        assert max(shown) == round(max(used), 3)
+        assert max(shown) == round(max(used), 2)
 
 
 @pytest.mark.parametrize("count", [8, 9])

@@ -568,7 +568,7 @@ def test_numbers_are_numbers_with_a_format(content):
         force = record.post_kN
         shown = "-" if force is None else pytest.approx(force, rel=LIMIT)
         assert line["Post [kN]"] == shown
-    assert cases["E5"].number_format == "0.0"
+    assert cases["E5"].number_format == "[>=99.95]0;[>=9.995]0.0;0.00"
 
 
 @pytest.mark.parametrize("rows", [0, 1])
