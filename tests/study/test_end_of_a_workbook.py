@@ -15,6 +15,7 @@ from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.study.rejudge import rejudge
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.digits import write_force
 from tests.verification.untidy_site import PROFILE, draw_site
 
 RUN = CheckRun(
@@ -113,6 +114,5 @@ def require_one_anchor_told(row):
     (note,) = (one for one in row.notes if one.key == "row.one_anchor")
     assert note.arguments["both"] == pytest.approx(math.hypot(*forces.values()))
     for language in LANGUAGES:
-        assert f"{note.arguments['both']:.1f}" in render(note, language).replace(
-            ",", "."
-        )
+        shown = write_force(note.arguments["both"])
+        assert shown in render(note, language).replace(",", ".")

@@ -118,7 +118,7 @@ def test_acceptance_follows_load_result_and_design_force(tmp_path):
     study, check = judge(tmp_path, "correlation")
     wanted = 1.2 * 1.15 * check.read_band("E_d")[1]
     _, singles = show_tests(study.rows[0], Words("en"))
-    assert float(singles.rows[0][6].text) == pytest.approx(wanted, abs=0.06)
+    assert wanted <= float(singles.rows[0][6].text) < wanted + 1.0
     assert [line[-1].text for line in singles.rows] == ["no", "yes", "no"]
     low = [(0.9 * wanted, "held", None), (1.1 * wanted, "held", 1.2 * wanted)]
     low.append((1.1 * wanted, None, None))
