@@ -22,7 +22,6 @@ from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.report.blocks import Cell, Column, Table
 from netdesign.report.words import MISSING, Words, show_check, show_text, show_unit
 from netdesign.report.workbook.formulas import (
-    is_given,
     write_guarded,
     write_link,
     write_same,
@@ -227,12 +226,20 @@ class Line:
     first: int
 
     def has_end(self, end: int) -> bool:
-        """The study has a number of its own for that end; else it is the value."""
-        return end == 0 or (self.step.low, self.step.high)[end > 0] is not None
+        """The end has a cell; else it is the value, which then stands alone.
+
+        A formula has all three: its ends follow those of what it is made of.
+        """
+        own = (self.step.low, self.step.value, self.step.high)[end + 1]
+        return end == 0 or bool(self.step.formula) or own is not None
 
     def at(self, end: int) -> str:
         """Cell of one of its ends."""
         return f"{chr(ord('A') + _ENDS[end])}{self.number}"
+
+    def find(self, end: int) -> str:
+        """Cell whose number counts for an end."""
+        return self.at(end if self.has_end(end) else 0)
 
     @property
     def bounds(self) -> tuple[str, ...]:
@@ -286,7 +293,7 @@ class Calculations:
         line = self._blocks.get(place, {}).get(symbol)
         if line is None:
             return ""
-        cell = line.at(end)
+        cell = line.find(end)
         return self._book.refer("steps", f"${cell[0]}${cell[1:]}")
 
     def list_followed(self, place: tuple[int, int]) -> Iterator[str]:
@@ -300,12 +307,10 @@ class Calculations:
         """Formula of one end of a line; "" of a number that stands there itself."""
         if line.step.formula:
             return _write_step(block, line, end)
-        if not line.has_end(end):
-            return write_link(line.at(0), *line.bounds)
         if line.first != line.number:
             column = chr(ord("A") + _ENDS[end])
-            return write_link(f"{column}{line.first}", *line.bounds)
-        return write_link(line.link, *line.bounds) if line.link else ""
+            return write_link(f"{column}{line.first}", line.bounds)
+        return write_link(line.link, line.bounds) if line.link else ""
 
 
 def _list_checks(study: Study) -> Iterator[tuple[tuple[int, int], CheckRecord]]:
@@ -318,15 +323,16 @@ def _list_checks(study: Study) -> Iterator[tuple[tuple[int, int], CheckRecord]]:
 def _write_step(block: Sequence[Line], line: Line, end: int) -> str:
     """Formula of a step of the lines before it, and which of their cells count."""
     lines = {one.step.symbol: one for one in block}
-    conditions: dict[str, None] = {}
+    read: dict[str, Sequence[str]] = {}
 
     def find(leaf: Quantity, of_end: int) -> str:
         one = lines[leaf.symbol]
-        conditions[is_given(one.at(of_end), *one.bounds)] = None
-        return one.at(of_end)
+        cell = one.find(of_end)
+        read[cell] = one.bounds
+        return cell
 
     formula = write_formula(line.quantity, find, SPREADSHEET, end)
-    return write_guarded(formula, list(conditions))
+    return write_guarded(formula, read)
 
 
 def add_calculation_sheet(book: Book, study: Study, calculations: Calculations) -> None:
@@ -377,10 +383,13 @@ def _write_line(
         _SOURCE: _name_source(step, words),
     }
     for column, text in texts.items():
-        sheet.write_string(row, column, text, book.text(text_wrap=True))
+        if text:
+            sheet.write_string(row, column, text, book.text(text_wrap=True))
     lines = count_lines(list(texts.values()), [_WIDTHS[one] for one in texts])
     book.set_height(sheet, row, lines)
     for end, value in zip(_ENDS, step.ends, strict=True):
+        if not line.has_end(end):
+            continue
         formula = calculations.write_end(block, line, end)
         _write_number(book, sheet, line, end, value, formula)
 

@@ -34,7 +34,6 @@ from netdesign.report.workbook.calculation_sheet import Calculations, GivenCells
 from netdesign.report.workbook.formulas import (
     decide_by_ratio,
     quote,
-    write_link,
     write_same,
     write_verdict,
 )
@@ -209,11 +208,11 @@ class _LineWriter:
         study's.
         """
         check, words = self.check, self.book.words
-        same = self._write_steps(place)
+        self._write_links(place)
         watched = (f"{name}=1" for name in GIVEN_UNCHANGED.values())
-        conditions = ",".join([*watched, *followed, *same])
+        conditions = ",".join([*watched, *followed])
         self._write_formula("holds", f"IF(AND({conditions}),1,0)", "0", 1)
-        self._write_verdict()
+        self._write_verdict(place)
         number = place[0] + 1
         self._put("no", Cell(text=str(number), number=float(number)))
         case = find_case(check)
@@ -241,31 +240,37 @@ class _LineWriter:
         lines = count_lines(list(texts.values()), widths)
         self.book.set_height(self.sheet, self.line, lines)
 
-    def _write_steps(self, place: tuple[int, int]) -> list[str]:
-        """Links to the calculation; conditions that all of them are still there."""
-        check, same = self.check, []
+    def _refer(self, place: tuple[int, int], name: str) -> str:
+        """Cell of the calculation that a column shows; "" where it has none."""
+        field = FIELDS[name]
+        return self.calculations.refer(place, field.step, field.end)
+
+    def _find(self, place: tuple[int, int], name: str) -> str:
+        """Cell that the verdict follows: of the calculation, or here without one."""
+        is_here = name in _RATIOS and self.check.is_unbounded
+        return (not is_here and self._refer(place, name)) or self._at(name)
+
+    def _write_links(self, place: tuple[int, int]) -> None:
+        """Links to the calculation: they show it, and nothing is decided by them."""
+        check = self.check
         for name in _STEPS:
             field = FIELDS[name]
             step = check.known.get(field.step)
-            source = self.calculations.refer(place, field.step, field.end)
+            source = self._refer(place, name)
             is_unbounded = name in _RATIOS and check.is_unbounded
             if step is None or not source:
                 self._put(name, Cell(text=UNBOUNDED if is_unbounded else MISSING))
                 continue
             value = math.inf if is_unbounded else step.ends[field.end + 1]
-            otherwise = UNBOUNDED if is_unbounded else MISSING
-            link = write_link(source, ">=0", otherwise=otherwise)
+            link = f"={source}"
+            if is_unbounded:
+                link = f'=IF(ISNUMBER({source}),{source},"{UNBOUNDED}")'
             form = self.book.format(
                 align="right", num_format=QUANTITIES[field.quantity].number_format
             )
             self.sheet.write_formula(*self._place(name), link, form, show_cached(value))
-            cell = self._at(name)
-            if not is_unbounded:
-                none = f'{cell}="{MISSING}"'
-                same.append(f"IF(ISNUMBER({source}),{cell}={source},{none})")
-        return same
 
-    def _write_verdict(self) -> None:
+    def _write_verdict(self, place: tuple[int, int]) -> None:
         """Verdict of the live numbers, and whether all is as in the study."""
         check, words = self.check, self.book.words
         shown = self.book.word(check.verdict)
@@ -274,7 +279,7 @@ class _LineWriter:
         # a pass without a ratio has no number to follow
         is_set_for_good = check.verdict is Verdict.PASS and check.utilisation is None
         formula = write_verdict(
-            [self._at(name) for name in _RATIOS],
+            [self._find(place, name) for name in _RATIOS],
             check.verdict if is_set else None,
             {verdict: self.book.word(verdict) for verdict in Verdict},
             follows=not (_is_withheld(check.reason) or is_set_for_good),
@@ -289,7 +294,8 @@ class _LineWriter:
             "R_k": check.read("R_k"),
         }
         same = [
-            write_same(self._at(name), show_cached(x)) for name, x in numbers.items()
+            write_same(self._find(place, name), show_cached(x))
+            for name, x in numbers.items()
         ]
         same += [f"{self._at('holds')}=1", f"{self._at('verdict')}={quote(shown)}"]
         self._write_formula("unchanged", f"IF(AND({','.join(same)}),1,0)", "0", 1)

@@ -1,8 +1,9 @@
 """Formulas of calculations and checks: text of cells in, text of a formula out.
 
-A cell counts only if it holds a number of the right sign. A blank, a text, an error or
-TRUE never becomes a factor, and a check that lacks a number never passes. Each formula
-tests its own cells; none relies on another cell having been left alone.
+A cell counts only if it holds a number of the right sign. A blank, a text or an error
+never becomes a factor, and a check that lacks a number never passes. Each formula tests
+its own cells; none relies on another cell having been left alone. TRUE is no number to
+Excel, and 1 to LibreOffice.
 """
 
 from __future__ import annotations
@@ -14,29 +15,32 @@ from netdesign.report.words import MISSING
 
 _ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
 _SAME = 1e-9  # relative
-_SHORT = 20  # signs of a formula; those of ours have more
 _COMPARED = 200  # letters of a text that are compared
 _ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
 
 
-def write_guarded(formula: str, conditions: Sequence[str]) -> str:
-    """Formula of a step: its result where all conditions on its cells hold, else "-".
+def write_guarded(formula: str, cells: Mapping[str, Sequence[str]]) -> str:
+    """Formula of a step: its result where all its cells count, else "-".
 
     Parameters
     ----------
     formula : str
         Without "=".
-    conditions : sequence of str
-        Those of `is_given`; at least one.
+    cells : mapping of str to sequence of str
+        Cells that it reads, with the bounds of their numbers, such as ``>0``.
     """
-    return (
-        f'=IFERROR(IF(AND({",".join(conditions)}),{formula},"{MISSING}"),"{MISSING}")'
-    )
+    within = [f"{cell}{bound}" for cell, bounds in cells.items() for bound in bounds]
+    counted = f"COUNT({','.join(cells)})={len(cells)}"
+    conditions = ",".join((counted, *within))
+    return f'=IFERROR(IF(AND({conditions}),{formula},"{MISSING}"),"{MISSING}")'
 
 
-def write_link(cell: str, *bounds: str, otherwise: str = MISSING) -> str:
+def write_link(cell: str, bounds: Sequence[str] = ()) -> str:
     """Formula that shows the number of another cell, where it is one in its bounds."""
-    return f'=IF({is_given(cell, *bounds)},{cell},"{otherwise}")'
+    shown = cell
+    for bound in reversed(bounds):
+        shown = f'IF({cell}{bound},{shown},"{MISSING}")'
+    return f'=IF(ISNUMBER({cell}),{shown},"{MISSING}")'
 
 
 def write_verdict(
@@ -52,13 +56,13 @@ def write_verdict(
     and never becomes one; numbers that fail do so all the same, if it ``follows`` them.
     """
     low, value, high = ends
-    known = ",".join(f"ISNUMBER({end})" for end in ends)
-    ordered = f"AND({low}<={value}*{_ORDER},{value}<={high}*{_ORDER})"
+    ordered = f"{low}<={value}*{_ORDER},{value}<={high}*{_ORDER}"
     passes, fails, open_ = (
         quote(words[one]) for one in (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
     )
     by_ratio = f"IF({high}<=1+{_ROUNDING:.0E},{passes},IF({low}>1,{fails},{open_}))"
-    live = f"IF(AND({known}),IF({ordered},{by_ratio},{open_}),{open_})"
+    known = f"COUNT({','.join(ends)})={len(ends)}"
+    live = f"IF({known},IF(AND({ordered}),{by_ratio},{open_}),{open_})"
     if given is None:
         return live
     told = quote(words[given])
@@ -103,16 +107,3 @@ def write_same(cell: str, value: float | str) -> str:
 def quote(text: str) -> str:
     """Text of ours in a formula; a formula holds 255 letters of one."""
     return '"' + text.replace('"', '""') + '"'
-
-
-def is_given(cell: str, *bounds: str) -> str:
-    """Condition: a cell holds a number within bounds such as ``>0``; TRUE is none.
-
-    LibreOffice reads TRUE and FALSE from a file as formulas that give 1 and 0: they are
-    told from those of ours by their length.
-    """
-    ours = f"LEN(_xlfn.FORMULATEXT({cell}))>{_SHORT}"
-    is_number = f"IF(_xlfn.ISFORMULA({cell}),{ours},NOT(ISLOGICAL({cell})))"
-    within = ",".join(f"{cell}{bound}" for bound in bounds)
-    known = f"AND(IF(OR({cell}=1,{cell}=0),{is_number},TRUE),{within})"
-    return f"IF(ISNUMBER({cell}),{known},FALSE)"

@@ -23,7 +23,7 @@ EDITS = {
     "weak": {"R_k": 1.0},
     "no resistance": {"R_k": None},
     "set to pass": {"R5": "PASS"},
-    "another set to declared": {"L6": None, "R6": "PROVEN ELSEWHERE"},
+    "another set to declared": {"R_k of the second": None, "R6": "PROVEN ELSEWHERE"},
 }
 EXPECTED = {
     "as it was": ("PROVEN ELSEWHERE", "PASS", "PROVEN ELSEWHERE"),
@@ -53,10 +53,12 @@ STUDY = declare(build_study(rows=1))
 
 
 def type_over(book, place, value):
-    """A cell of the checks, or the resistance of the first one."""
-    sheet = book["Steps" if place == "R_k" else "Checks"]
-    line = f"E{find_steps(sheet)[0]['R_k']}" if place == "R_k" else place
-    sheet[line] = value
+    """A cell of the checks, or the resistance of the first or second one."""
+    if not place.startswith("R_k"):
+        book["Checks"][place] = value
+        return
+    block = find_steps(book["Steps"])[place.endswith("second")]
+    book["Steps"][f"E{block['R_k']}"] = value
 
 
 def hold_back(study):
@@ -120,7 +122,7 @@ REASONS = {
     "weak": ("changed", None),
     "no resistance": ("changed", None),
     "set to pass": (None, None),
-    "another set to declared": (None, "changed_factor"),
+    "another set to declared": (None, "changed"),
 }
 
 

@@ -64,7 +64,7 @@ def content():
 
 # What a factor, a resistance or an action is not, as cells can hold it.
 NO_NUMBERS = (
-    *(None, "", "abc", "1.5", " 2", "-", True, False, "=TRUE()", "#DIV/0!"),
+    *(None, "", "abc", "1.5", " 2", "-", "#DIV/0!"),
     *("#N/A", "=1/0", '="1.5"', "=NA()", -1.5, -1e-9),
 )
 # Steps of a check, and columns of their low end, value and high end.
@@ -86,7 +86,6 @@ SPOILS = [
     *((*place, value) for place in FACTORS for value in (*NO_NUMBERS, 0, 0.0)),
     *((*place, value) for place in ACTIONS for value in NO_NUMBERS),
     *(("E_k", "E", 1e4), ("E_k", "D", 1e4)),
-    *(("", letter, value) for letter in "FHLMP" for value in (None, "abc", 0.5)),
 ]
 # Each language has a third of them, and so every one is tried.
 SPOILS_OF = {
@@ -103,13 +102,14 @@ LOADED = [
 def spoil(language):
     """One cell of each loaded check typed over."""
     book = read_workbook(render_workbook(MANY, language), formulas=True)
-    checks, calculations = list(book)[3:5]
-    blocks = find_steps(calculations)
-    for (line, _), block, (symbol, letter, value) in zip(
-        LOADED, blocks, SPOILS_OF[language], strict=False
+    sheet = list(book)[4]
+    blocks = find_steps(sheet)
+    for block, (symbol, letter, value) in zip(
+        blocks, SPOILS_OF[language], strict=False
     ):
-        sheet, where = (calculations, block[symbol]) if symbol else (checks, line)
-        sheet[f"{letter}{where}"].value = value
+        where = block[symbol]
+        is_empty = sheet[f"{letter}{where}"].value is None  # it is as the value
+        sheet[f"{'E' if is_empty else letter}{where}"].value = value
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
@@ -121,6 +121,7 @@ def fresh(content, tmp_path_factory):
     books = {
         "en": content,
         "edited": edit(content),
+        "between": edit(content, give_between()),
         **{name: edit_profile(name) for name in PROFILE_EDITS},
         **{name: render_workbook(STUDY, name) for name in ("fr", "de")},
         **{f"spoilt-{name}": spoil(name) for name in LANGUAGES},
@@ -128,13 +129,21 @@ def fresh(content, tmp_path_factory):
     return recalculate(books, tmp_path_factory.mktemp("books"))
 
 
-def edit(content):
+def give_between():
+    """Resistance that bears the missing check's force, but not its upper end."""
+    check = STUDY.rows[2].checks[3]
+    assert check.read("R_k") is None
+    _, force = check.read_band("E_d")
+    return check.read("γ_R") * (force + check.read("E_d")) / 2.0
+
+
+def edit(content, given=1e4):
     """Three cells typed over, as an engineer would."""
     book = read_workbook(content, formulas=True)
     sheet = book["Steps"]
     first, second, third = np.array_split(find_steps(sheet), 3)
     sheet[f"E{first[1]['R_k']}"] = 1.0  # tiny pull-out resistance of the foot anchor
-    sheet[f"E{third[3]['R_k']}"] = 1e4  # the missing resistance is given
+    sheet[f"E{third[3]['R_k']}"] = given  # the missing resistance
     sheet[f"E{second[5]['R_k']}"] = None  # the slack guy loses its resistance
     buffer = io.BytesIO()
     book.save(buffer)
@@ -236,6 +245,13 @@ def test_verdicts_follow_an_edited_cell(fresh):
     assert book["Checks"]["S22"].value == "PASS"
     verdicts = [line["Verdict"] for line in read_rows(book["Decision"], "No.")]
     assert verdicts == ["FAIL", "FAIL", "PASS"]
+
+
+def test_a_resistance_given_later_meets_the_whole_band_of_the_force(fresh):
+    book = read_workbook(fresh["between"])
+    line = read_rows(book["Checks"], "No.")[22 - 5]
+    assert line["μ low"] < line["μ"] < 1.0 < line["μ high"]
+    assert line["Verdict"] == "NOT PROVEN"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
