@@ -10,6 +10,7 @@ import pytest
 
 from netdesign import cli
 from netdesign.report.page.solution_page import render_solution, write_history
+from tests.digits import write_force
 from tests.report.printing import PAPER_PX, PHONE_PX, list_too_wide
 
 SCENE = """
@@ -63,7 +64,7 @@ def test_steady_scene_becomes_a_folder(tmp_path, monkeypatch, capsys, net):
         if net == WALL
         else document["anchor_forces"]["foot"]["size_kN_per_m"]
     )
-    assert f"{pull:.2f}" in page
+    assert write_force(pull) in page
     assert list_too_wide(page, PHONE_PX, tmp_path, media="screen") == []
     assert list_too_wide(page, PAPER_PX, tmp_path) == []
     for name in DRAWINGS:
@@ -96,7 +97,7 @@ def test_a_panel_is_printed_and_drawn(tmp_path, monkeypatch, capsys):
         support["row_end"]["foot_kN"]["z"],
         support["row_end"]["end_guy_kN"],
     ):
-        assert f"{force:.2f}" in printed
+        assert write_force(force) in printed
     assert names(out) == {"solution.json", "index.html", "panel.svg", *DRAWINGS}
     page = (out / "index.html").read_text(encoding="utf-8")
     assert 'id="support"' in page

@@ -187,9 +187,14 @@ def _divides(demand, used, resistance):
     """The ratio is that of the forces, each right to its last digit."""
     if "-" in (demand, used, resistance) or used == "∞":
         return True
-    force, resists, ratio = map(float, (demand, resistance, used.lstrip(">")))
-    near = 0.0006 + ratio * (0.06 / max(resists, 0.1)) + 0.06 / max(resists, 0.1)
-    return math.isclose(ratio, force / resists, abs_tol=near)
+    force, resists, ratio = map(_read_rounded, (demand, resistance, used.lstrip(">")))
+    return ratio[1] >= force[0] / resists[1] and ratio[0] <= force[1] / resists[0]
+
+
+def _read_rounded(text):
+    """Least and largest number that is rounded to a printed one."""
+    half = 0.5001 * 10.0 ** -len(text.partition(".")[2])
+    return float(text) - half, float(text) + half
 
 
 def _work_out_check(what, check, again):
