@@ -75,13 +75,20 @@ def read_rows(sheet: Worksheet, head: str) -> list[dict[str, object]]:
 
 
 def find_steps(sheet: Worksheet) -> list[dict[str, int]]:
-    """Lines of the steps of each check on the sheet of calculations, by symbol."""
+    """Lines of the steps of each check on the sheet of calculations, by symbol.
+
+    A check whose design force is worked out at another one has the lines there.
+    """
     blocks: list[dict[str, int]] = []
-    for line, (symbol, name) in enumerate(
-        sheet.iter_rows(min_row=5, max_col=2, values_only=True), 5
+    for line, (symbol, name, *_, source) in enumerate(
+        sheet.iter_rows(min_row=5, max_col=8, values_only=True), 5
     ):
         if symbol and name is None:
             blocks.append({})
+        elif symbol and (cell := re.fullmatch(r"E(\d+)", source or "")):
+            (other,) = (one for one in blocks if int(cell[1]) in one.values())
+            blocks[-1] |= {x: n for x, n in other.items() if n < int(cell[1])}
+            blocks[-1][symbol] = line
         elif symbol:
             blocks[-1][symbol] = line
     return blocks

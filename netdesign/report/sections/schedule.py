@@ -251,14 +251,18 @@ def build_quantities(study: Study, words: Words, *, has_prices: bool = False) ->
         columns=(
             *name_columns(headings, numbers=()),
             Column(heading="E_d [kN]", is_number=True),
-            Column(heading=words("quantities.needed")),
             Column(heading=words("quantities.count"), is_number=True),
             Column(heading=words("quantities.each"), is_number=True),
             Column(heading=words("quantities.total"), is_number=True),
             *name_columns(prices, numbers=prices),
+            Column(heading=words("quantities.needed")),
         ),
         rows=tuple(
-            (*_show(kind, type_id, line, study, words), *(Cell() for _ in prices))
+            (
+                *_show(kind, type_id, line, study, words),
+                *(Cell() for _ in prices),
+                text_cell(describe_needed(line.checks, words) or MISSING),
+            )
             for (kind, type_id), line in _gather(study)
         ),
         empty=words("show.none"),
@@ -295,7 +299,6 @@ def _show(
         text_cell(type_id or MISSING),
         text_cell(name_rows(list(line.rows), study, words)),
         number_cell(words, "demand_kN", find_largest(line.checks, "E_d")),
-        text_cell(describe_needed(line.checks, words) if line.checks else MISSING),
         text_cell(MISSING) if kind == "net" else _sum(counts, words, 0),
         text_cell(MISSING) if kind == "net" else _show_each(sizes, words),
         _sum(products, words, 0 if kind == "net" else 1, unit),

@@ -1,5 +1,8 @@
 """Sheet of calculations: each check step by step, in live formulas.
 
+Checks of one member share a design force: it is worked out once, and the other checks
+refer to it.
+
 A value that is read from a cell of the inputs or of the profile is a link to it; any
 other stands as a number where it occurs first, and later checks refer to that line. So
 one cell changes all checks that use it. All other cells of inputs and profile went into
@@ -10,8 +13,8 @@ site is checked again.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
@@ -194,7 +197,8 @@ def _is_near(number: float | None, value: float) -> bool:
 
 
 _HEAD_ROW = 3  # zero-based; the first block begins one below
-_WIDTHS = (9, 44, 32, 11, 11, 11, 7, 26)
+_WIDTHS = (7, 30, 26, 9, 9, 9, 6, 20)
+_DEMAND = "E_d"  # last of the steps that checks of one member share
 _NAME, _FORMULA, _UNIT, _SOURCE = 1, 2, 6, 7  # columns; the symbol stands first
 _ENDS = {-1: 3, 0: 4, 1: 5}  # columns of low end, value and high end
 _FORMATS = {"kN": "0.00", "m": "0.000", "-": "0.0000"}
@@ -258,19 +262,36 @@ class Calculations:
         self._cells = cells
         self._typed: dict[tuple[int, Step], int] = {}
         self._blocks: dict[tuple[int, int], dict[str, Line]] = {}
+        self._actions: dict[tuple[int, tuple[Step, ...]], dict[str, Line]] = {}
         self.titles: dict[tuple[int, int], int] = {}  # lines of them
         line = _HEAD_ROW + 2
         for place, check in _list_checks(study):
             self.titles[place] = line
             self._blocks[place] = self._place_steps(place[0], line + 1, check)
-            line += len(check.steps) + 2
+            line += sum(one.number > line for one in self._blocks[place].values()) + 2
 
     def _place_steps(self, row: int, first: int, check: CheckRecord) -> dict[str, Line]:
+        """Lines of a check by symbol; those to its design force may be another's."""
         quantities = evaluate(check.steps)
-        return {
-            step.symbol: self._place(row, number, step, quantities[step.symbol])
-            for number, step in enumerate(check.steps, first)
-        }
+        names = [step.symbol for step in check.steps]
+        last = names.index(_DEMAND) if _DEMAND in names else 0
+        action = (row, tuple(check.steps[:last]))
+        block = dict(self._actions.get(action, {}))
+        for number, step in enumerate(check.steps[last if block else 0 :], first):
+            earlier = block.get(step.symbol)
+            line = self._place(row, number, step, quantities[step.symbol])
+            block[step.symbol] = replace(line, first=earlier.first) if earlier else line
+        if all(self._is_known(block[name]) for name in names[:last]):
+            shared = {name: block[name] for name in names[: last + 1] if last}
+            self._actions.setdefault(action, shared)
+        return block
+
+    def _is_known(self, line: Line) -> bool:
+        """It is the same wherever it stands: made by a formula, or with a source."""
+        step = line.step
+        return bool(
+            step.formula or line.link or (step.value is not None and step.source)
+        )
 
     def _place(self, row: int, number: int, step: Step, quantity: Quantity) -> Line:
         cell = None if step.formula else self._cells.find(row, step)
@@ -283,10 +304,9 @@ class Calculations:
         first = self._typed.setdefault((whose, step), number)
         return Line(number, step, quantity, "", first)
 
-    def list_blocks(self) -> Iterator[tuple[tuple[int, int], Sequence[Line]]]:
-        """Lines of each check, by the places of net row and check."""
-        for place, block in self._blocks.items():
-            yield place, list(block.values())
+    def list_blocks(self) -> Iterator[tuple[tuple[int, int], Mapping[str, Line]]]:
+        """Lines of each check by symbol, by the places of net row and check."""
+        yield from self._blocks.items()
 
     def refer(self, place: tuple[int, int], symbol: str, end: int = 0) -> str:
         """Reference to a step of a check from another sheet; "" where it has none."""
@@ -303,13 +323,13 @@ class Calculations:
             if line is not None and not line.link and line.step.value is not None:
                 yield write_same(self.refer(place, symbol), line.step.value)
 
-    def write_end(self, block: Sequence[Line], line: Line, end: int) -> str:
+    def write_end(self, block: Mapping[str, Line], line: Line, end: int) -> str:
         """Formula of one end of a line; "" of a number that stands there itself."""
-        if line.step.formula:
-            return _write_step(block, line, end)
         if line.first != line.number:
             column = chr(ord("A") + _ENDS[end])
             return write_link(f"{column}{line.first}", line.bounds)
+        if line.step.formula:
+            return _write_step(block, line, end)
         return write_link(line.link, line.bounds) if line.link else ""
 
 
@@ -320,13 +340,12 @@ def _list_checks(study: Study) -> Iterator[tuple[tuple[int, int], CheckRecord]]:
                 yield (number, place), check
 
 
-def _write_step(block: Sequence[Line], line: Line, end: int) -> str:
+def _write_step(block: Mapping[str, Line], line: Line, end: int) -> str:
     """Formula of a step of the lines before it, and which of their cells count."""
-    lines = {one.step.symbol: one for one in block}
     read: dict[str, Sequence[str]] = {}
 
     def find(leaf: Quantity, of_end: int) -> str:
-        one = lines[leaf.symbol]
+        one = block[leaf.symbol]
         cell = one.find(of_end)
         read[cell] = one.bounds
         return cell
@@ -339,6 +358,7 @@ def add_calculation_sheet(book: Book, study: Study, calculations: Calculations) 
     """Sheet "Steps": a block of lines for each check of a force."""
     words = book.words
     sheet = book.add_sheet("steps", words("heading.steps_of_checks"))
+    sheet.set_portrait()
     book.link_back(sheet)
     book.write_wide(sheet, (2, 0), words("caption.calculations"), _WIDTHS, italic=True)
     book.write_head(sheet, _HEAD_ROW, _list_columns(words), _WIDTHS)
@@ -349,8 +369,9 @@ def add_calculation_sheet(book: Book, study: Study, calculations: Calculations) 
         title = f"{show_text(shown.id)}: {show_check(words, shown.checks[check])}"
         top = calculations.titles[row, check] - 1
         book.write_wide(sheet, (top, 0), title, _WIDTHS, bold=True)
-        for line in block:
-            _write_line(book, sheet, calculations, block, line)
+        for line in block.values():
+            if line.number > top:
+                _write_line(book, sheet, calculations, block, line)
     if not calculations.titles:
         text = words("heading.no_check")
         sheet.write_string(_HEAD_ROW + 1, 0, text, book.text())
@@ -370,17 +391,18 @@ def _write_line(
     book: Book,
     sheet: Any,
     calculations: Calculations,
-    block: Sequence[Line],
+    block: Mapping[str, Line],
     line: Line,
 ) -> None:
     step, row, words = line.step, line.number - 1, book.words
+    is_worked = line.first == line.number  # else the formula stands at another check
     printed = write_formula(line.quantity, lambda leaf, _: leaf.symbol, PRINTED)
     texts = {
         0: step.symbol,
         _NAME: words(f"symbol.{step.symbol}"),
-        _FORMULA: words.write_formula(printed),
+        _FORMULA: words.write_formula(printed) if is_worked else "",
         _UNIT: "" if step.unit == "-" else show_unit(step.unit),
-        _SOURCE: _name_source(step, words),
+        _SOURCE: _name_source(line, words),
     }
     for column, text in texts.items():
         if text:
@@ -419,8 +441,11 @@ def _write_number(
     sheet.data_validation(*place, *place, rule)
 
 
-def _name_source(step: Step, words: Words) -> str:
+def _name_source(line: Line, words: Words) -> str:
     """Cell, id of the profile's value, clause; of a force the load that brings it."""
+    step = line.step
+    if step.formula and line.first != line.number:
+        return replace(line, number=line.first).at(0)
     if step.kind is not Kind.SOLVED:
         return step.source
     is_floor = step.source.startswith("floor")

@@ -82,7 +82,7 @@ class Field:
 FIELDS = {
     "no": Field("heading.no", 4),
     "row": Field("heading.net_row", 9),
-    "check": Field("heading.check", 20),
+    "check": Field("heading.check", 30),
     "clause": Field("heading.clause", 9),
     "E_k low": Field("", 7, "action_kN", "E_k", -1),
     "E_k": Field("", 7, "action_kN", "E_k"),
@@ -99,10 +99,10 @@ FIELDS = {
     "μ high": Field("", 7, "utilisation", "μ", 1),
     "set": Field("heading.set_by_study", 10),
     "verdict": Field("heading.verdict", 15),
-    "case": Field("heading.case", 24),
+    "case": Field("heading.case", 28),
     "load": Field("heading.governing_load", 16),
-    "source": Field("heading.resistance_from", 18),
-    "reason": Field("heading.reason", 50),
+    "source": Field("heading.resistance_from", 26),
+    "reason": Field("heading.reason", 58),
     "holds": Field("heading.as_calculated", 8),  # hidden: nothing stands in the way
     "unchanged": Field("heading.as_in_study", 8),  # hidden: it is as in the study
     "stored source": Field("heading.resistance_from", 8, of_study=True),

@@ -17,6 +17,7 @@ from netdesign.report.sections.basis import (
     list_defaults,
     list_notes,
     list_reading,
+    share_notes,
     show_ranges,
 )
 from netdesign.report.sections.checks import list_changes
@@ -150,7 +151,7 @@ def _add_schedule(book: Book, study: Study) -> None:
     title = words("heading.schedule")
     sheet = book.add_table_sheet("schedule", title, [built, ordered])
     first = _FIRST_LINE + len(built.rows) + _BETWEEN
-    number, total, price = (len(ordered.columns) - one for one in (5, 3, 2))
+    number, total, price = (len(ordered.columns) - one for one in (6, 4, 3))
     for line, cells in enumerate(ordered.rows, first):
         by_piece = cells[number].number is not None
         counted = xl_rowcol_to_cell(line, number if by_piece else total)
@@ -195,11 +196,12 @@ def _add_reliability(book: Book, study: Study) -> None:
 def _list_notes(book: Book, study: Study) -> Iterator[Table]:
     """Notes, default values, what would turn each check, and how to read a row."""
     words = book.words
-    notes = list_notes(study, words)
+    notes, shared = list_notes(study, words), share_notes(study, words)
     notes += [
-        words("show.label", label=show_text(row.id), text=words.show(note))
+        words("show.label", label=show_text(row.id), text=text)
         for row in study.rows
-        for note in row.notes
+        for text in map(words.show, row.notes)
+        if text not in shared
     ]
     checks = [(row.id, check) for row in study.rows for check in row.checks]
     for heading, sentences in (

@@ -17,7 +17,7 @@ from netdesign.report.words import Words, show_verdict
 
 # Widths are in digits of the default font.
 BOLD = 1.1  # width of bold letters over that of others
-_NARROWEST, _WIDEST = 6.0, 50.0  # columns
+_NARROWEST, _WIDEST, _ALONE = 6.0, 50.0, 130.0  # columns; one without others
 _CHARACTER, _CAPITAL = 0.82, 0.3  # width of one of ours; what a capital has beyond it
 _WIDEST_LETTER = 1.13  # above that of a capital, whatever is rounded
 _INDENT = 1.5  # of a text
@@ -80,6 +80,8 @@ def find_widths(tables: Sequence[Table]) -> list[float]:
     The last columns of all tables but the first do not count.
     """
     widths = [_NARROWEST] * max(len(table.columns) for table in tables)
+    if len(widths) == 1:
+        return [_ALONE]
     for place, table in enumerate(tables):
         for index, column in enumerate(table.columns):
             if place and index == len(table.columns) - 1:
@@ -108,7 +110,7 @@ def choose_paper(widths: Sequence[float]) -> tuple[int, int]:
     widths : sequence of float
         Of the columns, in characters of the default font [-].
     """
-    for paper, pages in ((A4, 1), (A4, 2), (A3, 1)):
+    for paper, pages in ((A4, 1), (A3, 1), (A4, 2)):
         if _find_scale(widths, paper, pages) >= _SMALLEST:
             return paper, pages
     return A3, 2

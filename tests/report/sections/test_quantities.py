@@ -71,9 +71,9 @@ def test_the_table_has_every_type_once_with_its_sums(study, language):
     english = build_quantities(study, Words("en")).rows
     for row, own in zip(table.rows, english, strict=True):
         pieces, metres = sums[own[0].text, own[1].text]
-        assert row[5].number in (None, pieces)
-        assert row[7].number is None or row[7].number == pytest.approx(metres)
-        assert (row[5].number is None) == (row[5].text[0] in "-≥")
+        assert row[4].number in (None, pieces)
+        assert row[6].number is None or row[6].number == pytest.approx(metres)
+        assert (row[4].number is None) == (row[4].text[0] in "-≥")
 
 
 def test_a_type_has_the_largest_force_of_all_its_checks(study):
@@ -105,6 +105,6 @@ def test_a_price_gives_an_amount_in_the_sheet(study):
     for (number, formula), line in zip(formulas, lines, strict=True):
         assert sheet.cell(number, 2).value == line[1].text
         counted = re.fullmatch(
-            r'=IF\(COUNT\(I\d+,[FH]\d+\)<2,"",([FH])\d+\*I\d+\)', formula
+            r'=IF\(COUNT\(H\d+,[EG]\d+\)<2,"",([EG])\d+\*H\d+\)', formula
         )
-        assert counted[1] == ("F" if line[5].number is not None else "H")
+        assert counted[1] == ("E" if line[4].number is not None else "G")
