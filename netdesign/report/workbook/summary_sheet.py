@@ -9,6 +9,7 @@ from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Cell, Column
 from netdesign.report.governing import find_case, find_governing, find_highest
+from netdesign.report.sections.checks import describe_briefly
 from netdesign.report.sections.decision import (
     identify,
     list_open_points,
@@ -187,7 +188,7 @@ def _write_words(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     texts = {
         _GOVERNING: show_check(words, check) if check else words("heading.no_check"),
         _CASE: _describe_case(check, words),
-        _REASONS: _explain(row, words),
+        _REASONS: describe_briefly(row, words) or MISSING,
     }
     mine = f"check_net_row_number,A{line}"
     unchanged = f"COUNTIFS({mine},check_unchanged,1)=COUNTIFS({mine})"
@@ -231,14 +232,6 @@ def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
             f'_xlfn.MAXIFS({name},{mine}),"{MISSING}"))'
         )
         sheet.write_formula(index, column, formula, form, show_cached(value))
-
-
-def _explain(row: RowStudy, words: Words) -> str:
-    reasons = [words.show(one) for one in row.reasons]
-    check = find_governing(row.checks)
-    if check and not reasons:
-        reasons.append(words.show(check.reason))
-    return " ".join(reasons) or MISSING
 
 
 def _write_below(book: Book, sheet: Any, study: Study, top: int) -> None:
