@@ -234,18 +234,16 @@ def _render(
 
 
 def _show(document: dict[str, Any]) -> None:
-    from netdesign.quantities import QUANTITIES
-    from netdesign.report.words import Words
+    from netdesign.report.words import Words, name_heading
 
     words = Words(speak())
     for one in document["extremes"]:
         line = words.show(_describe_extreme(one, words))
-        label = words.show(QUANTITIES[one["quantity"]].label)
-        click.echo(f"{label:22} {line}")
+        click.echo(f"{name_heading(words, one['quantity']):30} {line}")
         again = one.get("confirmation") or {}
         if again.get("difference_percent") is not None:
             line = words.show(_describe_confirmation(again))
-            click.echo(f"{'':22} {line}")
+            click.echo(f"{'':30} {line}")
     counts = tuple(
         say(f"case_count.{what}", count=count)
         for what, count in document["cases"].items()

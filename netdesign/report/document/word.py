@@ -129,6 +129,7 @@ class Writer:
     headings: list[tuple[str, str]] = field(default_factory=list)  # mark and text
     pictures: int = 0
     is_wide: bool = False  # on pages that stand across
+    begins_page: bool = False  # the next heading
     place_of_contents: Any = None
 
     @property
@@ -175,6 +176,7 @@ class Writer:
         if block.look == "wide":
             self._end_section()
             self.is_wide = True
+        self.begins_page = block.look == "row"
         for one in block.blocks:
             self._write_block(one)
         if block.look == "wide":
@@ -208,7 +210,9 @@ class Writer:
             f'<w:bookmarkStart w:id="{number}" w:name="{mark}"/>{write_runs(runs)}'
             f'<w:bookmarkEnd w:id="{number}"/>'
         )
-        self._add(write_paragraph(marked, self._ids[styles.HEADING]))
+        look = "<w:pageBreakBefore/>" if self.begins_page else ""
+        self._add(write_paragraph(marked, self._ids[styles.HEADING], look))
+        self.begins_page = False
 
     def _write_text(self, block: Paragraph) -> None:
         runs = list_runs(block.text)

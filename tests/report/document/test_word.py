@@ -292,3 +292,14 @@ def test_open_points_are_numbered(content):
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         xml = archive.read("word/document.xml").decode()
     assert re.search(r">1\. <", xml)
+
+
+def test_each_net_row_begins_a_page(content):
+    headings = [
+        one for one in open_word(content).paragraphs if one.style.name == "Heading 1"
+    ]
+    named = [one for one in headings if any(row.id in one.text for row in STUDY.rows)]
+    assert len(named) == len(STUDY.rows)
+    assert all(one.paragraph_format.page_break_before for one in named)
+    others = [one for one in headings if one.text not in {x.text for x in named}]
+    assert not any(one.paragraph_format.page_break_before for one in others)
