@@ -17,6 +17,7 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.running import (
     follow,
+    format_time,
     open_run,
     print_document,
     print_faults,
@@ -231,6 +232,39 @@ class _Shown:
         return any(map(bool, unknown))
 
 
+def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:
+    """Exit code; writes form and letter, a prediction, or forces beside one."""
+    from netdesign.edge.given_files import MAX_TOML_BYTES, read_bounded
+    from netdesign.evidence.validation import prediction_page as page
+    from netdesign.evidence.validation.prediction import (
+        compare,
+        open_sealed,
+        predict,
+        seal,
+    )
+    from netdesign.evidence.validation.structure import read_form
+
+    if structures or asked["as_json"] or (asked["form"] and asked["predict"]):
+        raise UsageRefusal(say("usage.one_of_predict"))
+    folder, language = asked["out"], asked["language"]
+    if asked["form"]:
+        write_outputs(folder, page.write_form(language), asked)
+        return 0
+    form, stored = read_form(asked["predict"]), folder / page.PREDICTION_FILE
+    if not stored.exists():
+        made = predict(form, format_time())
+        told = page.render_prediction(made, language)
+        files = {page.PREDICTION_FILE: seal(made), page.PAGE_FILE: told}
+        write_outputs(folder, files, asked)
+        tell(say("prediction.stored", digest=made.digest))
+        return 0
+    prediction = open_sealed(read_bounded(stored, MAX_TOML_BYTES).decode())
+    hits = compare(form, prediction)
+    told = page.render_comparison(prediction, hits, language)
+    write_outputs(folder, {page.COMPARISON_FILE: told}, asked)
+    return 0 if all(one.is_inside for one in hits) else _NOT_PROVEN
+
+
 @click.command()
 @click.argument(
     "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
@@ -248,7 +282,11 @@ def validate(structures: Path | None, **asked: Any) -> None:
     netdesign validate --out validation
     netdesign validate my-net.toml --out validation
     netdesign validate --out validation --json > validation.json
+    netdesign validate --form --out my-net
+    netdesign validate --predict my-net/form.toml --out my-net
     """
+    if asked["form"] or asked["predict"]:
+        sys.exit(_predict(structures, asked))
     from netdesign.evidence.validation.page import (
         count_parts,
         gather,

@@ -179,8 +179,9 @@ class Solution:
         Node numbers of the triangles' corners.
     mesh_density : ndarray, shape (n_triangles,)
         Snow density of the triangles [kg/m3].
-    largest_velocity : float
-        Of the snow [m/s]; the only result that depends on the fluidity.
+    mesh_velocity : ndarray, shape (2, n_nodes)
+        Along the slope and normal to it [m/s]; the only result that depends on the
+        fluidity.
     balance, cost
         See there; of a history the worst balance of all its steps.
     history : History or None
@@ -204,11 +205,16 @@ class Solution:
     mesh_edges: Ints
     mesh_triangles: Ints
     mesh_density: Floats
-    largest_velocity: float
+    mesh_velocity: Floats
     balance: Balance
     cost: Cost
     history: History | None = None
     is_released: bool = False
+
+    @property
+    def largest_velocity(self) -> float:
+        """Largest velocity of the snow [m/s]."""
+        return float(np.hypot(*self.mesh_velocity).max())
 
     @property
     def head_point(self) -> tuple[float, float]:

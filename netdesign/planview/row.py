@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.numerics.arrays import Floats
+from netdesign.planview.special import k0
 from netdesign.planview.waves import (
     FUNCTIONS,
     load_bessel,
@@ -86,6 +87,30 @@ def find_row_load(row: RowLoad, places: Floats) -> Floats:
     number = np.arange(row.coefficients.size)
     waves = np.cos(2.0 * number * angle) @ ((-1.0) ** number * row.coefficients)
     return np.asarray(waves / np.sin(angle[..., 0]))
+
+
+_PLACES = 2000  # along the row
+
+
+def find_row_velocity(row: RowLoad, distances: Floats) -> Floats:
+    """Velocity upslope of the row's middle, over the undisturbed one; (W21).
+
+    Parameters
+    ----------
+    row : RowLoad
+        Solved row.
+    distances : ndarray
+        Upslope of the row, in l_x, above 0 [-].
+
+    Verified by
+    -----------
+    tests/verification/test_plan_view.py
+    """
+    angles = math.pi * (np.arange(_PLACES) + 0.5) / _PLACES
+    places = np.cos(angles)
+    loads = find_row_load(row, places) * np.sin(angles)
+    apart = np.hypot(distances[..., None], row.half * places)
+    return np.asarray(1.0 - row.half * np.mean(loads * k0(apart), axis=-1))
 
 
 def _build_matrix(half: float, functions: int) -> Floats:

@@ -27,7 +27,8 @@ _functions = _load_functions()
 erf, erfc = _functions.erf, _functions.erfc
 gamma, gammaln, rgamma = _functions.gamma, _functions.gammaln, _functions.rgamma
 psi, eval_gegenbauer = _functions.psi, _functions.eval_gegenbauer
-iti0k0, jv, k1 = _functions.iti0k0, _functions.jv, _functions.k1
+iti0k0, jv = _functions.iti0k0, _functions.jv
+k0, k1 = _functions.k0, _functions.k1
 
 _STEPS = 6  # of Newton: the fourth is below the last digit (2 to 1,000 places)
 

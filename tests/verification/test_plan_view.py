@@ -30,7 +30,7 @@ from netdesign.planview.free_gap import (
 )
 from netdesign.planview.gap import find_excess_within, find_load
 from netdesign.planview.pulled_gap import solve_pulled_gap
-from netdesign.planview.row import find_row_load, solve_row
+from netdesign.planview.row import find_row_load, find_row_velocity, solve_row
 
 SOLVERS = (solve_free_gap, solve_pulled_gap)
 
@@ -317,3 +317,31 @@ def test_elements_in_space_with_a_pulled_gap(slip, gap, is_straight, whole):
     block = replace(block, is_pulled=True, is_straight=is_straight)
     got = [find_excess(replace(block, size=size))[0] for size in (0.15, 0.05)]
     assert got == pytest.approx(whole, abs=6e-4)
+
+
+@pytest.mark.parametrize("half", [0.07, 0.6, 2.3])
+def test_velocity_upslope_of_a_row_is_what_its_load_leaves(half):
+    """By quadrature of the load; none at the row, all of it far away."""
+    row = solve_row(half)
+    for distance in (0.21, 1.3, 3.7):
+        taken, _ = quad(
+            lambda angle, x=distance: (
+                float(find_row_load(row, np.array(np.cos(angle))))
+                * math.sin(angle)
+                * k0(math.hypot(x, half * math.cos(angle)))
+            ),
+            1e-9,
+            math.pi - 1e-9,
+            limit=400,
+        )
+        found = float(find_row_velocity(row, np.array(distance)))
+        assert found == pytest.approx(1.0 - half * taken / math.pi, abs=1e-6)
+    near, far = find_row_velocity(row, np.array([1e-4, 40.0]))
+    assert abs(near) < 0.01
+    assert far == pytest.approx(1.0, abs=1e-12)
+
+
+def test_upslope_of_a_long_row_the_velocity_is_that_of_an_endless_wall():
+    distances = np.array([0.2, 1.0, 2.5])
+    found = find_row_velocity(solve_row(8.0), distances)
+    assert found == pytest.approx(1.0 - np.exp(-distances), abs=2e-3)

@@ -38,7 +38,7 @@ FAMILIES: tuple[str, ...] = (
     *("against_figure.", "against_clock.", "against_table."),
     *("bench_word.", "bench_plot.", "bench_value."),
     *("measured.", "model_source.", "validation."),
-    *("validation_mark.", "validation_input.", "validation_member."),
+    *("validation_mark.", "validation_input.", "validation_member.", "variant."),
     *("formula."),
     *("method.", "method_used.", "setting.", "start.", "end."),
     *("paper_call.", "paper_said.", "paper_found.", "paper_reason."),

@@ -223,8 +223,7 @@ def build_solution(
         mesh_edges=template.edges,
         mesh_triangles=body.topology.triangles.T,
         mesh_density=body.density * scene.snowpack.density,
-        largest_velocity=float(np.hypot(*run.instant.velocity).max())
-        * scene.velocity_scale,
+        mesh_velocity=run.instant.velocity * scene.velocity_scale,
         balance=balance,
         cost=Cost(
             linear_solves=sum(part.linear_solves for part in runs),

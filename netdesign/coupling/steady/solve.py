@@ -265,7 +265,7 @@ def _build_solution(
         mesh_edges=mesh.template.edges,
         mesh_triangles=mesh.template.triangles[:3],
         mesh_density=triangle_density(scene, mesh.template),
-        largest_velocity=state.largest_velocity(mesh) * scene.velocity_scale,
+        mesh_velocity=mesh.to_slope_axes(state.unknowns) * scene.velocity_scale,
         balance=measure_balance(problem.snow, mesh, forces, held, cable.tension, scale),
         cost=Cost(
             linear_solves=sum(one.linear_solves for one in states),

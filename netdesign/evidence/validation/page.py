@@ -20,8 +20,16 @@ from netdesign.evidence.validation.pictures import (
     draw_bands,
     draw_compaction,
     draw_errors,
+    draw_reach,
     name_validated,
 )
+from netdesign.evidence.validation.reach import (
+    HEIGHT,
+    SLOPE,
+    Reach,
+    find_reaches,
+)
+from netdesign.evidence.validation.reach import MARKS as REACH_MARKS
 from netdesign.evidence.validation.structure import (
     Measurement,
     MemberBand,
@@ -30,6 +38,7 @@ from netdesign.evidence.validation.structure import (
     Validation,
     validate_structure,
 )
+from netdesign.evidence.validation.variants import AS_GIVEN, Variant, examine
 from netdesign.evidence.verification.case import MARKS, VerificationCase
 from netdesign.evidence.verification.compaction import (
     MODELS,
@@ -81,6 +90,8 @@ class Evidence:
     places: Sequence[Place]
     contrasts: Sequence[Contrast]
     validations: Sequence[Validation]
+    reaches: Sequence[Reach]
+    variants: Sequence[Variant] = ()
 
 
 def render_validation(
@@ -112,7 +123,13 @@ def _render_page(evidence: Evidence, words: Words) -> str:
     blocks: list[Block] = [first, _list_marks(words)]
     if evidence.validations:
         blocks.append(_show_structures(evidence.validations, words))
-    blocks += [_show_settling(evidence, words), _show_cases(evidence.cases, words)]
+    if evidence.variants:
+        blocks.append(_show_variants(evidence.variants, words))
+    blocks += [
+        _show_reaches(evidence.reaches, words),
+        _show_settling(evidence, words),
+        _show_cases(evidence.cases, words),
+    ]
     return render_page(blocks, words("validation.title"), words.language)
 
 
@@ -163,6 +180,97 @@ def _show_structures(validations: Sequence[Validation], words: Words) -> Part:
         Paragraph(text=(Piece(f"{owner} "), command), look="text"),
         look="page",
     )
+
+
+def _show_variants(variants: Sequence[Variant], words: Words) -> Part:
+    """Two forces below the model's, with one thing changed at a time."""
+    columns = {
+        "validation.measured": (TEXTS, lambda one: _name_force(one, words)),
+        "kN": (
+            NUMBER_TEXTS,
+            lambda one: _show_measured(one.comparison.measured, words),
+        ),
+        "validation.changed": (TEXTS, lambda one: words(f"variant.{one.name}")),
+        "validation.middle": (RANGES, lambda one: one.comparison.bands[0].middle),
+        "validation.below_share": (
+            numbers(".0f"),
+            lambda one: 100.0 * one.comparison.bands[0].share_below,
+        ),
+        "validation.explains": (
+            TEXTS,
+            lambda one: words("validation.yes" if one.explains else "validation.no"),
+        ),
+    }
+    changed = [one for one in variants if one.name != AS_GIVEN]
+    explained, left = (
+        tuple(
+            f"{show_own(words, one.structure.title)}: {words(f'variant.{one.name}')}"
+            for one in changed
+            if one.explains is is_explained
+        )
+        for is_explained in (True, False)
+    )
+    return section(
+        "variants",
+        words("validation.variants"),
+        _text(words, "variants_text"),
+        tabulate_items("", columns, variants, words).shown("study"),
+        _text(words, "variants_answer", explained=explained, left=left),
+        look="page",
+    )
+
+
+def _name_force(one: Variant, words: Words) -> str:
+    return words(
+        "show.label",
+        label=show_own(words, one.structure.title),
+        text=show_own(words, one.comparison.measured.name),
+    )
+
+
+def _show_reaches(reaches: Sequence[Reach], words: Words) -> Part:
+    """Glide upslope of a net, beside what glide shoes and the guideline say."""
+    near, far = REACH_MARKS[1], REACH_MARKS[2]
+    first, last = reaches[0], reaches[-1]
+    return section(
+        "reach",
+        words("validation.reach"),
+        _text(words, "reach_text", height=HEIGHT, slope=SLOPE),
+        _plate("reach", draw_reach(reaches, words), words),
+        _tabulate_reaches(reaches, words).shown("study"),
+        _text(
+            words,
+            "reach_answer",
+            distance=near,
+            least=1.0 - first.find(near)[1],
+            most=1.0 - last.find(near)[1],
+            little=first.glide_factor,
+            much=last.glide_factor,
+        ),
+        _text(
+            words,
+            "reach_of_row",
+            least=1.0 - first.find(far)[0],
+            most=1.0 - last.find(far)[0],
+        ),
+        look="page",
+    )
+
+
+def _tabulate_reaches(reaches: Sequence[Reach], words: Words) -> Table:
+    """Glide at the marks, of row and net, in per cent of the glide without a net."""
+    columns: dict[str, Any] = {"N": (numbers(".1f"), lambda one: one.glide_factor)}
+    for place, name in enumerate(("of_row", "of_net")):
+        for mark in REACH_MARKS:
+            heading = words(
+                "validation.at_mark", what=words(f"validation.{name}"), at=mark
+            )
+            columns[heading] = (numbers(".0f"), _take_share(place, mark))
+    return tabulate_items(words("validation.reach_table"), columns, reaches, words)
+
+
+def _take_share(place: int, mark: float) -> Callable[[Reach], float]:
+    return lambda one: 100.0 * one.find(mark)[place]
 
 
 def _show_settling(evidence: Evidence, words: Words) -> Part:
@@ -370,7 +478,19 @@ def write_evidence(evidence: Evidence) -> dict[str, Any]:
         "verification": write_pack(list(evidence.cases))["cases"],
         "compaction": [asdict(one) for one in evidence.places],
         "contrasts": [asdict(one) for one in evidence.contrasts],
+        "reach": [asdict(one) for one in evidence.reaches],
+        "variants": [_write_variant(one) for one in evidence.variants],
         "structures": [_write_structure(one) for one in evidence.validations],
+    }
+
+
+def _write_variant(one: Variant) -> dict[str, Any]:
+    return {
+        "structure": one.structure.id,
+        "changed": one.name,
+        "measured_kN": one.comparison.measured.value,
+        "explains": one.explains,
+        "bands": [asdict(band) for band in one.comparison.bands],
     }
 
 
@@ -435,4 +555,6 @@ def gather(
         places=list_places(),
         contrasts=compare_contrasts(),
         validations=validations,
+        reaches=find_reaches(),
+        variants=examine(structures),
     )

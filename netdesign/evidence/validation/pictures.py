@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from netdesign.evidence.validation.reach import MARKS as REACH_MARKS
+from netdesign.evidence.validation.reach import PLACES, Reach
 from netdesign.evidence.validation.structure import MemberBand, Validation
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import (
@@ -175,6 +177,43 @@ def draw_bands(validations: Sequence[Validation], words: Words = ENGLISH) -> str
         _draw_bar(chart, frame, y, band, value)
     title = words("validation.bands_title")
     return _end_list(chart, frame, words("validation.bands_axis"), title)
+
+
+def draw_reach(reaches: Sequence[Reach], words: Words = ENGLISH) -> str:
+    """Glide over distance, beside an endless row and a net that stands alone."""
+    chart = Chart(language=words.language)
+    titles = (words("validation.of_row"), words("validation.of_net"))
+    bottom = _ABOVE + _TALL
+    for number, title in enumerate(titles):
+        frame = Frame(
+            left=_BESIDE + number * (WIDTH / 2.0),
+            top=_ABOVE,
+            width=WIDTH / 2.0 - _BESIDE - 8.0,
+            height=_TALL,
+            x_low=0.0,
+            x_high=float(PLACES[-1]),
+            y_low=0.0,
+            y_high=1.0,
+        )
+        chart.text(frame.left, frame.top - 5.0, title, bold=True)
+        for mark in REACH_MARKS:
+            ends = [(frame.x(mark), y) for y in (frame.top, bottom)]
+            chart.line(ends, stroke=GREY, width=0.5)
+        for (_, dash), one in zip(SHADES, reaches, strict=False):
+            shares = (one.of_row, one.of_net)[number]
+            points = zip(one.distances, shares, strict=True)
+            traced = [(frame.x(x), frame.y(min(y, 1.0))) for x, y in points]
+            chart.line(traced, stroke=INK, dash=dash)
+        chart.axes(frame)
+        middle = frame.left + frame.width / 2.0
+        axis = words("validation.reach_axis")
+        chart.text(middle, bottom + _BELOW - 8.0, axis, anchor="middle")
+    top = bottom + _BELOW + _LINE
+    for number, one in enumerate(reaches):
+        x = _BESIDE + number * WIDTH / 5.4
+        chart.line(((x, top - 2.5), (x + 18.0, top - 2.5)), dash=SHADES[number][1])
+        chart.text(x + 22.0, top, f"N = {words.show_given(one.glide_factor)}")
+    return chart.write(top + _LINE, words("validation.reach_title"))
 
 
 _FEEBLE = 1.0  # least force of the axis [kN]: a slack guy has none

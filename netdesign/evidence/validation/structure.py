@@ -47,7 +47,7 @@ _WALL = (
     "inclination_deg",
     "friction_deg",
 )
-_NET = (
+NET_INPUTS = (
     *_WALL,
     "slack",
     "stiffness_kN_per_m",
@@ -95,9 +95,9 @@ class Measurement:
     __pydantic_config__: ClassVar = {"extra": "forbid"}
     name: str
     members: tuple[str, ...]
-    # [kN], or [kN/m] of a wall; uncertainty 0 where none is stated
-    value: Annotated[_Number, _named("value_kN", "value_kN_per_m")]
-    mark: Mark
+    # [kN], or [kN/m] of a wall; no number before it was measured
+    value: Annotated[_Number, _named("value_kN", "value_kN_per_m")] = math.nan
+    mark: Mark = "measured"
     uncertainty: Annotated[
         _Number, _named("uncertainty_kN", "uncertainty_kN_per_m")
     ] = 0.0
@@ -141,13 +141,15 @@ class Structure:
         return set(_ROPE) <= self.inputs.keys()
 
 
-def read_structures(content: bytes) -> tuple[Structure, ...]:
+def read_structures(content: bytes, *, is_form: bool = False) -> tuple[Structure, ...]:
     """Structures of a file.
 
     Parameters
     ----------
     content : bytes
         TOML in the form of ``measured.toml``.
+    is_form : bool
+        Its forces may still be without a value.
 
     Raises
     ------
@@ -162,18 +164,23 @@ def read_structures(content: bytes) -> tuple[Structure, ...]:
     tables = document.get("structure")
     if not isinstance(tables, list) or not 0 < len(tables) <= _MOST:
         raise _refuse("structure", "[[structure]]")
-    found = [_read_named(number, one) for number, one in enumerate(tables, 1)]
+    found = [
+        _read_named(number, one, is_form=is_form)
+        for number, one in enumerate(tables, 1)
+    ]
     for name, count in Counter(one.id for one in found).items():
         if count > 1:
             raise _refuse(f"id = {name!r:.60}", "structure.id: 1 x")
     return tuple(found)
 
 
-def _read_named(number: int, table: Any) -> Structure:
+def _read_named(number: int, table: Any, *, is_form: bool) -> Structure:
     """Structure; a refusal names it by its id, else by its number."""
     try:
         structure = _READER.validate_python(table)
         _require_complete(structure, table)
+        if not is_form:
+            _require_values(structure)
     except ValidationError as error:
         told = list_faults([_describe(fault) for fault in error.errors()])
     except ModelError as error:
@@ -198,7 +205,7 @@ def _describe(fault: Any) -> Message:
 def _require_complete(structure: Structure, table: Mapping[str, Any]) -> None:
     """Inputs and units are those of the kind, ranges ascend, forces have members."""
     is_net = structure.kind == "net"
-    wanted, given = _NET if is_net else _WALL, structure.inputs.keys()
+    wanted, given = NET_INPUTS if is_net else _WALL, structure.inputs.keys()
     for name in given - {*wanted, *(_ROPE if is_net else ())}:
         raise _refuse(f"inputs.{name}", ", ".join(wanted))
     missing = [name for name in wanted if name not in given]
@@ -217,6 +224,14 @@ def _require_complete(structure: Structure, table: Mapping[str, Any]) -> None:
                 name.partition("_")[2] != unit
             ):
                 raise _refuse(f"measured.{name}", f"value_{unit}, uncertainty_{unit}")
+
+
+def _require_values(structure: Structure) -> None:
+    """Every force has its value."""
+    unit = _UNITS[structure.kind]
+    for force in structure.measured:
+        if math.isnan(force.value):
+            raise _refuse(f"measured.{force.name}", f"value_{unit}")
 
 
 def _require_ascending(name: str, span: Span, table: Mapping[str, Any]) -> None:
@@ -317,8 +332,8 @@ class Validation:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Forces:
-    """Forces of one case [kN], error over the largest, or why there are none."""
+class CaseForces:
+    """Forces of a case [kN] by member, its error over the largest; or why not."""
 
     values: dict[str, float]
     error: float = 0.0
@@ -340,12 +355,7 @@ def validate_structure(structure: Structure, samples: int = SAMPLES) -> Validati
     ModelError
         If no case has a result.
     """
-    points = _draw(structure, 1 if structure.is_known else samples)
-    forces = [_solve(structure, point) for point in points]
-    good = [one for one in forces if one.values]
-    reasons = tuple(dict.fromkeys(one.reason for one in forces if one.reason))
-    if not good:
-        raise ModelError(say("measured.none_solved", name=structure.id[:200]))
+    good, reasons, failed = solve_cases(structure, samples)
     return Validation(
         structure=structure,
         comparisons=tuple(
@@ -356,9 +366,28 @@ def validate_structure(structure: Structure, samples: int = SAMPLES) -> Validati
             for one in structure.measured
         ),
         solved=len(good),
-        failed=len(forces) - len(good),
+        failed=failed,
         reasons=reasons,
     )
+
+
+def solve_cases(
+    structure: Structure, samples: int = SAMPLES
+) -> tuple[list[CaseForces], tuple[str, ...], int]:
+    """Forces of the cases drawn from the ranges; why some failed, and how many.
+
+    Raises
+    ------
+    ModelError
+        If no case has a result.
+    """
+    points = _draw(structure, 1 if structure.is_known else samples)
+    forces = [_solve(structure, point) for point in points]
+    good = [one for one in forces if one.values]
+    reasons = tuple(dict.fromkeys(one.reason for one in forces if one.reason))
+    if not good:
+        raise ModelError(say("measured.none_solved", name=structure.id[:200]))
+    return good, reasons, len(forces) - len(good)
 
 
 def _draw(structure: Structure, count: int) -> list[dict[str, float]]:
@@ -377,27 +406,27 @@ def _draw(structure: Structure, count: int) -> list[dict[str, float]]:
     ]
 
 
-def _solve(structure: Structure, point: dict[str, float]) -> _Forces:
+def _solve(structure: Structure, point: dict[str, float]) -> CaseForces:
     try:
         if structure.kind == "wall":
             return _solve_wall(point)
         return _solve_net(point, has_ropes=structure.has_ropes)
     except ModelError as error:
-        return _Forces(values={}, reason=str(error))
+        return CaseForces(values={}, reason=str(error))
     except SolveError as failure:
-        return _Forces(values={}, reason=str(failure.reason))
+        return CaseForces(values={}, reason=str(failure.reason))
 
 
-def _solve_wall(point: dict[str, float]) -> _Forces:
+def _solve_wall(point: dict[str, float]) -> CaseForces:
     friction = math.radians(point["friction_deg"])
     force = solve_wall(_build(point), _SETTINGS, friction_angle=friction).force
-    return _Forces(
+    return CaseForces(
         values={ALONG_SLOPE: force.x / 1e3, "size": force.size / 1e3},
         error=force.error / force.size,
     )
 
 
-def _solve_net(point: dict[str, float], *, has_ropes: bool) -> _Forces:
+def _solve_net(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
     spacing, height = point["post_spacing_m"], point["net_height_m"]
     layout = SupportLayout(
         post_spacing=spacing,
@@ -422,14 +451,14 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> _Forces:
     task = build_task(case, lambda _: scene, layout, _SETTINGS, panels)
     (result,) = run_cases([task])
     if not result.is_converged:
-        return _Forces(values={}, reason=str(result.reason))
+        return CaseForces(values={}, reason=str(result.reason))
     bands = result.member_forces
     largest = max(band.value for band in bands.values())
     error = max((band.high - band.low) / 2.0 for band in bands.values())
     values = {name: 0.0 for name in map(str, Member)} | {
         name: band.value / 1e3 for name, band in bands.items()
     }
-    return _Forces(values=values, error=error / largest)
+    return CaseForces(values=values, error=error / largest)
 
 
 def _build(point: dict[str, float], **net: Any) -> Scene:
@@ -446,7 +475,7 @@ def _build(point: dict[str, float], **net: Any) -> Scene:
 
 
 def _find_band(
-    member: str, measured: Measurement, forces: Sequence[_Forces]
+    member: str, measured: Measurement, forces: Sequence[CaseForces]
 ) -> MemberBand:
     found = [one.values[member] for one in forces if member in one.values]
     if not found:
@@ -466,6 +495,11 @@ def _find_band(
 _OWN = "measured.toml"
 
 
+def read_form(path: Path) -> tuple[Structure, ...]:
+    """Structures of a form, whose forces may lack a value; errors as of `read_all`."""
+    return _read_file(path, is_form=True)
+
+
 def read_all(path: Path | None) -> tuple[Structure, ...]:
     """Structures of a file, if one is given, then those that come with the program.
 
@@ -482,8 +516,12 @@ def read_all(path: Path | None) -> tuple[Structure, ...]:
     own = read_structures(find_files(__package__).joinpath(_OWN).read_bytes())
     if path is None:
         return own
+    return (*_read_file(path), *own)
+
+
+def _read_file(path: Path, *, is_form: bool = False) -> tuple[Structure, ...]:
     try:
-        return (*read_structures(read_bounded(path, MAX_TOML_BYTES)), *own)
+        return read_structures(read_bounded(path, MAX_TOML_BYTES), is_form=is_form)
     except (ModelError, OSError, ValueError) as error:
         told = say("text.at_place", place=str(path), text=explain(error))
         raise ModelError(told) from None

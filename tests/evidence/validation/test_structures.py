@@ -14,6 +14,7 @@ from netdesign.evidence.validation.page import (
     Evidence,
     render_validation,
 )
+from netdesign.evidence.validation.reach import find_reaches
 from netdesign.evidence.validation.structure import (
     SAMPLES,
     Span,
@@ -215,6 +216,7 @@ def build_evidence(*validations):
             )
         ],
         validations=validations,
+        reaches=find_reaches(),
     )
 
 
@@ -224,15 +226,15 @@ def test_page_marks_every_figure_and_draws_its_pictures():
     hostile = replace(known_net(), title="<script>alert(1)</script>")
     rendered = render_validation(build_evidence(validate_structure(hostile)))
     page, document = rendered[PAGE_FILE].decode(), json.loads(rendered[DOCUMENT_FILE])
-    assert page.count("<svg") == 3
+    assert page.count("<svg") == 4
     assert "<script>" not in page
     assert document["schema"] == "netdesign.validation/1"
     assert document["structures"][0]["is_known"]
 
 
-def test_page_without_structures_has_two_pictures():
+def test_page_without_structures_has_three_pictures():
     page = render_validation(build_evidence())[PAGE_FILE].decode()
-    assert page.count("<svg") == 2
+    assert page.count("<svg") == 3
     assert "Measured structures" not in page
 
 
