@@ -41,6 +41,7 @@ def check(
     standard: Standard | str | Path = "nf-p-95-304-style",
     *,
     accuracy: float = 0.01,
+    reliability: bool = False,
 ) -> Study:
     """Study of a site against a limit profile, as ``netdesign check`` makes it.
 
@@ -52,6 +53,8 @@ def check(
         Limit profile, its id or its folder.
     accuracy : float
         Relative error allowed in every end force of the net [-].
+    reliability : bool
+        Work out a notional annual reliability of each governing check, too.
 
     Raises
     ------
@@ -68,6 +71,7 @@ def check(
         settings=SolverSettings(accuracy=accuracy),
         command="netdesign.check",
         started=datetime.now(UTC).isoformat(timespec="seconds"),
+        has_reliability=reliability,
     )
     (study,) = check_site(given, [profile], run)
     return study

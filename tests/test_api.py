@@ -1,6 +1,7 @@
 """The door from Python: a workbook to reports, and the parts of a solve."""
 
 import json
+from dataclasses import replace
 from math import radians
 from pathlib import Path
 
@@ -44,6 +45,17 @@ def test_a_site_is_checked_by_its_path_as_by_what_was_read(study, tmp_path):
     again = nd.check(site, nd.load_standard("nf-p-95-304-style"), accuracy=0.05)
     assert again.rows == study.rows
     assert [row.id for row in study.rows] == ["R1", "R6"]
+
+
+def test_reliability_is_worked_out_where_it_is_asked_for(study, tmp_path):
+    write_short_example(tmp_path / "site.xlsx", ["R1", "R6"])
+    path = str(tmp_path / "site.xlsx")
+    again = nd.check(path, accuracy=0.05, reliability=True)
+    first, second = (row.reliability for row in again.rows)
+    assert first.beta is not None or first.reason is not None
+    assert second.reason is not None  # a resistance is missing
+    assert all(row.reliability is None for row in study.rows)
+    assert [replace(row, reliability=None) for row in again.rows] == study.rows
 
 
 def test_the_frame_has_every_check_once(study):
