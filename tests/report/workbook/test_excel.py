@@ -1,4 +1,5 @@
 import io
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -616,3 +617,42 @@ def test_bare_row_has_a_workbook():
 
 def test_workbook_repeats_byte_for_byte(content):
     assert content == render_workbook(STUDY)
+
+
+def list_shared(sheet):
+    """Checks by number with the line of their design force, and where it comes from."""
+    for number, block in enumerate(find_steps(sheet)):
+        line = block.get("E_d")
+        source = str(sheet[f"H{line}"].value)
+        if line and re.fullmatch(r"E\d+", source):
+            yield number, line, source
+
+
+SHARED_SPOILS = (None, "abc", "", "#N/A", -3.0, "=1/0")
+
+
+@pytest.mark.long
+def test_checks_that_share_a_design_force_fall_with_it(tmp_path):
+    """The force blank, a text or negative: where it is worked out, or read."""
+    study = build_study()
+    content, books, touched = render_workbook(study), {}, {}
+    sheet = read_workbook(content, formulas=True)["Steps"]
+    shared = list(list_shared(sheet))
+    assert len(shared) >= 3
+    for k, value in enumerate(SHARED_SPOILS):
+        number, line, source = shared[k % len(shared)]
+        for name, cell in (("read", f"E{line}"), ("made", source)):
+            book = read_workbook(content, formulas=True)
+            book["Steps"][cell].value = value
+            book.save(buffer := io.BytesIO())
+            books[f"{name}{k}"] = buffer.getvalue()
+            others = {n for n, _, of in shared if of == source}
+            touched[f"{name}{k}"] = others if name == "made" else {number}
+    fresh = recalculate(books, tmp_path)
+    calculated = [
+        5 + place for place, c in enumerate(expected_checks(study)) if c.steps
+    ]
+    for name, numbers in touched.items():
+        checks = read_workbook(fresh[name])["Checks"]
+        for number in numbers:
+            assert checks[f"S{calculated[number]}"].value == "NOT PROVEN", name
