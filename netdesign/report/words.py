@@ -51,11 +51,6 @@ class Words:
         """Text of a key with its gaps filled."""
         return fill_text(key, arguments, self.language)
 
-    @property
-    def semicolon(self) -> str:
-        """Semicolon; French sets it apart."""
-        return self.join(("", "")).rstrip()
-
     def join(self, parts: Iterable[str]) -> str:
         """Parts of one cell, one after the other."""
         return self("text.parts", parts=tuple(parts))
@@ -161,12 +156,6 @@ class Words:
             return MISSING
         density, *others = case.values.items()
         return ", ".join((self.show_with_unit(*density), *self.name_values(others)))
-
-    def name_further(self, case: CasePoint | None) -> str:
-        """Values of a case beside the usual three, after a comma: ``, d 2.5 m``."""
-        if case is None:
-            return ""
-        return "".join(f", {x}" for x in self.name_values([*case.values.items()][3:]))
 
     def name_case_short(self, case: CasePoint | None) -> str:
         """Numbers of a case for a narrow column: ``350 / 30 / 25``."""

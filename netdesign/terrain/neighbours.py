@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
 from netdesign.terrain.measure import MeasuredRow
 
 _FARTHEST = 20.0  # from a row's end; beyond it the next work counts as none [m]
@@ -52,17 +50,3 @@ def _find_beside(
         beside = (along > 0.0) & (along <= _FARTHEST) & (aside <= row.line.net_height)
         found += [float(one) for one in along[beside]]
     return min(found, default=None)
-
-
-def find_overlap(row: MeasuredRow, other: MeasuredRow) -> float:
-    """Length along a row that another one stands above or below [m]."""
-    start, end = row.posts[0, :2], row.posts[-1, :2]
-    length = math.dist(start, end)
-    along = (end - start) / length
-    places = _project(other.posts[:, :2], start, along)
-    low, high = float(places.min()), float(places.max())
-    return max(0.0, min(length, high) - max(0.0, low))
-
-
-def _project(points: Floats, start: Floats, along: Floats) -> Floats:
-    return np.asarray((points - start) @ along)

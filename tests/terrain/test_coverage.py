@@ -8,7 +8,7 @@ import pytest
 from netdesign.terrain.coverage import find_coverage
 from netdesign.terrain.crossings import is_inside
 from netdesign.terrain.measure import measure_plan
-from netdesign.terrain.neighbours import find_gap, find_overlap
+from netdesign.terrain.neighbours import find_gap
 from netdesign.terrain.site_lines import derive_cells
 from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
 
@@ -47,7 +47,7 @@ def test_flat_ground_and_no_zone_leave_nothing_open():
         assert (found.area, found.uncovered, found.share) == (0.0, 0.0, 0.0)
 
 
-def test_gap_and_overlap_of_rows_beside_and_above():
+def test_gap_of_rows_beside_and_above():
     grid = build_grid(plane(PSI), size=160.0)
     lines = (
         draw_line([(-30.0, -20.0), (-3.0, -20.0)], name="A"),
@@ -59,8 +59,6 @@ def test_gap_and_overlap_of_rows_beside_and_above():
     assert find_gap(a, [a, b, c, d]) == pytest.approx(3.0)
     assert find_gap(a, [a, b, d]) is None  # one end is free
     assert find_gap(d, [a, b, c, d]) is None
-    assert find_overlap(a, d) == pytest.approx(9.0)
-    assert find_overlap(a, b) == 0.0
 
 
 def test_places_inside_a_ring_with_a_bay():
