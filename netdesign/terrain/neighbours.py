@@ -1,4 +1,4 @@
-"""Gap beside a row, and how far rows lie over each other."""
+"""Gap beside a row: the nearest work along it."""
 
 from __future__ import annotations
 
