@@ -232,7 +232,7 @@ TEXTS = Kind(show=lambda _, text: text_cell(text), is_number=False)
 # Two forces in one cell, in kN of N; the ends of a range.
 PAIRS = Kind(
     show=lambda words, pair: text_cell(
-        words.write(" / ".join(f"{one / 1e3:.1f}" for one in pair))
+        " / ".join(words.show_number("max_kN", one / 1e3) for one in pair)
     )
 )
 RANGES = Kind(

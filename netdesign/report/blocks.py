@@ -165,6 +165,11 @@ def number_cell(words: Words, key: str, value: float | None) -> Cell:
     return Cell(text=words.show_number(key, value), number=value)
 
 
+def force_cell(words: Words, force: float | None) -> Cell:
+    """Force in kN or kN/m, with three digits; "-" for none."""
+    return number_cell(words, "max_kN", force)
+
+
 def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:
     """Number with so many decimals; "-" for none."""
     return Cell(text=words.show_fixed(value, decimals), number=value)

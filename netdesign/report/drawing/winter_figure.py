@@ -101,7 +101,7 @@ def _list_lines(
     """Lines of those that have a force, named with their largest one."""
     return [
         Line(
-            label=f"{words.write(f'{max(known):.1f}')} {name}",
+            label=f"{words.show_number('max_kN', max(known))} {name}",
             x=[at for at, _ in days],
             y=[math.nan if one is None else one for one in values],
             style=number,

@@ -13,6 +13,7 @@ from netdesign.report.blocks import (
     Paragraph,
     Table,
     fixed_cell,
+    force_cell,
     name_columns,
     notes,
     text_cell,
@@ -174,9 +175,9 @@ def _tabulate_residuals(fit: Mapping[str, Any], words: Words) -> Table:
             (
                 text_cell(one["date"].replace("-", "\u2011")),
                 text_cell(show_member(words, one["member"])),
-                fixed_cell(words, one["measured_kN"], 1),
-                fixed_cell(words, one["computed_kN"], 1),
-                fixed_cell(words, one["measured_kN"] / one["computed_kN"], 3),
+                force_cell(words, one["measured_kN"]),
+                force_cell(words, one["computed_kN"]),
+                fixed_cell(words, one["measured_kN"] / one["computed_kN"], 2),
                 _percent_cell(one["deviation"], words),
             )
             for one in fit["residuals"]
@@ -188,7 +189,7 @@ def _band_cell(band: Mapping[str, float] | None, words: Words) -> Cell:
     if band is None:
         return text_cell(MISSING)
     low, value, high = (
-        words.show_fixed(band[key], 1) for key in ("low", "value", "high")
+        words.show_number("max_kN", band[key]) for key in ("low", "value", "high")
     )
     ends = words("show.band", low=low, high=high)
     return Cell(text=f"{value} ({ends})", number=band["value"])

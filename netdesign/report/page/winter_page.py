@@ -19,6 +19,7 @@ from netdesign.report.blocks import (
     Part,
     Table,
     fixed_cell,
+    force_cell,
     masthead,
     name_columns,
     notes,
@@ -215,7 +216,7 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
             fixed_cell(words, one["swe_max_kg_m2"], 0),
             *_show_peaks(one, words),
             _unbroken(one["governing_date"] or MISSING),
-            fixed_cell(words, one["foot_at_height_max_kN_per_m"], 1),
+            force_cell(words, one["foot_at_height_max_kN_per_m"]),
             _show_uniform(one, words),
             fixed_cell(words, one["equivalent_density_kg_m3"], 0),
             fixed_cell(words, one["days_above_90_percent"], 0),
@@ -233,14 +234,14 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
 def _show_peaks(winter: Mapping[str, Any], words: Words) -> list[Cell]:
     """Foot and head; nothing where no day has a force, though snow pulls."""
     peaks = [winter[f"{end}_peak_kN_per_m"] for end in ("foot", "head")]
-    return [fixed_cell(words, one, 1) for one in peaks]
+    return [force_cell(words, one) for one in peaks]
 
 
 def _show_uniform(winter: Mapping[str, Any], words: Words) -> Cell:
     """Annual maximum of uniform snow, or what it is at most."""
     bound = winter.get("uniform_at_most_kN_per_m")
     if bound is None:
-        return fixed_cell(words, winter.get("uniform_peak_kN_per_m"), 1)
+        return force_cell(words, winter.get("uniform_peak_kN_per_m"))
     return text_cell(words("winter_page.at_most", bound=bound))
 
 
@@ -260,7 +261,7 @@ def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
         rows=tuple(
             (
                 _unbroken(one["name"]),
-                *(fixed_cell(words, one["members_peak_kN"].get(m), 1) for m in members),
+                *(force_cell(words, one["members_peak_kN"].get(m)) for m in members),
             )
             for one in shown
             if members
@@ -322,10 +323,10 @@ def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
         rows=tuple(
             (
                 fixed_cell(words, one["period_a"], 0),
-                fixed_cell(words, one["foot_kN_per_m"], 1),
+                force_cell(words, one["foot_kN_per_m"]),
                 _show_interval(one, "", words),
-                fixed_cell(words, one["standard_error_kN_per_m"], 1),
-                fixed_cell(words, one.get("gev_kN_per_m"), 1),
+                force_cell(words, one["standard_error_kN_per_m"]),
+                force_cell(words, one.get("gev_kN_per_m")),
                 _show_interval(one, "gev_", words),
             )
             for one in statistics["return_values"]
@@ -337,7 +338,7 @@ def _show_interval(value: Mapping[str, Any], of: str, words: Words) -> Cell:
     ends = [value.get(f"{of}{end}_kN_per_m") for end in ("low", "high")]
     if None in ends:
         return text_cell(MISSING)
-    low, high = (words.write(f"{end:.1f}") for end in ends)
+    low, high = (words.show_number("max_kN", end) for end in ends)
     return text_cell(words("show.band", low=low, high=high))
 
 
