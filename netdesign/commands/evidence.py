@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -241,10 +242,11 @@ def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:
         open_sealed,
         predict,
         seal,
+        write_hits,
     )
     from netdesign.evidence.validation.structure import read_form
 
-    if structures or asked["as_json"] or (asked["form"] and asked["predict"]):
+    if structures or (asked["form"] and asked["predict"]):
         raise UsageRefusal(say("usage.one_of_predict"))
     folder, language = asked["out"], asked["language"]
     if asked["form"]:
@@ -256,12 +258,17 @@ def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:
         told = page.render_prediction(made, language)
         files = {page.PREDICTION_FILE: seal(made), page.PAGE_FILE: told}
         write_outputs(folder, files, asked)
-        tell(say("prediction.stored", digest=made.digest))
+        if asked["as_json"]:
+            print_document(json.loads(seal(made)))
+        else:
+            tell(say("prediction.stored", digest=made.digest))
         return 0
     prediction = open_sealed(read_bounded(stored, MAX_TOML_BYTES).decode())
     hits = compare(form, prediction)
     told = page.render_comparison(prediction, hits, language)
     write_outputs(folder, {page.COMPARISON_FILE: told}, asked)
+    if asked["as_json"]:
+        print_document(write_hits(hits, prediction))
     return 0 if all(one.is_inside for one in hits) else _NOT_PROVEN
 
 

@@ -10,7 +10,8 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
@@ -258,6 +259,27 @@ def _find_hits(
                     measured=measured,
                     predicted=bands[member],
                 )
+
+
+def write_hits(hits: Sequence[Hit], prediction: Prediction) -> dict[str, Any]:
+    """Plain values of a comparison, in the form ``netdesign.comparison/1``."""
+    return {
+        "schema": "netdesign.comparison/1",
+        "made": prediction.made,
+        "sha256": prediction.digest,
+        "forces": [
+            {
+                "structure": one.structure,
+                "name": one.measured.name,
+                "measured": one.measured.value,
+                "uncertainty": one.measured.uncertainty,
+                "predicted": asdict(one.predicted),
+                "is_inside": one.is_inside,
+                "ratio": one.ratio,
+            }
+            for one in hits
+        ],
+    }
 
 
 def is_measured(force: Measurement) -> bool:

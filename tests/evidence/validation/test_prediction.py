@@ -126,7 +126,11 @@ def test_an_owner_goes_from_the_form_to_the_comparison(tmp_path, language):
     for factor, code in ((1.01, 0), (3.0, 4)):
         entered = f'members = ["foot_anchor"]\nvalue_kN = {factor * middle}'
         form.write_text(text.replace('members = ["foot_anchor"]', entered), "utf-8")
-        assert run("--predict", str(form), "--force").code == code
+        ended = run("--predict", str(form), "--force", "--json")
+        assert ended.code == code
+        (hit,) = json.loads(ended.out)["forces"]
+        assert hit["is_inside"] is (code == 0)
+        assert hit["ratio"] == pytest.approx(factor)
         assert (tmp_path / "comparison.html").exists()
 
 
