@@ -221,8 +221,8 @@ def test_own_site(tmp_path):
     *lines, _ = run_as_shown("own_site", tmp_path)
     found = {numbers(line)[0]: (numbers(line)[1], line.split()[-1]) for line in lines}
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (as_built,) = re.findall(r"^R1 .*? (\d\.\d{3})$", readme, re.MULTILINE)
-    assert found[4.0] == (float(as_built), "pass")
+    (as_built,) = re.findall(r"^R1 .*? (\d\.\d\d)$", readme, re.MULTILINE)
+    assert found[4.0] == (pytest.approx(float(as_built), abs=0.005), "pass")
     # The wider posts carry snow in proportion to their spacing.
     assert found[7.0][0] / found[5.0][0] == pytest.approx(7.0 / 5.0, rel=0.01)
     verdicts = {spacing: verdict for spacing, (_, verdict) in found.items()}
