@@ -112,7 +112,7 @@ THIRD_PARTY = {
     "defusedxml": ("site.cells.xlsx", "site.cells.ods", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
-        "evidence.validation.structure",
+        *("evidence.validation.structure", "evidence.validation.measured_file"),
         *("checks.schema", "files.scene", "files.support_tables", "study.document"),
         "edge.json_text",
     ),

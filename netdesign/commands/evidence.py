@@ -237,6 +237,7 @@ def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:
     """Exit code; writes form and letter, a prediction, or forces beside one."""
     from netdesign.edge.given_files import MAX_TOML_BYTES, read_bounded
     from netdesign.evidence.validation import prediction_page as page
+    from netdesign.evidence.validation.measured_file import read_form
     from netdesign.evidence.validation.prediction import (
         compare,
         open_sealed,
@@ -244,7 +245,6 @@ def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:
         seal,
         write_hits,
     )
-    from netdesign.evidence.validation.structure import read_form
 
     if structures or (asked["form"] and asked["predict"]):
         raise UsageRefusal(say("usage.one_of_predict"))
@@ -294,6 +294,7 @@ def validate(structures: Path | None, **asked: Any) -> None:
     """
     if asked["form"] or asked["predict"]:
         sys.exit(_predict(structures, asked))
+    from netdesign.evidence.validation.measured_file import read_all
     from netdesign.evidence.validation.page import (
         count_parts,
         gather,
@@ -301,7 +302,6 @@ def validate(structures: Path | None, **asked: Any) -> None:
         render_pages,
         write_evidence,
     )
-    from netdesign.evidence.validation.structure import read_all
 
     require_places(asked["out"], list_pages(), asked)
     known = read_all(structures)

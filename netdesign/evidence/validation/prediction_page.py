@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from netdesign import __version__
 from netdesign.evidence.table import NUMBER_TEXTS, RANGES, TEXTS, tabulate_items
+from netdesign.evidence.validation.measured_file import SCHEMA
 from netdesign.evidence.validation.pictures import name_validated
 from netdesign.evidence.validation.prediction import Hit, Prediction
-from netdesign.evidence.validation.structure import NET_INPUTS, SCHEMA
+from netdesign.evidence.validation.structure import NET_INPUTS
 from netdesign.report.blocks import CODE, Block, Paragraph, Piece, masthead, section
 from netdesign.report.page.render import render_page
 from netdesign.report.words import MISSING, Words

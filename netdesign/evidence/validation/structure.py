@@ -7,57 +7,49 @@ gets a misfit; one with any range gets a plausibility band.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib.resources import files as find_files
-from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import AliasChoices, Field, TypeAdapter, ValidationError
+from pydantic import AliasChoices, Field
 
+from netdesign.cable.net import LARGEST_FRICTION_ANGLE, LARGEST_SLACK
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.edge.causes import explain, explain_shape
-from netdesign.edge.given_files import (
-    MAX_TOML_BYTES,
-    list_faults,
-    parse_toml,
-    read_bounded,
-)
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.evidence.scene import build_scene, solve_wall
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError, SolveError
-from netdesign.panel.inputs import Panel, Rope
-from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.panel.inputs import LARGEST_SAG, Panel, Rope
+from netdesign.snow.ground import (
+    LARGEST_GLIDE_FACTOR,
+    build_ground_from_glide_factor,
+)
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
-SCHEMA = "netdesign.measured/1"
-_WALL = (
-    "slope_deg",
-    "net_height_m",
-    "filled",
-    "density_kg_m3",
-    "upslope_length_m",
-    "glide_factor",
-    "inclination_deg",
-    "friction_deg",
-)
-NET_INPUTS = (
-    *_WALL,
-    "slack",
-    "stiffness_kN_per_m",
-    "post_spacing_m",
-    "uphill_anchor_ratio",
-)
-_ROPE = ("rope_stiffness_kN", "rope_sag")  # both, for the ropes between posts
+# Inputs of a structure and what is accepted of them, by the names of the file.
+WALL_INPUTS = {
+    "slope_deg": (5.0, 70.0),
+    "net_height_m": (0.5, 10.0),
+    "filled": (0.05, 1.0),
+    "density_kg_m3": (50.0, 700.0),
+    "upslope_length_m": (0.5, 300.0),
+    "glide_factor": (1.0, LARGEST_GLIDE_FACTOR),
+    "inclination_deg": (0.0, 70.0),
+    "friction_deg": (0.0, math.degrees(LARGEST_FRICTION_ANGLE)),
+}
+NET_INPUTS = WALL_INPUTS | {
+    "slack": (0.0, LARGEST_SLACK),
+    "stiffness_kN_per_m": (10.0, 1e7),
+    "post_spacing_m": (0.5, 20.0),
+    "uphill_anchor_ratio": (0.0, 10.0),
+}
+# Both, for the ropes between posts.
+ROPE_INPUTS = {"rope_stiffness_kN": (10.0, 1e7), "rope_sag": (0.0, LARGEST_SAG)}
 ALONG_SLOPE = "along_slope"  # of a wall, per metre
-_MOST = 200  # structures
-_UNITS = {"net": "kN", "wall": "kN_per_m"}  # of what is measured
 
 Mark = Literal["read", "assumed", "unknown", "measured"]
 _Number = Annotated[float, Field(ge=0, allow_inf_nan=False, strict=True)]
@@ -138,112 +130,7 @@ class Structure:
     @property
     def has_ropes(self) -> bool:
         """The ropes between the posts are given."""
-        return set(_ROPE) <= self.inputs.keys()
-
-
-def read_structures(content: bytes, *, is_form: bool = False) -> tuple[Structure, ...]:
-    """Structures of a file.
-
-    Parameters
-    ----------
-    content : bytes
-        TOML in the form of ``measured.toml``.
-    is_form : bool
-        Its forces may still be without a value.
-
-    Raises
-    ------
-    ModelError
-        If a field is missing, unknown, or out of its range; it is named.
-    ValueError
-        If it is no TOML.
-    """
-    document = parse_toml(content)
-    if document.get("schema") != SCHEMA:
-        raise _refuse("schema", f'"{SCHEMA}"')
-    tables = document.get("structure")
-    if not isinstance(tables, list) or not 0 < len(tables) <= _MOST:
-        raise _refuse("structure", "[[structure]]")
-    found = [
-        _read_named(number, one, is_form=is_form)
-        for number, one in enumerate(tables, 1)
-    ]
-    for name, count in Counter(one.id for one in found).items():
-        if count > 1:
-            raise _refuse(f"id = {name!r:.60}", "structure.id: 1 x")
-    return tuple(found)
-
-
-def _read_named(number: int, table: Any, *, is_form: bool) -> Structure:
-    """Structure; a refusal names it by its id, else by its number."""
-    try:
-        structure = _READER.validate_python(table)
-        _require_complete(structure, table)
-        if not is_form:
-            _require_values(structure)
-    except ValidationError as error:
-        told = list_faults([_describe(fault) for fault in error.errors()])
-    except ModelError as error:
-        told = error.message
-    else:
-        return structure
-    name = table.get("id") if isinstance(table, dict) else None
-    place = f"structure {name if isinstance(name, str) else number!s:.60}"
-    raise ModelError(say("text.at_place", place=place, text=told))
-
-
-_READER = TypeAdapter(Structure)
-
-
-def _describe(fault: Any) -> Message:
-    value = fault["input"]
-    shown = f" = {value!r:.100}" if isinstance(value, str | int | float) else ""
-    place = ".".join(map(str, fault["loc"])) or "structure"
-    return say("scene_file.fault", place=place, value=shown, fault=explain_shape(fault))
-
-
-def _require_complete(structure: Structure, table: Mapping[str, Any]) -> None:
-    """Inputs and units are those of the kind, ranges ascend, forces have members."""
-    is_net = structure.kind == "net"
-    wanted, given = NET_INPUTS if is_net else _WALL, structure.inputs.keys()
-    for name in given - {*wanted, *(_ROPE if is_net else ())}:
-        raise _refuse(f"inputs.{name}", ", ".join(wanted))
-    missing = [name for name in wanted if name not in given]
-    if missing or len(set(_ROPE) & given) == 1:
-        raise _refuse("inputs", ", ".join(missing or _ROPE))
-    for name, span in structure.inputs.items():
-        _require_ascending(name, span, table["inputs"][name])
-    if not structure.measured:
-        raise _refuse("measured", "[[structure.measured]]")
-    unit = _UNITS[structure.kind]
-    for one, force in zip(table["measured"], structure.measured, strict=True):
-        if not force.members:
-            raise _refuse("members", "foot_anchor, uphill_guy, post ...")
-        for name in one:
-            if name.partition("_")[0] in ("value", "uncertainty") and (
-                name.partition("_")[2] != unit
-            ):
-                raise _refuse(f"measured.{name}", f"value_{unit}, uncertainty_{unit}")
-
-
-def _require_values(structure: Structure) -> None:
-    """Every force has its value."""
-    unit = _UNITS[structure.kind]
-    for force in structure.measured:
-        if math.isnan(force.value):
-            raise _refuse(f"measured.{force.name}", f"value_{unit}")
-
-
-def _require_ascending(name: str, span: Span, table: Mapping[str, Any]) -> None:
-    """A value, or two ends in their order."""
-    if "value" in table and table.keys() & {"low", "high"}:
-        raise _refuse(name, "value, or low and high")
-    if not span.low <= span.high:
-        raise _refuse(name, "low <= high")
-
-
-def _refuse(field: str, accepted: str) -> ModelError:
-    return ModelError(say("measured.field", field=field[:_MOST], accepted=accepted))
+        return ROPE_INPUTS.keys() <= self.inputs.keys()
 
 
 SAMPLES = 120
@@ -490,38 +377,3 @@ def _find_band(
         share_below=float((values < measured.value).mean()),
         numerical_error=max(one.error for one in forces),
     )
-
-
-_OWN = "measured.toml"
-
-
-def read_form(path: Path) -> tuple[Structure, ...]:
-    """Structures of a form, whose forces may lack a value; errors as of `read_all`."""
-    return _read_file(path, is_form=True)
-
-
-def read_all(path: Path | None) -> tuple[Structure, ...]:
-    """Structures of a file, if one is given, then those that come with the program.
-
-    Parameters
-    ----------
-    path : Path or None
-        Of an owner's file.
-
-    Raises
-    ------
-    ModelError
-        If the file cannot be read, or a field is missing, unknown or out of range.
-    """
-    own = read_structures(find_files(__package__).joinpath(_OWN).read_bytes())
-    if path is None:
-        return own
-    return (*_read_file(path), *own)
-
-
-def _read_file(path: Path, *, is_form: bool = False) -> tuple[Structure, ...]:
-    try:
-        return read_structures(read_bounded(path, MAX_TOML_BYTES), is_form=is_form)
-    except (ModelError, OSError, ValueError) as error:
-        told = say("text.at_place", place=str(path), text=explain(error))
-        raise ModelError(told) from None

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.evidence.validation.measured_file import read_structures
 from netdesign.evidence.validation.prediction import (
     compare,
     hash_inputs,
@@ -14,11 +15,7 @@ from netdesign.evidence.validation.prediction import (
     seal,
 )
 from netdesign.evidence.validation.prediction_page import write_form
-from netdesign.evidence.validation.structure import (
-    Span,
-    read_structures,
-    solve_cases,
-)
+from netdesign.evidence.validation.structure import Span, solve_cases
 from netdesign.outcome import ModelError
 from netdesign.words.catalogue import LANGUAGES
 from tests.program import call_program

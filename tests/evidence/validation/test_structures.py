@@ -8,6 +8,7 @@ from importlib.resources import files
 import pytest
 
 from netdesign.cli import main
+from netdesign.evidence.validation.measured_file import read_all, read_structures
 from netdesign.evidence.validation.page import (
     DOCUMENT_FILE,
     PAGE_FILE,
@@ -18,8 +19,6 @@ from netdesign.evidence.validation.reach import find_reaches
 from netdesign.evidence.validation.structure import (
     SAMPLES,
     Span,
-    read_all,
-    read_structures,
     validate_structure,
 )
 from netdesign.evidence.verification.case import load_cases
@@ -283,3 +282,25 @@ def test_own_data_is_translated(language):
     told = {text for text in texts if text}
     assert len(told) > 60
     assert {text for text in told if show_own(words, text) == text} == set()
+
+
+def test_every_fault_of_a_file_is_told_with_its_value_and_what_is_accepted():
+    text = OWN.decode()
+    for old, new in (
+        ("slope_deg = { low = 30.0", "slope_deg = { low = 95.0"),
+        ("slack = { low = 0.02, high", "slick = { low = 0.02, high"),
+        ("value_kN = 34.0", "value_kN_per_m = 34.0"),
+    ):
+        assert old in text
+        text = text.replace(old, new, 1)
+    with pytest.raises(ModelError) as refused:
+        read_structures(text.encode())
+    told = str(refused.value)
+    for part in (
+        "slope_deg = 95: accepted is 5 .. 70",
+        "slope_deg = 95 .. 45: accepted is low <= high",
+        "inputs.slick",
+        "inputs: accepted is slack",
+        "measured.value_kN_per_m: accepted is value_kN",
+    ):
+        assert part in told

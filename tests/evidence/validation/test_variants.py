@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.evidence.validation.structure import read_all
+from netdesign.evidence.validation.measured_file import read_all
 from netdesign.evidence.validation.variants import AS_GIVEN, examine
 
 
