@@ -72,7 +72,7 @@ from netdesign.report.blocks import (
     section,
 )
 from netdesign.report.page.render import render_page
-from netdesign.report.words import Words, show_own
+from netdesign.report.words import MISSING, Words, show_own
 from netdesign.snow.creep_law import BOUTILLIER_2004, ZWINGER_2007
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
@@ -196,6 +196,7 @@ def _show_variants(variants: Sequence[Variant], words: Words) -> Part:
             numbers(".0f"),
             lambda one: 100.0 * one.comparison.bands[0].share_below,
         ),
+        "validation.others": (NUMBER_TEXTS, lambda one: _count_others(one, words)),
         "validation.explains": (
             TEXTS,
             lambda one: words("validation.yes" if one.explains else "validation.no"),
@@ -218,6 +219,14 @@ def _show_variants(variants: Sequence[Variant], words: Words) -> Part:
         _text(words, "variants_answer", explained=explained, left=left),
         look="page",
     )
+
+
+def _count_others(one: Variant, words: Words) -> str:
+    """Other forces of the structure that four of five cases of the variant hold."""
+    if not one.others:
+        return MISSING
+    inside = sum(other.is_in_the_middle for other in one.others)
+    return words("validation.of", part=inside, count=len(one.others))
 
 
 def _name_force(one: Variant, words: Words) -> str:
@@ -490,6 +499,7 @@ def _write_variant(one: Variant) -> dict[str, Any]:
         "changed": one.name,
         "measured_kN": one.comparison.measured.value,
         "explains": one.explains,
+        "others_inside": [other.is_in_the_middle for other in one.others],
         "bands": [asdict(band) for band in one.comparison.bands],
     }
 

@@ -1,7 +1,8 @@
 """Examined: two measured forces that lie below nearly all cases of the model.
 
 Each is solved again with one thing changed that nobody has written down. What brings
-the measured force into the middle of the band may explain it; what does not, does not.
+the measured force into the middle of the band may explain it, if it leaves the other
+forces of the structure there.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from netdesign.evidence.validation.structure import (
 
 Changes = Mapping[str, tuple[float, float]]  # inputs with other ranges
 AS_GIVEN = "as_given"
+_OF_ONE_SUPPORT = ("edge_support",)  # of all posts it holds for the last alone
 
 # Structure, member of the model, and what is changed, by the names of the file.
 _EXAMINED: Mapping[tuple[str, str], Mapping[str, Changes]] = MappingProxyType(
@@ -53,16 +55,20 @@ class Variant:
         What is changed.
     comparison : Comparison
         Measured force and band.
+    others : tuple of Comparison
+        Other measured forces of the structure, under the same change; none of a change
+        that holds for one support alone.
     """
 
     structure: Structure
     name: str
     comparison: Comparison
+    others: tuple[Comparison, ...]
 
     @property
     def explains(self) -> bool:
-        """The measured force lies where four of five cases do."""
-        return self.comparison.is_in_the_middle
+        """The measured force lies where four of five cases do, and the others too."""
+        return all(one.is_in_the_middle for one in (self.comparison, *self.others))
 
 
 def examine(structures: Sequence[Structure]) -> list[Variant]:
@@ -98,8 +104,16 @@ def _solve(
         key: Span(low=low, high=high, mark="assumed")
         for key, (low, high) in changes.items()
     }
+    others = [one for one in structure.measured if one.name != measured.name]
     changed = replace(
-        structure, measured=(measured,), inputs={**structure.inputs, **spans}
+        structure,
+        measured=(measured, *others),
+        inputs={**structure.inputs, **spans},
     )
-    (comparison,) = validate_structure(changed).comparisons
-    return Variant(structure=changed, name=name, comparison=comparison)
+    comparison, *further = validate_structure(changed).comparisons
+    return Variant(
+        structure=changed,
+        name=name,
+        comparison=comparison,
+        others=() if name in _OF_ONE_SUPPORT else tuple(further),
+    )
