@@ -10,6 +10,7 @@ from netdesign.commands.winter import _list_statistics
 from netdesign.files.winter import _write_statistics
 from netdesign.winter.statistics import Gumbel
 from netdesign.words.catalogue import LANGUAGES, render, set_marks
+from tests.digits import write_force
 from tests.report.accessible import list_violations
 from tests.report.printing import PAPER_PX, PHONE_PX, list_too_wide
 from tests.short_example import write_short_example
@@ -106,7 +107,7 @@ def test_page_shows_the_document_in_each_language(
     document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
     (winter,) = document["rows"][0]["winters"]
     assert f'lang="{language}"' in page
-    peak = set_marks(f"{winter['foot_peak_kN_per_m']:.1f}", language)
+    peak = set_marks(write_force(winter["foot_peak_kN_per_m"]), language)
     assert f">{peak}<" in page
     assert page.count("<svg") == 1
     assert winter["why"].split(":")[0] in page
