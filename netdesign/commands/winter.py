@@ -201,6 +201,8 @@ def _show(document: dict[str, Any]) -> None:
                 tell(_count_failed(row["id"], one))
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"])
+        if row["snow_heights"]:
+            tell(row["snow_heights"]["text"])
         for told in _list_statistics(row):
             tell(told)
         if row["fit"]:

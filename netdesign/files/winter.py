@@ -31,6 +31,7 @@ from netdesign.winter.statistics import (
     Gumbel,
     LimitedGumbel,
     Trend,
+    fit_gumbel,
 )
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -239,6 +240,7 @@ def _write_row(
         "winters_left_out": result.sample.left_out,
         "trend": _write_trend(result.trend, language),
         "equivalent_density": _write_range(result, run, language),
+        "snow_heights": _write_heights(row, winters, run, language),
         "fit": write_fit(fitted, run.winter.series, language) if fitted else None,
     }
 
@@ -465,6 +467,44 @@ def _write_range(
         "low_kg_m3": found[0],
         "high_kg_m3": found[1],
         "justification": render(text, language),
+    }
+
+
+RELIABILITY_PERIOD = 1000.0  # [a], near the indices of a notional reliability
+
+
+def _write_heights(
+    row: WinterRow,
+    winters: Sequence[Mapping[str, Any]],
+    run: WinterRun,
+    language: Language,
+) -> dict[str, Any] | None:
+    """Annual maxima of the snow height at a row, as sheet Uncertainty takes them."""
+    heights = [
+        row.height_factor * one["height_max_m"] for one in winters if one["complete"]
+    ]
+    fit = fit_gumbel(heights)
+    if fit is None or fit.deviation == 0.0:
+        return None
+    variation = fit.find_predictive_variation(RELIABILITY_PERIOD)
+    typed = next(one for one in run.site.rows if one.id == row.id)
+    ratio = fit.mean * math.cos(typed.slope_angle) / typed.snow_thickness
+    text = say(
+        "winter.heights",
+        row=row.id,
+        count=fit.count,
+        station=_name_source(run),
+        variation=variation,
+        ratio=ratio,
+        sheet=say("sheet.Uncertainty"),
+    )
+    return {
+        "winters": fit.count,
+        "mean_m": fit.mean,
+        "variation": fit.variation,
+        "predictive_variation": variation,
+        "mean_ratio": ratio,
+        "text": render(text, language),
     }
 
 

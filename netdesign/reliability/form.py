@@ -5,7 +5,8 @@ Theory: reliability/THEORY.md, section 3.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,10 +18,10 @@ from netdesign.words.message import Message, say
 AGREEMENT = 0.05  # of the indices that several starts end with
 _START = 3.0  # distance of a start from the origin
 _MOST_STEPS = 60
-_CLOSE = 5e-4  # distance to the next step at the end
-_NEAR = 0.1  # distance to a known design point at which a way ends there
+_CLOSE = 5e-3  # distance to the next step at the end: 1e-5 of the index
 _APART = 0.5  # distance from which two design points are two
 _HALVINGS = 8
+_ON_IT = 1e-3  # margin below which a place counts as on the limit state
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,16 +58,14 @@ def find_design_points(state: LimitState) -> tuple[DesignPoint, ...] | NotAvaila
 
     Not available where a start does not converge, or where two disagree.
     """
-    at_origin, slope = state.differentiate(np.zeros(len(state.variables)))
+    (at_origin,), (slope,) = state.differentiate(np.zeros((1, len(state.variables))))
     if not (np.isfinite(at_origin) and np.isfinite(slope).all() and slope.any()):
         return NotAvailable(reason=say("reliability.no_margin"))
     sign = 1.0 if at_origin >= 0.0 else -1.0
-    points: list[DesignPoint] = []
-    for start in _list_starts(slope, sign):
-        found = _descend(state, start, sign, points)
-        if found is None:
-            return NotAvailable(reason=say("reliability.not_converged"))
-        points.append(found)
+    found = _descend(state, np.array(list(_list_starts(slope, sign))), sign)
+    points = [one for one in found if one is not None]
+    if len(points) < len(found):
+        return NotAvailable(reason=say("reliability.not_converged"))
     points.sort(key=lambda one: abs(one.beta))
     low, high = points[0].beta, points[-1].beta
     if abs(high - low) > AGREEMENT:
@@ -94,53 +93,57 @@ def follow_design_point(
 
     None where it does not converge.
     """
-    origin = np.zeros(len(state.variables))
-    sign = 1.0 if state.evaluate(origin[None])[0] >= 0.0 else -1.0
-    return _descend(state, origin if before is None else before.place, sign)
+    start = np.zeros(len(state.variables)) if before is None else before.place
+    sign = 1.0 if state.evaluate(np.zeros((1, len(start))))[0] >= 0.0 else -1.0
+    (found,) = _descend(state, start[None], sign)
+    return found
 
 
 def _descend(
-    state: LimitState, start: Floats, sign: float, known: Sequence[DesignPoint] = ()
-) -> DesignPoint | None:
-    """Design point from one start (HL-RF with a line search); None without one.
+    state: LimitState, starts: Floats, sign: float
+) -> list[DesignPoint | None]:
+    """Design points from starts of shape (n, variables); None where there is none.
 
-    A way that comes close to a known design point ends there.
+    HL-RF with a line search, all starts at once.
     """
     caps = state.caps
-    place, penalty = np.minimum(start, caps), 0.0
+    found: list[DesignPoint | None] = [None] * len(starts)
+    active = np.arange(len(starts))
+    places, weights = np.minimum(starts, caps), np.zeros(len(starts))
     for _ in range(_MOST_STEPS):
-        margin, slope = state.differentiate(place)
-        size = float(np.linalg.norm(slope))
-        if not np.isfinite(margin) or not np.isfinite(size) or size == 0.0:
-            return None
-        target = _find_nearest(margin, slope, place, caps)
-        if target is None:
-            return None
-        step = target - place
-        if np.linalg.norm(step) <= _CLOSE:
-            return DesignPoint(place=target, beta=sign * float(np.linalg.norm(target)))
-        penalty = max(penalty, 2.0 * float(np.linalg.norm(place)) / size, 1.0 / size)
-        place = _search_line(state, place, step, penalty)
-        for one in known:
-            if np.linalg.norm(place - one.place) <= _NEAR:
-                return one
-    return None
+        margins, slopes = state.differentiate(places)
+        targets = np.array(
+            [
+                _find_nearest(*one, caps)
+                for one in zip(margins, slopes, places, strict=True)
+            ]
+        )
+        sizes = np.linalg.norm(targets - places, axis=1)
+        for one in np.flatnonzero(sizes <= _CLOSE):
+            beta = sign * float(np.linalg.norm(targets[one]))
+            found[active[one]] = DesignPoint(place=targets[one], beta=beta)
+        on = sizes > _CLOSE  # False also of a start without a target
+        if not on.any():
+            break
+        active, places, targets = active[on], places[on], targets[on]
+        now = _find_weights(margins[on], slopes[on], places, targets)
+        weights = np.maximum(weights[on], now)
+        places = _search_lines(state, places, targets - places, weights)
+    return found
 
 
-def _find_nearest(
-    margin: float, slope: Floats, place: Floats, caps: Floats
-) -> Floats | None:
+def _find_nearest(margin: float, slope: Floats, place: Floats, caps: Floats) -> Floats:
     """Point of the linearised limit state nearest to the origin, (U9).
 
-    A variable that would pass its cap stays on it, (U10). None where the others cannot
+    A variable that would pass its cap stays on it, (U10). NaN where the others cannot
     reach the limit state.
     """
     free = np.ones(len(place), dtype=bool)
     target = np.zeros(len(place))
     for _ in range(len(place)):
         size = float(slope[free] @ slope[free])
-        if size == 0.0:
-            return None
+        if not (math.isfinite(margin) and math.isfinite(size) and size > 0.0):
+            break
         level = slope @ place - margin - slope[~free] @ target[~free]
         target[free] = level / size * slope[free]
         beyond = free & (target > caps)
@@ -148,17 +151,28 @@ def _find_nearest(
             return target
         target[beyond] = caps[beyond]
         free &= ~beyond
-    return None
+    return np.full(len(place), math.nan)
 
 
-def _search_line(
-    state: LimitState, place: Floats, step: Floats, penalty: float
+def _find_weights(
+    margins: Floats, slopes: Floats, places: Floats, targets: Floats
 ) -> Floats:
-    """Place on the way of a step at which the merit is least, (U9a)."""
-    places = place + 0.5 ** np.arange(_HALVINGS)[:, None] * step
-    margins = state.evaluate(places)
-    merits = 0.5 * np.sum(places**2, axis=1) + penalty * np.abs(margins)
-    chosen: Floats = places[int(np.argmin(merits))]
+    """Weights w of the margin in the merit, (U9b)."""
+    least = np.linalg.norm(places, axis=1) / np.linalg.norm(slopes, axis=1)
+    far = 0.5 * np.sum(targets**2, axis=1) / np.maximum(np.abs(margins), _ON_IT)
+    result: Floats = 2.0 * np.maximum(least, far)
+    return result
+
+
+def _search_lines(
+    state: LimitState, places: Floats, steps: Floats, weights: Floats
+) -> Floats:
+    """Places on the ways of steps at which the merits are least, (U9a)."""
+    shares = 0.5 ** np.arange(_HALVINGS)[:, None]
+    tried = places[:, None] + shares * steps[:, None]
+    margins = state.evaluate(tried.reshape(-1, places.shape[1])).reshape(-1, _HALVINGS)
+    merits = 0.5 * np.sum(tried**2, axis=2) + weights[:, None] * np.abs(margins)
+    chosen: Floats = tried[np.arange(len(places)), merits.argmin(axis=1)]
     return chosen
 
 

@@ -174,12 +174,14 @@ class LimitState:
         result: Floats = self.margin(self.place(u)) + self.shift
         return result
 
-    def differentiate(self, u: Floats) -> tuple[float, Floats]:
-        """Margin and its gradient at one place of shape (variables,)."""
-        steps = _STEP * np.eye(len(u))
-        margins = self.evaluate(np.vstack([u[None], u + steps, u - steps]))
-        up, down = np.split(margins[1:], 2)
-        return float(margins[0]), (up - down) / (2.0 * _STEP)
+    def differentiate(self, u: Floats) -> tuple[Floats, Floats]:
+        """Margins (n,) and their gradients at places, both of shape (n, variables)."""
+        count, size = u.shape
+        steps = _STEP * np.vstack([np.zeros(size), np.eye(size), -np.eye(size)])
+        places = (u[:, None] + steps).reshape(-1, size)
+        margins = self.evaluate(places).reshape(count, -1)
+        up, down = np.split(margins[:, 1:], 2, axis=1)
+        return margins[:, 0], (up - down) / (2.0 * _STEP)
 
     def shifted(self, shift: float) -> LimitState:
         """Limit state with another number added to every margin."""

@@ -172,14 +172,18 @@ class Rater:
 
     def _widen(self, moved: Mapping[str, float]) -> float:
         """Load of the support by its end, of what is moved over that of the row."""
+        now = self._find_width({})
         moved = {name: one for name, one in moved.items() if name in _WIDENING}
+        return self._find_width(moved) / now if now else 1.0
+
+    def _find_width(self, moved: Mapping[str, float]) -> float:
+        """Load of the support by its end, as ``CheckByCase.widen`` gives it."""
         key = tuple(moved.items())
         if key not in self._widths:
             ranges = self.check.ranges
             for name, value in moved.items():
                 ranges = ranges.with_value(name, value)
-            now = self.check.widen(self.check.ranges)
-            self._widths[key] = self.check.widen(ranges) / now if now else 1.0
+            self._widths[key] = self.check.widen(ranges)
         return self._widths[key]
 
     def solve(

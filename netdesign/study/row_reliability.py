@@ -49,12 +49,14 @@ from netdesign.study.row_variables import (
     list_lines,
     list_variables,
 )
+from netdesign.winter.maxima import compare_densities
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
 MOST_ROUNDS = 3  # in which the design point is solved again
 LARGEST_MISS = 0.1  # of ln mu at the last one
 _CLOSE = 0.02  # a miss at which the rounds end
+_LEAST_HEIGHT = 1e-6  # [m]
 _HEIGHTS = ("thickness", "snow_height")
 
 
@@ -141,6 +143,7 @@ def _analyse(
         response=response,
         factor=math.log(factors[0] * factors[1]),
         slope_cosine=math.cos(by_case.row.slope_angle),
+        height=by_case.row.snow_thickness / math.cos(by_case.row.slope_angle),
     )
     state, miss = _meet_design_point(state, rater)
     found = find_reliability(state.build())
@@ -155,13 +158,15 @@ def _analyse(
 class _State:
     """Limit state of a check in physical terms: (U6).
 
-    ``factor`` is the logarithm of the product of both partial factors.
+    ``factor`` is the logarithm of the product of both partial factors, ``height`` the
+    row's vertical snow height [m], to which the density refers.
     """
 
     known: tuple[KnownVariable, ...]
     response: Response
     factor: float
     slope_cosine: float
+    height: float
 
     @property
     def names(self) -> list[str]:
@@ -183,9 +188,11 @@ class _State:
         return result
 
     def _name_solved(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
-        """Quantities as they are solved: a height as a thickness."""
+        """Quantities as they are solved: thickness of a height, density by (U5a)."""
         found = dict(columns)
-        found["thickness"] = found.pop(HEIGHT) * self.slope_cosine
+        heights = np.maximum(found.pop(HEIGHT), _LEAST_HEIGHT)
+        found["thickness"] = heights * self.slope_cosine
+        found["density"] = found["density"] * compare_densities(heights, self.height)
         return found
 
     def read_point(self, values: Sequence[float]) -> dict[str, float]:
@@ -278,7 +285,7 @@ def _record(
     return ReliabilityRecord(
         check=check.id,
         reason=None,
-        variables=_record_variables(state, found),
+        variables=_record_variables(state, found, point),
         beta=found.beta,
         standard_error=found.standard_error,
         beta_by_form=found.beta_by_form,
@@ -299,7 +306,10 @@ def _order(values: Mapping[str, float]) -> dict[str, float]:
     return {name: values[name] for name in PARAMETERS if name in values}
 
 
-def _record_variables(state: _State, found: Reliability) -> list[VariableRecord]:
+def _record_variables(
+    state: _State, found: Reliability, point: Mapping[str, float]
+) -> list[VariableRecord]:
+    """Variables, with the values that were solved at the design point."""
     records = []
     for one, share, value in zip(
         state.known, found.alpha_squared, found.design_point, strict=True
@@ -316,7 +326,7 @@ def _record_variables(state: _State, found: Reliability) -> list[VariableRecord]
                 source=one.source,
                 is_assumed=one.is_assumed,
                 alpha_squared=share,
-                at_design_point=show(min(value, variable.cap)),
+                at_design_point=show(point.get(one.name, min(value, variable.cap))),
             )
         )
     return records

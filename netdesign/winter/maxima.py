@@ -502,7 +502,33 @@ def find_model_code_density(height: float) -> float:
         If the height is not positive.
     """
     require_positive("snow height", height, "m")
-    depth = height / _DEPTH
+    return _SETTLED / GRAVITY * float(_find_settled(np.array(height)))
+
+
+def compare_densities(heights: Floats, height: float) -> Floats:
+    """Mean densities of snow of some heights over that of one height [-], eq. (Y20).
+
+    Parameters
+    ----------
+    heights : ndarray
+        Vertical, above 0 [m].
+    height : float
+        The one that they are compared with [m].
+
+    Raises
+    ------
+    ModelError
+        If ``height`` is not positive.
+    """
+    require_positive("snow height", height, "m")
+    result: Floats = _find_settled(heights) / _find_settled(np.array(height))
+    return result
+
+
+def _find_settled(heights: Floats) -> Floats:
+    """Mean unit weight over that of settled snow [-]."""
+    depth = heights / _DEPTH
     # ln(1 + c (exp(x) - 1)), without a large exponential
-    rest = math.log(_FRESH / _SETTLED + (1.0 - _FRESH / _SETTLED) * math.exp(-depth))
-    return _SETTLED / GRAVITY * (depth + rest) / depth
+    rest = np.log(_FRESH / _SETTLED + (1.0 - _FRESH / _SETTLED) * np.exp(-depth))
+    result: Floats = (depth + rest) / depth
+    return result

@@ -57,7 +57,7 @@ class Gumbel:
         (float, float)
             Estimate and its standard error, in the unit of the maxima.
         """
-        factor = math.sqrt(6.0) / math.pi * (_reduce_gumbel(period) - _EULER)
+        factor = _find_factor(period)
         spread = math.sqrt(1.0 + 1.1396 * factor + 1.1 * factor**2)
         error = self.deviation * spread / math.sqrt(self.count)
         return self.mean + factor * self.deviation, error
@@ -83,6 +83,33 @@ class Gumbel:
         pivots = (_reduce_gumbel(period) - means) / deviations
         return _find_ends(pivots, self.mean, self.deviation)
 
+    def find_predictive_variation(self, period: float) -> float:
+        """Coefficient of variation that allows for the few winters, eq. (Y30) [-].
+
+        Of the Gumbel distribution with the same mean, whose value of ``period`` a
+        further winter exceeds once in so many samples of ``count`` winters.
+
+        Parameters
+        ----------
+        period : float
+            T [a], above 1.
+
+        Verified by
+        -----------
+        tests/verification/test_return_values.py
+        """
+        from scipy.optimize import brentq
+
+        means, deviations = _draw_moments(self.count)
+
+        def find_excess(z: float) -> float:
+            exceeded = -np.expm1(-np.exp(-(means + z * deviations)))
+            return math.log(period * float(exceeded.mean()))
+
+        known = _find_factor(period)
+        factor = float(brentq(find_excess, 0.5 * known, 5.0 * known))
+        return self.variation * factor / known
+
 
 @lru_cache(maxsize=4)
 def _draw_moments(count: int) -> tuple[Floats, Floats]:
@@ -95,6 +122,11 @@ def _find_ends(pivots: Floats, value: float, unit: float) -> tuple[float, float]
     """Ends of a value's interval: it moves and stretches with the pivots' quantiles."""
     low, high = np.quantile(pivots, (1.0 - CERTAINTY, CERTAINTY))
     return value + float(low) * unit, value + float(high) * unit
+
+
+def _find_factor(period: float) -> float:
+    """Standard deviations by which a value exceeds the mean, eq. (Y6)."""
+    return math.sqrt(6.0) / math.pi * (_reduce_gumbel(period) - _EULER)
 
 
 def _reduce_gumbel(period: float) -> float:

@@ -1,6 +1,7 @@
 """Notional reliability of rows: what it rests on, what it never changes."""
 
 import copy
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,7 @@ from netdesign.study.response import Line
 from netdesign.study.row_reliability import record_reliability
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import name_rows
+from netdesign.winter.maxima import compare_densities
 from tests.each import each
 from tests.short_example import write_short_example
 from tests.small_site import RUN
@@ -66,6 +68,19 @@ def test_everything_else_is_the_same_without_it(judge, study):
     without = [replace(row, reliability=None) for row in study.rows]
     assert without == list(bare.rows)
     assert study.verdict is bare.verdict
+
+
+def test_snow_is_denser_where_it_is_deeper(judge, searched):
+    site, _ = searched
+    told = tell("density", 0.01), tell("snow_height", 0.25)
+    for record, row in zip(judge(*told).rows, site.rows, strict=True):
+        found = {one.name: one for one in record.reliability.variables}
+        deep = found["snow_height"].at_design_point
+        height = row.snow_thickness / math.cos(row.slope_angle)
+        assert abs(deep / height - 1.0) > 0.03
+        denser = float(compare_densities(np.array(deep), height))
+        density = found["density"].at_design_point / found["density"].mean
+        assert density == pytest.approx(denser, rel=0.01)
 
 
 @pytest.mark.parametrize("verdict", [Verdict.NOT_PROVEN, Verdict.DECLARED])

@@ -4,6 +4,7 @@ Truth: samples of known distributions.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -31,6 +32,26 @@ def test_upper_ends_hold_in_nineteen_of_twenty_samples(winters, period):
     error = 3.0 * math.sqrt(0.95 * 0.05 / SAMPLES)
     assert np.mean(high >= truth) == pytest.approx(0.95, abs=error)
     assert np.mean(low <= truth) == pytest.approx(0.95, abs=error)
+
+
+@pytest.mark.parametrize("winters", [15, 30, 60])
+@pytest.mark.parametrize("period", [20.0, 100.0])
+def test_a_further_winter_exceeds_the_predictive_value_once_in_a_period(
+    winters, period
+):
+    """Truth: another draw of the distribution that the sample is from."""
+    samples = draw(0.0, winters)
+    chances, plain = [], []
+    for one in samples[:1000]:
+        fit = fit_gumbel(list(one))
+        wide = replace(fit, deviation=fit.find_predictive_variation(period) * fit.mean)
+        value, _ = wide.find_return_value(period)
+        chances.append(genextreme.sf(value, 0.0, 16.0, 4.7))
+        value, _ = fit.find_return_value(period)
+        plain.append(genextreme.sf(value, 0.0, 16.0, 4.7))
+    error = 4.0 * np.std(chances) / math.sqrt(len(chances))
+    assert np.mean(chances) == pytest.approx(1.0 / period, abs=error)
+    assert np.mean(plain) > 1.0 / period + error / 4.0
 
 
 @pytest.mark.parametrize("winters", [15, 40])

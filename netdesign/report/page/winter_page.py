@@ -366,6 +366,8 @@ def _describe_range(
     if row["equivalent_density"]:
         found.insert(0, show_text(row["equivalent_density"]["justification"]))
         found.append(words("winter_page.feed", sheet=document["ranges_sheet"]))
+    if row["snow_heights"]:
+        found.append(show_text(row["snow_heights"]["text"]))
     return found
 
 
