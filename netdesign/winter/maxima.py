@@ -511,9 +511,14 @@ def compare_densities(heights: Floats, height: float) -> Floats:
     Parameters
     ----------
     heights : ndarray
-        Vertical, above 0 [m].
+        Vertical, above 0 [m]; any shape.
     height : float
         The one that they are compared with [m].
+
+    Returns
+    -------
+    ndarray
+        Of the shape of ``heights`` [-].
 
     Raises
     ------
