@@ -510,15 +510,15 @@ def compare_densities(heights: Floats, height: float) -> Floats:
 
     Parameters
     ----------
-    heights : ndarray
-        Vertical, above 0 [m]; any shape.
+    heights : ndarray, shape (n,)
+        Vertical, above 0 [m].
     height : float
         The one that they are compared with [m].
 
     Returns
     -------
-    ndarray
-        Of the shape of ``heights`` [-].
+    ndarray, shape (n,)
+        One of each height [-].
 
     Raises
     ------
