@@ -78,7 +78,7 @@ def test_snow_is_denser_where_it_is_deeper(judge, searched):
         deep = found["snow_height"].at_design_point
         height = row.snow_thickness / math.cos(row.slope_angle)
         assert abs(deep / height - 1.0) > 0.03
-        denser = float(compare_densities(np.array(deep), height))
+        denser = float(compare_densities(np.array([deep]), height)[0])
         density = found["density"].at_design_point / found["density"].mean
         assert density == pytest.approx(denser, rel=0.01)
 
