@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar
 
 from netdesign.calculation.formula import read_formula, write_formula
@@ -147,25 +147,3 @@ def is_same(one: float | None, other: float | None) -> bool:
     if one is None or other is None:
         return one is other
     return math.isclose(one, other, rel_tol=SAME, abs_tol=1e-12)
-
-
-def find_level(
-    steps: Sequence[Step], leaf: str, symbol: str, level: float
-) -> float | None:
-    """Value of a leaf at which a quantity that is linear in it reaches a level.
-
-    None where it does not follow the leaf. Units are those of both steps.
-    """
-    start, end = (
-        evaluate([_vary(step, leaf, value) for step in steps])[symbol].value
-        for value in (0.0, 1.0)
-    )
-    if start is None or end is None or start == end:
-        return None
-    return (level - start) / (end - start)
-
-
-def _vary(step: Step, leaf: str, value: float) -> Step:
-    if step.symbol != leaf:
-        return step
-    return replace(step, value=value, low=None, high=None)

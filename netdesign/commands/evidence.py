@@ -97,7 +97,6 @@ def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     from netdesign.study.document import load_study
     from netdesign.study.record_provenance import (
         build_run,
-        is_of_ties,
         list_differences,
         load_own_profile,
     )
@@ -130,10 +129,8 @@ def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     if failed := print_faults(runner.faults):
         return failed
     count, differences = list_differences(study, again)
-    ties = [one for one in differences if is_of_ties(one)]
-    differences = [one for one in differences if one not in ties]
     show.comparison(study, again, count, differences)
-    left = show.unverified(study, again, ties)
+    left = show.unverified(study, again)
     if differences or not all(told):
         return _FAIL
     return _NOT_PROVEN if left else 0
@@ -207,9 +204,7 @@ class _Shown:
             same = say("verify.same_numbers", share=SAME)
             self.tell(say("verify.same_bytes") if is_equal else same)
 
-    def unverified(
-        self, study: Study, again: Study, ties: Sequence[Difference]
-    ) -> bool:
+    def unverified(self, study: Study, again: Study) -> bool:
         """Tell what a new solve cannot show; True if some of it is avoidable."""
         from netdesign.study.record_provenance import list_versions
 
@@ -219,9 +214,6 @@ class _Shown:
         for name in others:
             then, now = str(old.get(name)), str(new.get(name))
             self.tell(say("verify.other_version", name=name, then=then, now=now))
-        if ties:
-            first = ties[0].message
-            self.tell(say("verify.ties", count=len(ties), first=first))
         if not study.digest:
             self.tell(say("verify.no_digest"))
         if made.command == NO_COMMAND:
@@ -229,7 +221,7 @@ class _Shown:
         self.tell(
             say("verify.as_stated", time=made.started or say("verify.not_stated"))
         )
-        unknown = (others, ties, not study.digest, made.command == NO_COMMAND)
+        unknown = (others, not study.digest, made.command == NO_COMMAND)
         return any(map(bool, unknown))
 
 

@@ -6,6 +6,7 @@ included.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
@@ -21,6 +22,7 @@ from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.support_tables import GivenSupport
 from netdesign.panel.row_forces import EndForces, compute_end_forces
 from netdesign.panel.solution import RopeForces
+from netdesign.search.maxima import Addition
 from netdesign.solving.runner import Counts
 from netdesign.solving.solve import Settings
 from netdesign.solving.state import keep_state
@@ -82,7 +84,7 @@ def write_envelope_document(
             "resolved_share": record.resolved_share,
             "rests_on": render(say("envelope.rests_on"), language),
         },
-        "log": [_write_addition(asdict(one)) for one in record.log],
+        "log": [_write_addition(envelope, one) for one in envelope.maxima.log],
         "cost": {"wall_s": wall_s},
         "provenance": {
             "version": __version__,
@@ -182,8 +184,25 @@ def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
     return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
 
 
-def _write_addition(one: dict[str, Any]) -> dict[str, Any]:
-    return _per_metre(one | {"quantity": QUANTITY_KEYS.get(one["quantity"], "")})
+def _write_addition(envelope: RowEnvelope, one: Addition) -> dict[str, Any]:
+    """One line of the densification log."""
+    names = envelope.quantities
+    forces = {
+        "predicted": one.predicted,
+        "claimed": one.standard_error,  # one, of the prediction
+        "found": one.found,
+    }
+    return {
+        "round": one.round,
+        "reason": one.reason,
+        "quantity": QUANTITY_KEYS.get(names[one.quantity], "") if names else "",
+        "case": show_case(envelope.task.ranges.place(one.point)),
+    } | {
+        f"{name}_kN_per_m": kilonewton_from_newton(force)
+        if math.isfinite(force)
+        else None
+        for name, force in forces.items()
+    }
 
 
 def _per_metre(values: dict[str, Any]) -> dict[str, Any]:

@@ -12,9 +12,9 @@ from netdesign.calculation.steps import Step
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
-from netdesign.report.governing import find_governing
 from netdesign.report.words import Words, find_choice
 from netdesign.site.model import InputEcho
+from netdesign.study.governing import find_governing
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.values import ROUNDING, compare_values
 from netdesign.words.catalogue import Language
@@ -73,7 +73,7 @@ _PARTS = {
     **dict.fromkeys(
         ("guideline", "floor", "slab", "model_form", "reliability"), "opinions"
     ),
-    **dict.fromkeys(("end_effects", "held_sideways", "tilt", "independent"), "forces"),
+    **dict.fromkeys(("held_sideways", "tilt", "independent"), "forces"),
     **dict.fromkeys(("inputs", "range_inputs", "parts"), "inputs"),
     "rows": "order",
     **dict.fromkeys(("notes", "monitoring"), "notes"),

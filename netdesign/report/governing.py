@@ -2,52 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from netdesign.outcome import Outcome, Verdict
-from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
 from netdesign.study.case_records import CasePoint, CaseRecord
 from netdesign.study.records import CheckRecord, RowStudy
 from netdesign.study.remedies import CLOSE
-
-# Worst first.
-SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
-
-
-def find_governing(checks: Sequence[CheckRecord]) -> CheckRecord | None:
-    """Check that decides the verdict: the worst verdict, then the largest ratio."""
-    return min(checks, key=rank_check, default=None)
-
-
-def rank_check(check: CheckRecord) -> tuple[int, float]:
-    """Sort key: worst verdict first, then the largest utilisation."""
-    return SEVERITY.index(check.verdict), -_ratio(check)
-
-
-def _ratio(check: CheckRecord) -> float:
-    return -1.0 if check.used is None else check.used
-
-
-def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
-    """Check with the largest utilisation, of those that have one."""
-    known = [check for check in checks if check.used is not None]
-    return max(known, key=_ratio, default=None)
-
-
-def find_shown(row: RowStudy) -> CheckRecord | None:
-    """Check of which the report shows most: the governing one, or the most used one."""
-    governing = find_governing(row.checks)
-    if governing and governing.used is not None:
-        return governing
-    return find_highest(row.checks)
-
-
-def find_shown_member(row: RowStudy) -> str:
-    """Member whose envelope the report shows; "" without any."""
-    shown = find_shown(row)
-    if shown is None or shown.member in REPORTED_MEMBERS:
-        return shown.member if shown else ""
-    return BROUGHT_BY.get(shown.member, "")
 
 
 def find_case(check: CheckRecord) -> CasePoint | None:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent
-from netdesign.report.governing import SEVERITY, find_governing, rank_check
 from netdesign.report.sections.annexes import describe_cases
 from netdesign.report.sections.basis import (
     describe_floor,
@@ -36,6 +35,7 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.structure.members import CARRYING_MEMBERS
+from netdesign.study.governing import SEVERITY, find_governing, rank_check
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.catalogue import Language
 from netdesign.words.names import name_check

@@ -1,4 +1,4 @@
-"""Drivers of a quantity, and where it crosses a level, by the search's own model.
+"""Drivers of a quantity by the search's own model.
 
 The model is evaluated on a tensor rule, so that nothing is random. The parameters
 count as independent and uniform in their ranges: that is an assumption of the
@@ -113,42 +113,6 @@ def measure_unexplained(maxima: Maxima, quantity: int) -> float | None:
     spread = float(np.var(values[: len(model.places)]))
     error = float(np.mean(model.held_out[:, quantity] ** 2))
     return min(1.0, error / spread) if spread > 0.0 else 0.0
-
-
-def find_crossings(
-    maxima: Maxima, quantity: int, axis: int, *levels: float
-) -> list[tuple[float, ...]]:
-    """For each level the shares of a parameter's range at which a force crosses it.
-
-    Along the line through the governing case of the force; by linear interpolation
-    between close points of the model.
-
-    Parameters
-    ----------
-    maxima : Maxima
-        End of a search.
-    quantity, axis : int
-        Which force, along which parameter.
-    *levels : float
-        In the unit of the force, for instance the force at which a check is just met.
-    """
-    if maxima.surrogate is None or not levels:
-        return [() for _ in levels]
-    governing = maxima.points[maxima.governing[quantity]]
-    shares, line = _draw_line(governing, axis, _ALONG)
-    (forces,) = maxima.surrogate.evaluate(line, quantity)
-    return [_cross_zero(shares, forces - level) for level in levels]
-
-
-def _cross_zero(shares: Floats, above: Floats) -> tuple[float, ...]:
-    flips = np.flatnonzero((above[:-1] > 0.0) != (above[1:] > 0.0))
-    return tuple(
-        float(
-            shares[k]
-            - above[k] * (shares[k + 1] - shares[k]) / (above[k + 1] - above[k])
-        )
-        for k in flips
-    )
 
 
 def follow_axis(

@@ -33,15 +33,6 @@ class DriverRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FlipRecord:
-    """A value at which a check flips, the others as in the governing case."""
-
-    check: str  # id of the check
-    key: str
-    value: float
-
-
-@dataclass(frozen=True, kw_only=True)
 class LineRecord:
     """Force along one quantity through the governing case."""
 
@@ -87,24 +78,10 @@ class BoundRecord:
     case: dict[str, float]
     coincident_kN: dict[str, float]
     unexplained: float | None  # error of the Sobol indices: share of the variance
-    drivers: list[DriverRecord]
-    flips: list[FlipRecord]
+    drivers: list[DriverRecord]  # with lines and maps: of what is drawn
     lines: list[LineRecord]
     maps: list[MapRecord]
     confirmation: ConfirmationRecord | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class AdditionRecord:
-    """One line of the densification log."""
-
-    round: int
-    reason: str
-    quantity: str
-    case: dict[str, float]
-    predicted_kN: float | None
-    claimed_kN: float | None  # one standard error of the prediction
-    found_kN: float | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,7 +99,6 @@ class EnvelopeRecord:
     skips_tested: int
     failed: int
     bounds: list[BoundRecord]
-    log: list[AdditionRecord]
 
 
 @dataclass(frozen=True, kw_only=True)

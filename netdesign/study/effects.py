@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -29,7 +28,6 @@ from netdesign.structure.row_position import (
     compute_edge_width,
     list_supports,
 )
-from netdesign.study.support_records import EndEffectRecord
 from netdesign.words.message import Message, say
 
 
@@ -158,11 +156,6 @@ def check_ends(effects: RowEffects) -> CheckResult | None:
     return conclude("ends", Verdict.NOT_PROVEN, not_proven(*effects.missing))
 
 
-# Of the table beside the note; the row's own gap [m] and glide factor join them.
-_GAPS = (1.0, 2.0, math.inf)
-_GLIDE_FACTORS = (1.2, 2.4, 3.2)
-
-
 def list_end_notes(
     row: NetRow, ranges: Ranges, law: CreepLaw, effects: RowEffects
 ) -> list[Message]:
@@ -188,54 +181,6 @@ def list_end_notes(
     density, glide = _find_density(ranges), find_row_glide_factor(row)
     own = _compute_own(row, density, law, row.gap, glide, edge.end_length)
     return [] if own is None else [_tell(edge, own, glide, density)]
-
-
-def record_end_effects(
-    row: NetRow, ranges: Ranges, law: CreepLaw, standard: Standard
-) -> list[EndEffectRecord]:
-    """End effects over gaps and glide factors, the row's own among them.
-
-    None of a row without an end, or under a profile without an end effect.
-    """
-    rule = read_end_effect(standard)
-    if rule is None or not row.has_end:
-        return []
-    found, density = [], _find_density(ranges)
-    own_glide = find_row_glide_factor(row)
-    for gap, glide in product(
-        sorted({*_GAPS, row.gap}), sorted({*_GLIDE_FACTORS, own_glide})
-    ):
-        edge = compute_edge_width(
-            rule,
-            post_spacing=row.layout.post_spacing,
-            net_height=row.net_height,
-            gap=gap,
-            glide_factor=glide,
-        )
-        if not edge.end_length > 0.0:
-            continue
-        own = _compute_own(row, density, law, gap, glide, edge.end_length)
-        if own is not None:
-            is_own = (gap, glide) == (row.gap, own_glide)
-            found.append(_record(edge, own, gap, glide, is_own=is_own))
-    return found
-
-
-def _record(
-    edge: LoadedWidth, own: EndEffect, gap: float, glide: float, *, is_own: bool
-) -> EndEffectRecord:
-    return EndEffectRecord(
-        gap_m=None if gap == math.inf else gap,
-        glide_factor=glide,
-        is_own=is_own,
-        end_length_m=edge.end_length,
-        profile_factor=edge.end_factor,
-        profile_width_m=edge.end_factor * edge.end_length,
-        free_factor=own.free.factor,
-        free_width_m=own.free.width,
-        pulled_factor=own.pulled.factor,
-        pulled_width_m=own.pulled.width,
-    )
 
 
 def _find_density(ranges: Ranges) -> float:

@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import cache
 from typing import TypeVar
 
-from netdesign.calculation.steps import find_level
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Ranges
@@ -24,7 +23,8 @@ from netdesign.study.case_records import (
     ForceRecord,
 )
 from netdesign.study.check_run import CheckRun
-from netdesign.study.effects import find_effects, record_end_effects
+from netdesign.study.effects import find_effects
+from netdesign.study.governing import find_shown_member
 from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
@@ -64,12 +64,12 @@ from netdesign.study.records import (
     merge_rows,
 )
 from netdesign.study.reliability_records import ReliabilityRecord
-from netdesign.study.row_checks import RowChecks, check_row, distrust
+from netdesign.study.row_checks import RowChecks, check_row, detail_shown, distrust
 from netdesign.study.row_reliability import record_reliability
 from netdesign.study.row_to_check import Basis, CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.study.winter_row import record_monitoring
-from netdesign.units import kilonewton_from_newton, newton_from_kilonewton
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 _Found = TypeVar("_Found")
@@ -161,7 +161,7 @@ def _remember(
 
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
-    site, row, standard = task.basis.site, task.basis.row, task.basis.standard
+    site, row = task.basis.site, task.basis.row
     solved, extremes = task.solved, task.solved.extremes
     floor = task.find_floor(site.ranges)
     known = know_row(task.basis, solved.results, extremes, solved.gap, floor)
@@ -200,7 +200,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         panel=panel,
         notes=[*notes, *list_history_notes(extremes)],
         statics=record_statics(row, solved.results, extremes, floor),
-        end_effects=record_end_effects(row, site.ranges, run.creep_law, standard),
         held_sideways=None if isinstance(held, Message) else held,
         tilt=known.tilt,
         envelope=_record_search(solved, checks),
@@ -225,11 +224,13 @@ def _check_row(
 ) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
-    Where the program fails in one of those, it is not trusted in the checks either.
+    Where the program fails in one of those, or in a detail of the check that is shown,
+    it is not trusted in the checks either.
     """
     found = check_row(task, extremes, known)
     worst = find_worst(found.records)
     before = task.count_faults()
+    found = detail_shown(task, found, extremes)
     form = _find_model_form(task, worst, _governing_result(worst, extremes))
     if task.count_faults() > before:
         doubted = [distrust(check) for check in found.records]
@@ -248,35 +249,21 @@ def _record_extremes(extremes: Mapping[str, Extreme]) -> list[ExtremeRecord]:
 def _record_search(
     solved: RowGrid | RowEnvelope, checks: Sequence[CheckRecord]
 ) -> EnvelopeRecord | None:
-    """The search with what turns each check; None for a grid of cases."""
+    """The search, drawn for one member; None for a grid of cases."""
     if not isinstance(solved, RowEnvelope):
         return None
-    return record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks))
+    return record_envelope(solved, REPORTED_MEMBERS, _choose_drawn(solved, checks))
 
 
-def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, float]]]:
-    """Solved force at which each check is just met, by member [N]."""
-    levels: dict[str, list[tuple[str, float]]] = {}
-    for check in checks:
-        is_other = check.is_by_panel or check.member in ROPE_OF
-        if check.resistance_kN is None or is_other or _fails_by_floor(check):
-            continue  # no coupled force turns it
-        force = check.name_force("c")
-        factor = (check.read("γ_E") or 1.0) * (check.read("t") or 1.0)
-        wanted = check.resistance_kN / factor
-        level = find_level(check.steps, f"{force[0]}_s", force, wanted)
-        if check.is_of_force and level is not None:
-            levels.setdefault(check.member, []).append(
-                (check.id, newton_from_kilonewton(level))
-            )
-    return levels
-
-
-def _fails_by_floor(check: CheckRecord) -> bool:
-    """Failure by the guideline's load alone."""
-    least = check.read(check.name_force("g")) or 0.0
-    demand = least * (check.read("t") or 1.0) * (check.read("γ_E") or 0.0)
-    return check.resistance_kN is not None and demand > check.resistance_kN
+def _choose_drawn(solved: RowEnvelope, checks: Sequence[CheckRecord]) -> str:
+    """Member of the check that is shown; one with a force where that has none."""
+    loaded = [
+        member
+        for member in REPORTED_MEMBERS
+        if member in solved.members and solved.extremes[member].force.high > 0.0
+    ]
+    shown = find_shown_member(checks)
+    return shown if shown in loaded or not loaded else loaded[0]
 
 
 def _name_largest(check: CheckRecord) -> str:

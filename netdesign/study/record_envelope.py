@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -14,10 +13,9 @@ from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.search.maxima import RESOLVED_SHARE, Addition
+from netdesign.search.maxima import RESOLVED_SHARE
 from netdesign.search.sensitivity import (
     Sensitivity,
-    find_crossings,
     follow_axis,
     measure_sensitivity,
     measure_unexplained,
@@ -26,7 +24,6 @@ from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import (
-    AdditionRecord,
     AxisRecord,
     BoundRecord,
     CasePoint,
@@ -35,7 +32,6 @@ from netdesign.study.case_records import (
     DriverRecord,
     EnvelopeRecord,
     ExtremeRecord,
-    FlipRecord,
     LineRecord,
     MapRecord,
 )
@@ -130,11 +126,9 @@ _MAP_POINTS = 9
 _MAPS = 3
 _DRAWN_DECIMALS = 4  # of kN
 
-Levels = Mapping[str, Sequence[tuple[str, float]]]  # member: check id, force [N]
-
 
 def record_envelope(
-    envelope: RowEnvelope, members: Sequence[str], levels: Levels | None = None
+    envelope: RowEnvelope, members: Sequence[str], drawn: str | None = None
 ) -> EnvelopeRecord:
     """Record of an envelope.
 
@@ -144,8 +138,8 @@ def record_envelope(
         End of a search.
     members : sequence of str
         Those that are reported.
-    levels : mapping, optional
-        For each member the forces at which a check of it flips, with the check's id.
+    drawn : str, optional
+        The one whose drivers, lines and maps are recorded; by default all are.
     """
     maxima, task, extremes = envelope.maxima, envelope.task, envelope.extremes
     shown = [member for member in members if member in envelope.members]
@@ -170,11 +164,11 @@ def record_envelope(
         failed=sum(not result.is_converged for result in envelope.results),
         bounds=[
             _record_bound(
-                envelope, extremes[member], shown, (levels or {}).get(member, ()), found
+                *(envelope, extremes[member], shown, found),
+                is_drawn=drawn in (None, member),
             )
             for member, found in zip(shown, answers, strict=True)
         ],
-        log=[_record_addition(envelope, one) for one in maxima.log],
     )
 
 
@@ -182,8 +176,9 @@ def _record_bound(
     envelope: RowEnvelope,
     extreme: Extreme,
     shown: Sequence[str],
-    levels: Sequence[tuple[str, float]],
     answers: Sequence[Sensitivity],
+    *,
+    is_drawn: bool,
 ) -> BoundRecord:
     place = envelope.members.index(extreme.member)
     return BoundRecord(
@@ -193,10 +188,9 @@ def _record_bound(
         case=show_case(extreme.governing.case.values),
         coincident_kN=show_coincident(extreme, shown),
         unexplained=measure_unexplained(envelope.maxima, place),
-        drivers=_record_drivers(envelope.task.ranges.axes, answers),
-        flips=_find_flips(envelope, place, levels),
-        lines=_record_lines(envelope, place),
-        maps=_record_maps(envelope, place),
+        drivers=_record_drivers(envelope.task.ranges.axes, answers) if is_drawn else [],
+        lines=_record_lines(envelope, place) if is_drawn else [],
+        maps=_record_maps(envelope, place) if is_drawn else [],
         confirmation=_record_confirmation(envelope, extreme.member),
     )
 
@@ -215,27 +209,6 @@ def _record_drivers(
             total=one.total,
         )
         for one in answers
-    ]
-
-
-def _find_flips(
-    envelope: RowEnvelope, place: int, levels: Sequence[tuple[str, float]]
-) -> list[FlipRecord]:
-    ranges = envelope.task.ranges
-    forces = [level for _, level in levels]
-    crossings = {
-        name: find_crossings(envelope.maxima, place, axis, *forces)
-        for axis, name in enumerate(ranges.axes)
-    }
-    return [
-        FlipRecord(
-            check=check,
-            key=PARAMETERS[name].key,
-            value=_show_place(ranges, name, share),
-        )
-        for number, (check, _) in enumerate(levels)
-        for name in ranges.axes
-        for share in crossings[name][number]
     ]
 
 
@@ -321,20 +294,4 @@ def _record_confirmation(
         elements=confirmed.elements if confirmed else None,
         screened_elements=screened.elements if screened else 0,
         reason=one.confirmed.reason,
-    )
-
-
-def _record_addition(envelope: RowEnvelope, one: Addition) -> AdditionRecord:
-    def show(value: float) -> float | None:
-        return kilonewton_from_newton(value) if math.isfinite(value) else None
-
-    names = envelope.quantities
-    return AdditionRecord(
-        round=one.round,
-        reason=one.reason,
-        quantity=names[one.quantity] if names else "",
-        case=show_case(envelope.task.ranges.place(one.point)),
-        predicted_kN=show(one.predicted),
-        claimed_kN=show(one.standard_error),
-        found_kN=show(one.found),
     )

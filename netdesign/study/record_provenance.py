@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
-import re
 from dataclasses import replace
 
 from netdesign import __version__
@@ -115,7 +114,6 @@ def name_law(law: CreepLaw) -> str:
 
 
 _REPEATED = ("accuracy", "method")
-_LOG = re.compile(r"rows\..*\.envelope\.log\.\d+\.\w+(\.\w+)?")
 
 
 def build_run(study: Study, jobs: int) -> CheckRun:
@@ -173,15 +171,6 @@ def list_differences(stored: Study, again: Study) -> tuple[int, list[Difference]
     """
     old, new = (list_values(_leave_out_versions(study)) for study in (stored, again))
     return len(old | new), compare_listed(old, new)
-
-
-def is_of_ties(difference: Difference) -> bool:
-    """It says only why a search solved a case, where several reasons tie.
-
-    Rounding decides between them, and so do the kernels of a processor. The cases and
-    all that is found from them are compared on their own.
-    """
-    return _LOG.fullmatch(difference.place) is not None
 
 
 def list_versions(study: Study) -> dict[str, str]:

@@ -39,7 +39,6 @@ from netdesign.study.reliability_records import ReliabilityRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
-    EndEffectRecord,
     HeadForce,
     HeldSidewaysRecord,
     PanelRecord,
@@ -350,7 +349,6 @@ class RowStudy:
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
     slab: SlabRecord | None = None  # closed form, for comparison
     model_form: ModelFormRecord | None = None  # None where nothing governs
-    end_effects: list[EndEffectRecord] = field(default_factory=list)
     parts: list[PartRecord] = field(default_factory=list)  # that it is built of
     reliability: ReliabilityRecord | None = None  # None where nobody asks for it
 

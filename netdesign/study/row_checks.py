@@ -17,6 +17,7 @@ from netdesign.structure.members import RopeForce, name_in_panel
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
+from netdesign.study.governing import find_shown
 from netdesign.study.judgement import (
     MemberCheck,
     is_worst,
@@ -25,7 +26,7 @@ from netdesign.study.judgement import (
     record_member,
     record_others,
 )
-from netdesign.study.margins import find_margins, solve_ends
+from netdesign.study.margins import find_margins
 from netdesign.study.member_force import (
     MemberForce,
     RowForces,
@@ -45,9 +46,13 @@ _FAULT_BESIDE = say("check.fault_beside")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowChecks:
-    """Every check of a row, and by their ids those that follow solved cases."""
+    """Every check of a row; by their ids how they were judged, and as functions.
+
+    Functions of a solved case are those that follow from one.
+    """
 
     records: list[CheckRecord]
+    judged: Mapping[str, MemberCheck]
     by_case: Mapping[str, CheckByCase]
 
 
@@ -60,47 +65,43 @@ def check_row(
     """
     judged = judge_members(known)
     followed = list_checks_by_case(task, known, judged, extremes)
-    if task.solver is not None:  # what is solved here serves changes and limits
-        solve_ends([one for one in followed if one is not None], task.solver)
-    beside = []
+    changes: list[list[ChangeRecord]] = []
     for place, (one, by_case) in enumerate(zip(judged, followed, strict=True)):
         before = task.count_faults()
-        beside.append(_solve_beside(task, one, by_case, extremes))
+        changes.append(list_remedies(task, one, by_case) if one.force else [])
         if task.count_faults() > before:
             judged[place] = judge_with_fault(task.basis, one, _FAULT_BESIDE)
         task.on_check()
-    before = task.count_faults()
-    all_changes = [changes for _, changes in beside]
-    holds = find_row_margins(task, judged, all_changes, followed)
-    if task.count_faults() > before:
-        judged = [judge_with_fault(task.basis, one, _FAULT_BESIDE) for one in judged]
     checks = [
-        replace(
-            record_member(known, one),
-            spreads=spreads,
-            changes=changes,
-            holds=holds.get(one.id, []),
-        )
-        for one, (spreads, changes) in zip(judged, beside, strict=True)
+        replace(record_member(known, one), changes=found)
+        for one, found in zip(judged, changes, strict=True)
     ]
     pairs = zip(judged, followed, strict=True)
     return RowChecks(
         records=[*checks, *record_others(known, judged)],
+        judged={one.id: one for one in judged},
         by_case={one.id: by_case for one, by_case in pairs if by_case is not None},
     )
 
 
-def _solve_beside(
-    task: RowToCheck,
-    one: MemberCheck,
-    by_case: CheckByCase | None,
-    extremes: Mapping[str, Extreme],
-) -> tuple[list[SpreadRecord], list[ChangeRecord]]:
-    """Intervals of a check and changes that turn it, as far as solves tell them."""
-    if one.force is None:
-        return [], []
-    extreme = extremes[one.force.largest.quantity]
-    return list_spreads(task, one, extreme), list_remedies(task, one, by_case)
+def detail_shown(
+    task: RowToCheck, found: RowChecks, extremes: Mapping[str, Extreme]
+) -> RowChecks:
+    """The check that is shown with the parts of its interval, and its margins."""
+    shown = find_shown(found.records)
+    judged = found.judged.get(shown.id) if shown else None
+    if shown is None or judged is None or judged.force is None:
+        return found
+    by_case, margins = found.by_case.get(shown.id), list[HoldRecord]()
+    if by_case is not None and task.solver is not None:
+        margins = find_margins(by_case, task.solver, _list_known(shown.changes))
+    detailed = replace(
+        shown,
+        spreads=list_spreads(task, judged, extremes[judged.force.largest.quantity]),
+        holds=margins,
+    )
+    records = [detailed if one is shown else one for one in found.records]
+    return replace(found, records=records)
 
 
 def distrust(check: CheckRecord) -> CheckRecord:
@@ -137,29 +138,6 @@ def list_checks_by_case(
         else None
         for one in judged
     ]
-
-
-def find_row_margins(
-    task: RowToCheck,
-    judged: Sequence[MemberCheck],
-    changes: Sequence[Sequence[ChangeRecord]],
-    by_case: Sequence[CheckByCase | None],
-) -> dict[str, list[HoldRecord]]:
-    """Limits of single values for the checks that follow from forces, by their ids.
-
-    ``changes`` and ``by_case`` are those of the checks in their order.
-    """
-    if task.solver is None:
-        return {}
-    held = {
-        one.id: by_case
-        for one, by_case in zip(judged, by_case, strict=True)
-        if by_case is not None
-    }
-    known = {
-        one.id: _list_known(found) for one, found in zip(judged, changes, strict=True)
-    }
-    return find_margins(held, task.solver, known)
 
 
 def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:

@@ -164,26 +164,6 @@ class HeldSidewaysRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class EndEffectRecord:
-    """End effect for one gap and one glide factor: the profile's and the program's own.
-
-    Factors are over ``end_length_m``; widths are those of an endless row that carries
-    as much as the whole extra. The own ones are for information.
-    """
-
-    gap_m: float | None  # to the next work in the row; None for none
-    glide_factor: float
-    is_own: bool  # gap and glide factor are those of the row
-    end_length_m: float
-    profile_factor: float
-    profile_width_m: float
-    free_factor: float  # the snow below does not pull on that in the gap
-    free_width_m: float
-    pulled_factor: float  # it does
-    pulled_width_m: float
-
-
-@dataclass(frozen=True, kw_only=True)
 class RopeRecord:
     """A border rope: what it is, and its largest forces, upper ends to a tenth."""
 

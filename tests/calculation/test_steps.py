@@ -9,12 +9,11 @@ from hypothesis import given as draws
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from netdesign.calculation.quantity import given, largest
+from netdesign.calculation.quantity import given
 from netdesign.calculation.steps import (
     Step,
     compare_steps,
     evaluate,
-    find_level,
     list_named,
     list_steps,
 )
@@ -133,24 +132,3 @@ def test_two_quantities_of_one_name_are_refused():
     with pytest.raises(ValueError, match="two quantities are called E"):
         list_steps((one + other).named("F", "kN"))
     assert len(list_steps((one + one).named("F", "kN"))) == 2
-
-
-@draws(st.floats(0.1, 9.0), st.floats(0.1, 9.0), st.floats(-9.0, 9.0))
-def test_level_of_a_leaf_is_where_the_quantity_reaches_it(share, added, level):
-    """E = g E_s + A."""
-    force = given("E_s", 3.0, "kN", "", band=(2.0, 5.0))
-    g, more = given("g", share, "-", ""), given("A", added, "kN", "")
-    steps = list_steps((g * force + more).named("E", "kN"))
-    found = find_level(steps, "E_s", "E", level)
-    assert found == pytest.approx((level - added) / share, rel=1e-9, abs=1e-9)
-
-
-def test_what_does_not_follow_a_leaf_has_no_level():
-    force, other = given("E_s", 3.0, "kN", ""), given("E_g", 9.0, "kN", "")
-    steps = list_steps(largest(other, force).named("E", "kN"))
-    assert find_level(steps, "E_s", "E", 5.0) is None
-    assert find_level(steps, "nobody", "E", 5.0) is None
-    assert find_level(steps, "E", "E", 5.0) is None
-    missing = given("b", None, "m", "")
-    steps = list_steps((force / missing * missing).named("E", "kN"))
-    assert find_level(steps, "E_s", "E", 5.0) is None

@@ -9,7 +9,6 @@ import pytest
 from rich.console import Console
 
 from netdesign.outcome import Verdict
-from netdesign.report.governing import find_governing
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.checks import (
     describe_resistance,
@@ -21,6 +20,7 @@ from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, show_check
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import write_document
+from netdesign.study.governing import find_governing
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader, read_rows, read_workbook
 

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 from rich.console import Console
 
-from netdesign.report.governing import find_governing
 from netdesign.report.terminal import list_rows, open_console, print_summary
 from netdesign.report.words import ENGLISH, show_check
+from netdesign.study.governing import find_governing
 from tests.report.build_study import SCRIPT, build_study
 
 

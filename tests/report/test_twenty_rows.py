@@ -47,7 +47,6 @@ def build_bound(quantity):
             )
             for key in RANGES
         ],
-        flips=[],
         lines=[
             LineRecord(
                 key=key, values=spread(key, 25), force_kN=line,
@@ -84,7 +83,6 @@ ENVELOPE = EnvelopeRecord(
     skips_tested=0,
     failed=0,
     bounds=[build_bound(member) for member in MEMBERS],
-    log=[],
 )
 
 

@@ -12,12 +12,12 @@ from rich.console import Console
 
 from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, write_difference
-from netdesign.report.governing import find_governing, find_highest, rank_check
 from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import read_document, write_document
+from netdesign.study.governing import find_governing, find_highest, rank_check
 from netdesign.study.judge import find_worst
 from netdesign.study.rejudge import rejudge
 from netdesign.words.catalogue import LANGUAGES

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from netdesign.search.sensitivity import (
-    find_crossings,
     measure_sensitivity,
     measure_unexplained,
 )
@@ -60,20 +59,7 @@ def test_what_the_model_cannot_see_is_its_error():
     assert measure_unexplained(rough, 0) > 0.3
 
 
-def test_crossings_are_where_the_force_meets_the_level(found):
-    ((share,), none) = find_crossings(found, 0, 1, 15.75, 99.0)
-    assert share == pytest.approx(0.5, abs=1e-6)
-    assert none == ()
-
-
-def test_a_bowl_is_crossed_twice():
-    bowl = drive(lambda u: np.array([2.0 - 4.0 * (u[0] - 0.5) ** 2]), 1)
-    (both,) = find_crossings(bowl, 0, 0, 1.75)
-    assert both == pytest.approx((0.25, 0.75), abs=2e-3)
-
-
 def test_without_a_model_there_is_nothing_to_tell():
     nothing = drive(lambda _: np.array([math.nan]), 2)
     assert measure_sensitivity(nothing, 0, 1) == ((), ())
     assert measure_unexplained(nothing, 0) is None
-    assert find_crossings(nothing, 0, 0, 1.0) == [()]

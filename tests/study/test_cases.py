@@ -59,13 +59,14 @@ def test_ranges_without_counts_are_searched_and_with_one_are_a_grid():
     assert count_cases(build_site(*ROWS, ranges=counted)) == 2 * 3 * 3
 
 
-def test_the_study_holds_bounds_log_and_confirmations(standard, envelopes):
+def test_the_study_holds_bounds_and_confirmations(standard, envelopes):
     study = judge(standard, envelopes)
     assert study.verdict is Verdict.PASS
     for row in study.rows:
         record = row.envelope
         assert record.is_closed
-        assert len(row.cases) == record.cases == len(record.log)
+        assert len(row.cases) == record.cases
+        assert len([one for one in record.bounds if one.lines and one.maps]) == 1
         for bound, extreme in zip(record.bounds, row.extremes, strict=True):
             assert bound.quantity == extreme.quantity
             assert bound.max_kN == extreme.max_kN
@@ -90,29 +91,6 @@ def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):
     again = judge(standard, envelopes[:1], site)
     check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon")
     assert check.verdict is Verdict.NOT_PROVEN
-
-
-def test_critical_values_are_where_the_check_flips(standard, envelopes):
-    """A foot anchor that is just strong enough in the middle of the densities."""
-    middle = sorted(r.member_forces["foot_anchor"].value for r in envelopes[0].results)
-    study = judge(standard, envelopes)
-    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
-    level = middle[len(middle) // 2]
-    given = level * compare_support(check) * check.read("γ_E") * check.read("γ_R")
-    row = build_row("R1", resistances=resist(foot_anchor__tendon=given))
-    site = build_site(row, ranges=RANGES)
-    bounds = judge(standard, envelopes[:1], site).rows[0].envelope.bounds
-    flips = [f for f in bounds[0].flips if f.key == "density_kg_m3"]
-    (flip,) = [f for f in flips if f.check == "foot_anchor.tendon"]
-    assert 270.0 < flip.value < 400.0
-    line = next(one for one in bounds[0].lines if one.key == "density_kg_m3")
-    below = [
-        f for v, f in zip(line.values, line.force_kN, strict=True) if v < flip.value
-    ]
-    above = [
-        f for v, f in zip(line.values, line.force_kN, strict=True) if v > flip.value
-    ]
-    assert max(below) <= level / 1e3 <= min(above)
 
 
 def test_an_open_gap_never_passes(standard, envelopes):

@@ -10,7 +10,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.haefeli.slab import Slab
 from netdesign.planview.end_effect import compute_end_effect
 from netdesign.snow.creep_law import BOUTILLIER_2004, GAGLIARDINI_1997
-from netdesign.study.effects import find_effects, list_end_notes, record_end_effects
+from netdesign.study.effects import find_effects, list_end_notes
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.each import each
 from tests.small_site import build_row
@@ -84,44 +84,3 @@ def test_no_note_without_an_end_or_a_rule():
 
 def test_no_note_on_snow_that_the_law_does_not_take():
     assert notes(law=GAGLIARDINI_1997) == []
-
-
-def effects(row=ROW, standard=STANDARD, law=BOUTILLIER_2004):
-    return record_end_effects(row, RANGES, law, standard)
-
-
-def test_table_goes_over_gaps_and_glide_factors_and_has_the_row():
-    found = effects()
-    gaps = [1.0, 1.3, 2.0, None]
-    assert [one.gap_m for one in found[::4]] == gaps
-    assert [one.glide_factor for one in found[:4]] == [1.2, 2.1, 2.4, 3.2]
-    assert len(found) == 16
-    (own,) = (one for one in found if one.is_own)
-    given = notes()[0].arguments
-    assert own.gap_m == 1.3
-    assert own.profile_width_m == given["width"]
-    assert (own.free_factor, own.pulled_width_m) == (
-        given["free"],
-        given["pulled_width"],
-    )
-
-
-def test_wider_gaps_and_more_glide_load_the_end_more():
-    by_place = {(one.gap_m, one.glide_factor): one for one in effects()}
-    for key in ("profile_width_m", "free_width_m", "pulled_width_m"):
-        for gap in (1.0, 1.3):
-            widths = [getattr(by_place[gap, n], key) for n in (1.2, 2.1, 2.4, 3.2)]
-            assert widths == sorted(widths)
-            assert getattr(by_place[gap, 2.4], key) < getattr(by_place[2.0, 2.4], key)
-    for one in by_place.values():
-        assert one.free_width_m < one.pulled_width_m
-
-
-def test_no_table_without_an_end_a_rule_or_snow_that_the_law_takes():
-    assert effects(replace(ROW, gap=0.0)) == []
-    bare = replace(
-        STANDARD,
-        values=tuple(v for v in STANDARD.values if not v.id.startswith("end.")),
-    )
-    assert effects(standard=bare) == []
-    assert effects(law=GAGLIARDINI_1997) == []

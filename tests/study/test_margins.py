@@ -15,7 +15,7 @@ from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.study.check_by_case import CheckByCase
-from netdesign.study.margins import find_margins, list_spans, solve_ends
+from netdesign.study.margins import find_margins, list_spans
 from tests.each import each
 from tests.small_site import build_row
 
@@ -111,7 +111,7 @@ def a_check(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
 
 def margin_of(check, quantity, solver=None, widen=alone):
     held = replace(check, widen=widen)
-    found = find_margins({"c": held}, solver or MadeUpSolver())["c"]
+    found = find_margins(held, solver or MadeUpSolver(), {})
     return next(one for one in found if one.quantity == quantity)
 
 
@@ -217,16 +217,6 @@ def test_the_guidelines_load_limits_what_the_coupled_solve_would_allow():
     assert margin_of(a_check(0.6), "thickness_m").most is None
 
 
-def test_members_share_solves():
-    """Ends of the search are solved once for all checks of a row."""
-    solver, checks = MadeUpSolver(), {}
-    for k, used in enumerate((0.21, 0.22, 0.23, 0.24)):
-        check = a_check(used, ("foot_anchor", "post")[k % 2])
-        checks[str(k)] = check
-    find_margins(checks, solver)
-    assert solver.count <= 2 * len(list_spans(ROW, RANGES)) + 6
-
-
 def test_a_case_without_a_result_gives_no_limit_and_says_so():
     solver = MadeUpSolver(fails=lambda row, case: row.at(case).slack < 0.02)
     margin = margin_of(a_check(0.9), "slack", solver)
@@ -303,20 +293,9 @@ def an_apart(used, member, governing):
     )
 
 
-def test_ends_are_solved_in_one_case_that_serves_all_members():
-    solver = MadeUpSolver(apart)
-    checks = [an_apart(0.9, "foot_anchor", GOVERNING), an_apart(0.8, "post", RIVAL)]
-    assert [one.case for one in solve_ends(checks, solver)] == [MIDDLE, MIDDLE]
-    spans = list_spans(ROW, RANGES)
-    ends = [end for span in spans for end in {span.low, span.high} - {span.now}]
-    assert solver.count == len(ends)
-
-
 @each("used", [0.57, 0.83, 0.94, 0.99, 1.03, 1.21])
 @each("member, at", [("foot_anchor", GOVERNING), ("post", RIVAL)])
-def test_a_limit_followed_in_a_case_that_carries_less_holds_in_every_case(
-    used, member, at
-):
+def test_a_limit_holds_in_every_case(used, member, at):
     """Told on the passing side, not far from where the check turns."""
     check = an_apart(used, member, at)
     margin = margin_of(check, "thickness_m", MadeUpSolver(apart))
@@ -339,7 +318,7 @@ def test_what_a_change_told_is_no_more_looked_for(used, told):
     plain, known = (
         next(
             one
-            for one in find_margins({"c": check}, solver, {"c": values})["c"]
+            for one in find_margins(check, solver, values)
             if one.quantity == "thickness_m"
         )
         for solver, values in zip(solvers, ({}, {"thickness": told}), strict=True)
@@ -348,7 +327,6 @@ def test_what_a_change_told_is_no_more_looked_for(used, told):
     assert plain.most == pytest.approx(told, rel=0.02)
     assert (known.least, known.low, known.high) == (plain.least, plain.low, plain.high)
     assert solvers[1].count < solvers[0].count
-    wrong_side = find_margins({"c": check}, MadeUpSolver(), {"c": {"thickness": 2.47}})
-    assert next(h.most for h in wrong_side["c"] if h.quantity == "thickness_m") == (
-        plain.most
-    )
+    wrong_side = find_margins(check, MadeUpSolver(), {"thickness": 2.47})
+    most = next(one.most for one in wrong_side if one.quantity == "thickness_m")
+    assert most == plain.most

@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.study.record_provenance import is_of_ties
-from netdesign.study.values import Difference, compare_values, list_values
+from netdesign.study.values import compare_values, list_values
 from tests.each import each
 from tests.report.build_study import build_study
 
@@ -54,11 +53,3 @@ def test_members_stand_under_their_ids_and_their_order_counts():
     assert values["rows.order"] == ", ".join(row.id for row in STUDY.rows)
     turned = replace(STUDY, rows=STUDY.rows[::-1])
     assert [one.place for one in compare_values(STUDY, turned)] == ["rows.order"]
-
-
-def test_only_reasons_of_a_search_are_ties():
-    place = "rows.R.1, north.envelope.log.49."
-    for end in ("quantity", "predicted_kN", "case.density_kg_m3"):
-        assert is_of_ties(Difference(place=place + end, stored=1.0, again=2.0))
-    for other in ("rows.R1.envelope.cases", "rows.R1.cases.3.post_kN", "verdict"):
-        assert not is_of_ties(Difference(place=other, stored=1.0, again=2.0))

@@ -22,7 +22,6 @@ from netdesign.report.drawing.plain_svg import (
     shade,
 )
 from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
-from netdesign.report.governing import find_shown_member
 from netdesign.report.words import (
     ENGLISH,
     Words,
@@ -37,6 +36,7 @@ from netdesign.study.case_records import (
     LineRecord,
     MapRecord,
 )
+from netdesign.study.governing import find_shown_member
 from netdesign.study.records import RowStudy
 from netdesign.words.names import name
 
@@ -61,7 +61,6 @@ def record_grid(row: RowStudy) -> EnvelopeRecord:
         skips_tested=0,
         failed=sum(one.outcome is not Outcome.CONVERGED for one in row.cases),
         bounds=[_record_member(row, one) for one in row.extremes],
-        log=[],
     )
 
 
@@ -74,7 +73,6 @@ def _record_member(row: RowStudy, extreme: ExtremeRecord) -> BoundRecord:
         coincident_kN=extreme.coincident_kN,
         unexplained=None,
         drivers=[],
-        flips=[],
         lines=[],
         maps=list(_list_maps(row, extreme)),
         confirmation=None,
@@ -457,9 +455,13 @@ def draw_envelope(row: RowStudy, words: Words) -> str:
 
     Of another member where that has no force.
     """
-    members = split_members(row.envelope or record_grid(row))
+    members = [
+        one
+        for one in split_members(row.envelope or record_grid(row))
+        if one.bounds[0].maps or one.bounds[0].lines
+    ]
     if not members:
         return ""
-    first = find_shown_member(row)
+    first = find_shown_member(row.checks)
     shown = min(members, key=lambda one: one.bounds[0].quantity != first)
     return draw_maps(shown, words, _BESIDE) or draw_lines(shown, words, _BESIDE)

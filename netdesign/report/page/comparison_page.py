@@ -16,7 +16,6 @@ from netdesign.report.blocks import (
     strong,
     text_cell,
 )
-from netdesign.report.governing import find_governing
 from netdesign.report.page.render import render_page
 from netdesign.report.sections.basis import name_profile
 from netdesign.report.what_if import mark_verdict
@@ -31,6 +30,7 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
+from netdesign.study.governing import find_governing
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.catalogue import Language
 

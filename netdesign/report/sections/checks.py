@@ -17,13 +17,7 @@ from netdesign.report.blocks import (
     Sketch,
     rich_cell,
 )
-from netdesign.report.governing import (
-    SEVERITY,
-    find_governing,
-    find_shown,
-    is_far_from_limit,
-    rank_check,
-)
+from netdesign.report.governing import is_far_from_limit
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -33,6 +27,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
+from netdesign.study.governing import SEVERITY, find_governing, find_shown, rank_check
 from netdesign.study.records import ChangeRecord, CheckRecord, HoldRecord, RowStudy
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_mode
@@ -376,7 +371,7 @@ def _list_row_changes(row: RowStudy, words: Words) -> Iterator[str]:
 
 def _list_room(row: RowStudy, words: Words) -> Iterator[str]:
     """Limits of single values beyond which the check that is shown turns."""
-    check = find_shown(row)
+    check = find_shown(row.checks)
     limits = list_limits(check, words) if check else ()
     if check and limits:
         label = show_check(words, check)

@@ -27,7 +27,6 @@ from netdesign.report.blocks import (
     strong,
     text_cell,
 )
-from netdesign.report.governing import SEVERITY, find_governing
 from netdesign.report.sections.basis import (
     DEFAULT,
     anchor_rows,
@@ -61,6 +60,7 @@ from netdesign.report.words import (
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.document import compute_digest
+from netdesign.study.governing import SEVERITY, find_governing
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.words.message import Message
 

@@ -23,7 +23,7 @@ from netdesign.report.blocks import (
     text_cell,
     text_column,
 )
-from netdesign.report.governing import find_shown, find_shown_member, list_failed
+from netdesign.report.governing import list_failed
 from netdesign.report.sections.basis import group_notes, name_rows
 from netdesign.report.words import (
     MISSING,
@@ -41,6 +41,7 @@ from netdesign.study.case_records import (
     CaseRecord,
     DriverRecord,
 )
+from netdesign.study.governing import find_shown, find_shown_member
 from netdesign.study.records import (
     CheckRecord,
     ModelFormRecord,
@@ -309,7 +310,7 @@ def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
 
 def _build_drivers(row: RowStudy, words: Words) -> Table:
     """Force of the member that is shown at both ends of each range; Sobol indices."""
-    member = find_shown_member(row)
+    member = find_shown_member(row.checks)
     shown = [one for one in _list_bounds(row) if one.quantity == member and one.drivers]
     drivers = [driver for one in shown for driver in one.drivers]
     return Table(
@@ -339,7 +340,7 @@ def _build_spreads(study: Study, words: Words) -> Table:
     """Uncertainty of the check that is shown of each row, part by part."""
     keys = ("net_row", "check", "in_the_verdict", "for_comparison")
     headings = [words(f"heading.{key}") for key in keys]
-    shown = [(row, check) for row in study.rows if (check := find_shown(row))]
+    shown = [(row, check) for row in study.rows if (check := find_shown(row.checks))]
     return Table(
         caption=words("caption.spreads"),
         columns=name_columns(headings, numbers=()),
@@ -375,7 +376,7 @@ def _list_refused(study: Study, words: Words) -> Iterator[Block]:
     """Other models that give no force, each reason once, with its net rows."""
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        check = find_shown(row)
+        check = find_shown(row.checks)
         for one in check.spreads if check else ():
             if _is_refused(one):
                 reason = words.show(one.note)

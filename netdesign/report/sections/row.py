@@ -35,7 +35,7 @@ from netdesign.report.drawing.charts import (
 from netdesign.report.drawing.envelope_maps import draw_envelope
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.report.governing import find_shown, is_far_from_limit
+from netdesign.report.governing import is_far_from_limit
 from netdesign.report.sections.basis import is_of_row, show_value
 from netdesign.report.sections.checks import (
     CheckLine,
@@ -56,6 +56,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
+from netdesign.study.governing import find_shown
 from netdesign.study.records import (
     CheckRecord,
     RowStudy,
@@ -366,7 +367,7 @@ class RowSections:
             yield Items(items=told, look="reasons")
 
     def _show_worked(self) -> Iterator[Block]:
-        t, check = self.words, find_shown(self.row)
+        t, check = self.words, find_shown(self.row.checks)
         if check is None:
             yield self._none("heading.no_utilisation")
             return

@@ -5,9 +5,9 @@ from __future__ import annotations
 from netdesign.files.rows_map import RowsMap
 from netdesign.report.blocks import Figure, Part, section
 from netdesign.report.drawing.rows_map import MappedRow, draw_rows_map
-from netdesign.report.governing import find_governing
 from netdesign.report.sections.basis import anchor_rows
 from netdesign.report.words import Words, show_text, show_verdict
+from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
 
 

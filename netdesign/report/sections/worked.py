@@ -27,7 +27,6 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
-from netdesign.report.governing import rank_check
 from netdesign.report.sections.checks import describe_resistance, name_case
 from netdesign.report.words import (
     MISSING,
@@ -39,6 +38,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
+from netdesign.study.governing import rank_check
 from netdesign.study.records import CheckRecord, Study
 from netdesign.words.names import name_mode
 

@@ -306,9 +306,12 @@ def is_used_up(check: CheckRecord) -> bool:
 
 
 def _follow_spreads(check: CheckRecord) -> list[SpreadRecord]:
-    """Parts of the interval; those that count in the verdict make up its band."""
+    """Parts of the interval; those that count in the verdict make up its band.
+
+    None but of the check that is shown.
+    """
     (low, high), used = check.utilisation_band, check.utilisation
-    if not used or high is None:
+    if not check.spreads or not used or high is None:
         return []
     numerical, between, *others = check.spreads
     hidden = high - (math.nan if numerical.high is None else numerical.high)

@@ -16,7 +16,6 @@ from netdesign.study.effects import (
     RowEffects,
     find_effects,
     load_guideline,
-    record_end_effects,
 )
 from netdesign.study.judgement import (
     MemberCheck,
@@ -286,7 +285,6 @@ def _judge_row(row: RowStudy, basis: Basis, study: Study) -> Iterator[Message]:
         "checks": _check_again(row, known),
         "pulls": list(known.pulls),
         "notes": [*notes, *more],
-        "end_effects": record_end_effects(given, ranges, basis.law, standard),
         "floor": floor,
         "slab": row.slab and _compare_slab(row.slab, given, basis.law),
         "guideline": row.guideline and _compare_guideline(row.guideline, given),

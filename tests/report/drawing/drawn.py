@@ -181,7 +181,6 @@ def build_envelope(rng: random.Random) -> EnvelopeRecord:
         skips_tested=0,
         failed=0,
         bounds=[_build_bound(rng, keys, size)],
-        log=[],
     )
 
 
@@ -203,7 +202,6 @@ def _build_bound(rng, keys, size):
             )
             for key in keys
         ],
-        flips=[],
         lines=[
             LineRecord(
                 key=key, values=np.linspace(*AXES[key], 9).tolist(), force_kN=force,

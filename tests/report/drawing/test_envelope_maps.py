@@ -41,7 +41,6 @@ def build_bound(quantity, *, size=100.0):
                 least_kN=0.5 * size, most_kN=size, first_order=0.9, total=0.95,
             )
         ],
-        flips=[],
         lines=[
             LineRecord(
                 key="density_kg_m3", values=densities,
@@ -73,7 +72,6 @@ RECORD = EnvelopeRecord(
     skips_tested=2,
     failed=0,
     bounds=[build_bound("foot_anchor"), build_bound("downhill_guy", size=0.0)],
-    log=[],
 )
 DRAWINGS = [draw_maps, draw_lines, draw_drivers]
 

@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.governing import find_governing, find_highest
 from netdesign.report.sections.checks import (
     describe_briefly,
     describe_cause,
@@ -13,6 +12,7 @@ from netdesign.report.sections.checks import (
     list_lines,
 )
 from netdesign.report.words import Words, show_check
+from netdesign.study.governing import find_governing, find_highest
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.digits import write_force

@@ -6,7 +6,6 @@ import pytest
 
 from netdesign.checks import Proof
 from netdesign.outcome import NetDesignError, Verdict
-from netdesign.report.governing import SEVERITY
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.checks import describe_briefly
 from netdesign.report.sections.decision import (
@@ -15,6 +14,7 @@ from netdesign.report.sections.decision import (
     name_verification,
 )
 from netdesign.report.words import ENGLISH, VERDICTS, Words
+from netdesign.study.governing import SEVERITY
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.report.build_study import as_given, build_study

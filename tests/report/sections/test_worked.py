@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from netdesign.report.governing import find_shown
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import ENGLISH, show_check
+from netdesign.study.governing import find_shown
 from tests.report.build_study import build_row, build_study
 from tests.report.reading import PageReader
 
@@ -23,7 +23,7 @@ def list_lines(check):
 
 def test_worked_check_shows_symbols_numbers_and_result():
     row = build_row("A", 2, scale=0.6)
-    *_, demand, derivation, resistance, ratio = list_lines(find_shown(ROW))
+    *_, demand, derivation, resistance, ratio = list_lines(find_shown(ROW.checks))
     assert derivation[0] == "R_k"
     force = row.extremes[0].max_kN
     assert demand[1] == f"= 1.5 · {force:.4g} kN"

@@ -77,7 +77,9 @@ def follow_steps(check):
 
 
 def settle_spreads(check, used):
-    """Parts of the interval that give the band of the utilisation."""
+    """Parts of the interval, where it has some, that give the band of the ratio."""
+    if not check["spreads"]:
+        return
     numerical, between, *others = check["spreads"]
     factor = used["value"] / between["low"]
     low, high = used.get("low", used["value"]), used.get("high", used["value"])
@@ -666,24 +668,24 @@ def a_confirmation_dropped(study):
 
 @alteration
 def drivers_altered(study):
-    study["rows"][0]["envelope"]["bounds"][0]["drivers"][0]["total"] = 0.11
+    find_drawn(study)["drivers"][0]["total"] = 0.11
+
+
+def find_drawn(study):
+    """Bound of the member that is drawn in the first row."""
+    return next(one for one in study["rows"][0]["envelope"]["bounds"] if one["lines"])
 
 
 @alteration
 def a_line_flattened(study):
-    line = study["rows"][0]["envelope"]["bounds"][0]["lines"][0]
+    (line, *_) = find_drawn(study)["lines"]
     line["force_kN"] = [line["force_kN"][0]] * len(line["force_kN"])
 
 
 @alteration
 def a_map_lowered(study):
-    drawn = study["rows"][0]["envelope"]["bounds"][0]["maps"][0]
+    (drawn, *_) = find_drawn(study)["maps"]
     drawn["force_kN"] = [[0.5 * one for one in line] for line in drawn["force_kN"]]
-
-
-@alteration
-def the_log_shortened(study):
-    study["rows"][0]["envelope"]["log"].pop()
 
 
 @alteration

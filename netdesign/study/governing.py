@@ -1,0 +1,48 @@
+"""Check that decides a net row, and the one of which most is worked out and shown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from netdesign.outcome import Verdict
+from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
+from netdesign.study.records import CheckRecord
+
+# Worst first.
+SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+
+
+def find_governing(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check that decides the verdict: the worst verdict, then the largest ratio."""
+    return min(checks, key=rank_check, default=None)
+
+
+def rank_check(check: CheckRecord) -> tuple[int, float]:
+    """Sort key: worst verdict first, then the largest utilisation."""
+    return SEVERITY.index(check.verdict), -_ratio(check)
+
+
+def _ratio(check: CheckRecord) -> float:
+    return -1.0 if check.used is None else check.used
+
+
+def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check with the largest utilisation, of those that have one."""
+    known = [check for check in checks if check.used is not None]
+    return max(known, key=_ratio, default=None)
+
+
+def find_shown(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check of which most is shown: the governing one, or the most used one."""
+    governing = find_governing(checks)
+    if governing and governing.used is not None:
+        return governing
+    return find_highest(checks)
+
+
+def find_shown_member(checks: Sequence[CheckRecord]) -> str:
+    """Member whose envelope is shown; "" without any."""
+    shown = find_shown(checks)
+    if shown is None or shown.member in REPORTED_MEMBERS:
+        return shown.member if shown else ""
+    return BROUGHT_BY.get(shown.member, "")
