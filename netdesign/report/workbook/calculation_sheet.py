@@ -20,7 +20,6 @@ from typing import Any
 from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
 from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import SAME, Step, evaluate
-from netdesign.checks import StandardValue
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.report.blocks import Cell, Column, Table
 from netdesign.report.words import MISSING, Words, show_check, show_text, show_unit
@@ -85,16 +84,19 @@ class GivenCells:
             for line, cells in enumerate(profile.rows, _FIRST_LINE)
         ]
         self._profile = list(zip(study.profile.values, of_profile, strict=True))
+        self._of_profile: dict[tuple[str, str], list[GivenCell]] = {}
         tables = [table for _, table in parts]
         inputs = _list_inputs(above, tables)
         self._cells = [*of_profile, *inputs]
         ends = [len(tables[0].rows)]
         for table in tables[1:]:
             ends.append(ends[-1] + len(table.rows))
-        self._inputs = [
-            list(zip(row.inputs, inputs[first:last], strict=True))
-            for row, first, last in zip(study.rows, ends, ends[1:], strict=False)
-        ]
+        self._inputs: list[dict[tuple[str, str], list[GivenCell]]] = []
+        for row, first, last in zip(study.rows, ends, ends[1:], strict=False):
+            places: dict[tuple[str, str], list[GivenCell]] = {}
+            for echo, cell in zip(row.inputs, inputs[first:last], strict=True):
+                places.setdefault((echo.cell, echo.unit), []).append(cell)
+            self._inputs.append(places)
         # directions of pulls follow the load along the row wherever a profile has one
         share = [("k", x) for value, x in self._profile if value.id == LATERAL_SHARE]
         self._by_symbol = [
@@ -107,17 +109,25 @@ class GivenCells:
         if step.value is None or step.symbol in _BY_RULE:
             return None
         if step.kind is Kind.GIVEN:
-            found = [
-                cell
-                for echo, cell in self._inputs[row]
-                if echo.cell == step.source and echo.unit == step.unit
-            ]
+            found = self._inputs[row].get((step.source, step.unit), [])
         elif step.kind is Kind.PROFILE:
-            found = [cell for one, cell in self._profile if _is_of(one, step)]
+            found = self._find_in_profile(step.source, step.unit)
         else:
             return None
         same = [one for one in found if _is_near(one.shown.number, step.value)]
         return same[0] if len(same) == 1 else None
+
+    def _find_in_profile(self, source: str, unit: str) -> list[GivenCell]:
+        """Cells of a value of the profile, or of all that stand in a table."""
+        key = source, unit
+        if key not in self._of_profile:
+            self._of_profile[key] = [
+                cell
+                for one, cell in self._profile
+                if one.unit == unit
+                and (one.id == source or one.id.startswith(f"{source}["))
+            ]
+        return self._of_profile[key]
 
     def refer(self, cell: GivenCell) -> str:
         """Reference to a cell from another sheet."""
@@ -184,12 +194,6 @@ def _list_inputs(above: Table | None, tables: Sequence[Table]) -> list[GivenCell
 def _list_leaves(row: RowStudy) -> set[Step]:
     steps = (step for check in row.checks for step in check.steps)
     return {step for step in steps if not step.formula}
-
-
-def _is_of(value: StandardValue, step: Step) -> bool:
-    """The step is that value, or stands in that table, of the profile."""
-    is_named = value.id == step.source or value.id.startswith(f"{step.source}[")
-    return is_named and value.unit == step.unit
 
 
 def _is_near(number: float | None, value: float) -> bool:

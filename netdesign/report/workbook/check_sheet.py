@@ -8,7 +8,7 @@ numbers are the study's.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -136,7 +136,8 @@ def add_check_sheet(
 ) -> None:
     """Sheet "Checks" and the defined names that the summary counts by."""
     sheet = book.add_sheet("checks", book.words("heading.checks"))
-    _write_head(book, sheet)
+    columns = {name: field.name(book.words) for name, field in FIELDS.items()}
+    _write_head(book, sheet, list(columns.values()))
     line = HEAD_ROW + 1
     for number, row in enumerate(study.rows):
         for place, check in enumerate(row.checks):
@@ -144,7 +145,7 @@ def add_check_sheet(
                 *cells.list_followed(number, check),
                 *calculations.list_followed((number, place)),
             ]
-            writer = _LineWriter(book, sheet, line, check, calculations)
+            writer = _LineWriter(book, sheet, line, check, calculations, columns)
             writer.write(row.id, (number, place), followed)
             line += 1
     if line == HEAD_ROW + 1:
@@ -153,7 +154,7 @@ def add_check_sheet(
     _finish(book, sheet, max(line, HEAD_ROW + 2))
 
 
-def _write_head(book: Book, sheet: Any) -> None:
+def _write_head(book: Book, sheet: Any, columns: Sequence[Column]) -> None:
     """Notes and headings; width of the columns."""
     sheet.fit_to_pages(_PAGES, 0)
     sheet.repeat_columns(_PLACES["no"], _PLACES["check"])
@@ -165,7 +166,6 @@ def _write_head(book: Book, sheet: Any) -> None:
     formulas = " ".join((book.words("caption.check_formulas"), live))
     for line, text in enumerate((formulas, book.words("caption.check_verdicts")), 1):
         book.write_wide(sheet, (line, 0), text, widths, italic=True)
-    columns = [field.name(book.words) for field in fields]
     widths = fit_headings(columns, [field.width for field in fields])
     book.write_head(sheet, HEAD_ROW, columns, widths)
     for (name, place), width in zip(_PLACES.items(), widths, strict=True):
@@ -199,6 +199,7 @@ class _LineWriter:
     line: int
     check: CheckRecord
     calculations: Calculations
+    columns: Mapping[str, Column]
 
     def write(self, row: str, place: tuple[int, int], followed: Sequence[str]) -> None:
         """Texts as values, numbers as links, what is derived as formulas.
@@ -319,8 +320,7 @@ class _LineWriter:
         return self.line, _PLACES[name]
 
     def _put(self, name: str, cell: Cell) -> None:
-        column = FIELDS[name].name(self.book.words)
-        self.book.write_cell(self.sheet, self._place(name), column, cell)
+        self.book.write_cell(self.sheet, self._place(name), self.columns[name], cell)
 
 
 def show_cached(value: float | None) -> float | str:

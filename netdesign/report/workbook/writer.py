@@ -161,6 +161,7 @@ class Book:
         self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
         self._forms: dict[tuple[bool, str | int | None], Any] = {}
+        self._names: dict[str, str] = {}
 
     def format(self, **properties: Any) -> Any:
         """Format with the font of the workbook and these properties."""
@@ -193,7 +194,9 @@ class Book:
 
     def name(self, sheet: str) -> str:
         """Name of a sheet, by its key, in the language of the workbook."""
-        return self.words(f"heading.{sheet}")[:_LONGEST_NAME]
+        if sheet not in self._names:
+            self._names[sheet] = self.words(f"heading.{sheet}")[:_LONGEST_NAME]
+        return self._names[sheet]
 
     def refer(self, sheet: str, area: str) -> str:
         """Reference to an area of another sheet."""
