@@ -227,6 +227,12 @@ class RowDay:
         return replace(self, ending="open", foot=None, head=None, member_forces={})
 
 
+# Days of a curve have so many times the error of its largest forces, up to a limit
+# that is less than what the snow's mass leaves open (THEORY, section 5; assumed).
+CURVE_SHARE = 3.0
+COARSEST_CURVE = 0.05
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DaySolver:
     """Solver of the days of a row.
@@ -244,6 +250,13 @@ class DaySolver:
     row: WinterRow
     settings: SolverSettings
     runner: Runner = field(default_factory=Runner)
+
+    @property
+    def coarse(self) -> DaySolver:
+        """Solver of days that are not the largest: to a lower accuracy."""
+        fine = self.settings.accuracy
+        accuracy = max(fine, min(CURVE_SHARE * fine, COARSEST_CURVE))
+        return replace(self, settings=replace(self.settings, accuracy=accuracy))
 
     def prepare(
         self, packs: Mapping[int, DayPack], *, layered: bool

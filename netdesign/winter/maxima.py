@@ -143,6 +143,9 @@ def _collect(days: Sequence[RowDay], name: str) -> Floats:
 # Powers of density and thickness that rank the days (fitted; no force follows).
 _RANKS = {"free": (0.95, 1.15), "no-slip": (1.2, 1.9), "sliding": (1.2, 1.9)}
 RANKED = 0.7  # of the best rank: days below it are not solved for the maximum
+# Within one winter pulls over ranks differ by less than this factor (section 4).
+RANK_SPREAD = 1.12
+_FEW = 2  # days that are solved at once
 # A failed day above this share of the best day's rank may be the one that governs.
 DOUBTED = 0.8
 _SECANT_STEPS = 3
@@ -199,7 +202,11 @@ class AnnualMaximum:
 
 
 def find_annual_maximum(
-    winter: str, packs: Mapping[int, DayPack], solver: DaySolver
+    winter: str,
+    packs: Mapping[int, DayPack],
+    solver: DaySolver,
+    *,
+    is_alone: bool = False,
 ) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
     """Annual maximum by solves, and the days that were solved for it.
 
@@ -211,9 +218,12 @@ def find_annual_maximum(
         Snowpack of each day by its place in the series.
     solver : DaySolver
         Of the row.
+    is_alone : bool, optional
+        Nothing but the maximum is wanted: days that pull less by (Y26) are left out.
     """
     days = solver.prepare(packs, layered=False)
-    solved = solver.solve(choose_days(days, solver))
+    chosen = choose_days(days, solver)
+    solved = _solve_heaviest(chosen, solver) if is_alone else solver.solve(chosen)
     best = find_largest(solved)
     known = _judge(winter, days, solved, solver)
     if best is None or best.foot is None or best.head is None:
@@ -230,6 +240,61 @@ def find_annual_maximum(
         ),
     )
     return maximum, solved
+
+
+def find_maximum_alone(
+    winter: str, packs: Mapping[int, DayPack], solver: DaySolver
+) -> AnnualMaximum:
+    """Annual maximum by as few solves as do, as of `find_annual_maximum`."""
+    return find_annual_maximum(winter, packs, solver, is_alone=True)[0]
+
+
+def _solve_heaviest(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
+    """Days solved by descending rank, while one that is left may pull most.
+
+    They are solved coarsely, and the largest again to the full accuracy. None is solved
+    that another outdoes in thickness and density, (Y26), unless that one has no force.
+    """
+    left, found = list(days), list[RowDay]()
+    while batch := _choose_next(_list_heaviest(left), found, solver):
+        found += solver.coarse.solve(batch)
+        known = [one for one in found if one.foot]
+        left = [
+            day
+            for day in left
+            if not any(day is one for one in batch)
+            and not any(_covers(one, day) for one in known)
+        ]
+    best = find_largest(found)
+    return tuple(
+        solver.solve([one.reopen()])[0] if one is best else one for one in found
+    )
+
+
+def _choose_next(
+    days: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
+) -> list[RowDay]:
+    """Few days of the best ranks, of those that may pull more than what is solved."""
+    ground = solver.row.scene.ground.kind
+    known = [day for day in solved if day.foot]
+    pulls = np.array([day.pull for day in known])
+    least = 0.0
+    if known:
+        most = float(np.max(pulls / rank_days(known, ground)))
+        least = float(pulls.max()) / (RANK_SPREAD * most)
+    ranks = rank_days(days, ground)
+    order = [k for k in np.argsort(-ranks, kind="stable") if ranks[k] >= least]
+    return [days[k] for k in order[:_FEW]]
+
+
+def _list_heaviest(days: Sequence[RowDay]) -> list[RowDay]:
+    """Days of which no other is as thick and as dense; one of those that are alike."""
+    order = sorted(days, key=lambda day: (-day.thickness, -day.density))
+    found: list[RowDay] = []
+    for day in order:  # only what is denser than all that is thicker
+        if not found or day.density > found[-1].density:
+            found.append(day)
+    return found
 
 
 def find_many_maxima(
@@ -257,7 +322,7 @@ def find_many_maxima(
         key = model, winter
         maximum = _look_up(winter, one, chosen[key], table) if table else None
         found[model].append(
-            maximum or find_annual_maximum(winter, groups[model][winter], solver)[0]
+            maximum or find_maximum_alone(winter, groups[model][winter], solver)
         )
     return {model: tuple(maxima) for model, maxima in found.items()}
 

@@ -5,13 +5,12 @@ Theory: winter/THEORY.md, section 2.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import date
 
 import numpy as np
 
-from netdesign.checks.result import Band
 from netdesign.snowpack.follow import SettlingModel, follow_heights
 from netdesign.snowpack.pack import DayPack
 from netdesign.snowpack.series import HeightSeries, split_winters
@@ -22,6 +21,7 @@ from netdesign.winter.maxima import (
     find_equivalent,
     find_largest,
     find_many_maxima,
+    find_maximum_alone,
 )
 from netdesign.winter.sample import Sample, choose_sample
 from netdesign.winter.statistics import (
@@ -36,10 +36,6 @@ CURVE_STEP = 4  # days between those of the curve
 # Layers pull at most so many times what uniform snow of their mass does (seen: 1.03, on
 # free ground; elsewhere they pull less).
 LAYERED_GAIN = 1.05
-# Days of a curve have so many times the error of its largest forces, up to a limit
-# that is less than what the snow's mass leaves open (THEORY, section 5; assumed).
-CURVE_SHARE = 3.0
-COARSEST_CURVE = 0.05
 _BATCH = 8
 
 
@@ -165,11 +161,7 @@ def _solve_coarsely(
     packs: Mapping[int, DayPack], solver: DaySolver
 ) -> dict[int, RowDay]:
     """Layered days to the accuracy of a curve."""
-    fine = solver.settings.accuracy
-    accuracy = max(fine, min(CURVE_SHARE * fine, COARSEST_CURVE))
-    settings = replace(solver.settings, accuracy=accuracy)
-    days = solver.prepare(packs, layered=True)
-    solved = replace(solver, settings=settings).solve(days)
+    solved = solver.coarse.solve(solver.prepare(packs, layered=True))
     return {day.index: day for day in solved}
 
 
@@ -180,25 +172,31 @@ def _sharpen(curve: Mapping[int, RowDay], solver: DaySolver) -> dict[int, RowDay
     """
     found = dict(curve)
     left = {k: day for k, day in curve.items() if day.ending == "solved"}
-    while doubtful := _list_doubtful(found.values()) & left.keys():
+    while doubtful := _list_doubtful(found, left.keys()):
         days = solver.solve([left.pop(k).reopen() for k in sorted(doubtful)])
         found |= {day.index: day for day in days}
     return found
 
 
-def _list_doubtful(days: Iterable[RowDay]) -> set[int]:
-    """Days whose band of some force reaches above the largest value found."""
-    bands: dict[str, dict[int, Band]] = {}
-    for day in days:
+def _list_doubtful(days: Mapping[int, RowDay], left: Collection[int]) -> set[int]:
+    """Days that may have the largest of some force: of each force the likeliest.
+
+    Of those ``left`` whose band reaches above that of all accurate days, and above the
+    largest value, the one with the highest: once it is accurate, others may no longer
+    be in doubt.
+    """
+    tops: dict[str, float] = {}
+    for place, day in days.items():
         for name, band in day.bands.items():
-            bands.setdefault(name, {})[day.index] = band
-    tops = {name: max(b.value for b in one.values()) for name, one in bands.items()}
-    return {
-        place
-        for name, one in bands.items()
-        for place, band in one.items()
-        if band.high > tops[name]
-    }
+            top = band.value if place in left else band.high
+            tops[name] = max(top, tops.get(name, 0.0))
+    likeliest: dict[str, tuple[float, int]] = {}
+    for place in left:
+        for name, band in days[place].bands.items():
+            if band.high > tops[name]:
+                best = likeliest.get(name, (0.0, place))
+                likeliest[name] = max(best, (band.high, place))
+    return {place for _, place in likeliest.values()}
 
 
 FIRST_DENSITY = 300.0  # of snow that lies on the first day of a series [kg/m3]; assumed
@@ -376,6 +374,4 @@ def follow_winters(
 def _find_maxima(
     packs: Mapping[str, Mapping[int, DayPack]], solver: DaySolver
 ) -> tuple[AnnualMaximum, ...]:
-    return tuple(
-        find_annual_maximum(name, one, solver)[0] for name, one in packs.items()
-    )
+    return tuple(find_maximum_alone(name, one, solver) for name, one in packs.items())

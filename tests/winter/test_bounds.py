@@ -10,8 +10,9 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
 from netdesign.winter.day import DaySolver, RowDay
-from netdesign.winter.maxima import find_annual_maximum, find_bound
+from netdesign.winter.maxima import find_annual_maximum, find_bound, find_maximum_alone
 from netdesign.words.message import say
+from tests.each import each
 from tests.winter.made_up_row import SLOPE, FormulaSolver, a_solver, slides
 
 
@@ -66,6 +67,41 @@ def test_more_snow_never_pulls_less_on_sixty_scenes(kind):
     assert np.all(found)
 
 
+def count_solves(solver):
+    """The same solver, with the list of the days that it solves."""
+    solved = []
+
+    class Counting(type(solver)):
+        def solve(self, days):
+            solved.extend(days)
+            return super().solve(days)
+
+    return Counting(row=solver.row, settings=solver.settings), solved
+
+
+@each("kind", ["no-slip", "sliding", "free"])
+def test_a_maximum_alone_takes_fewer_solves_and_is_the_same(kind):
+    """Five drawn winters on drawn rows: whatever their ranks say."""
+    rng = np.random.default_rng(417)
+    compared, solves = 0, np.zeros(2)
+    for _ in range(5):
+        solver = draw_solver(rng, kind)
+        top = solver.row.scene.net.height_normal / math.cos(SLOPE)
+        heights = [0.45 * top * h for h in draw_winter(rng)]
+        packs = dict(enumerate(follow_heights(heights, DELTA_SNOW)))
+        (every, all_days), (few, some_days) = (count_solves(solver) for _ in range(2))
+        truth, _ = find_annual_maximum("2001/2002", packs, every)
+        found = find_maximum_alone("2001/2002", packs, few)
+        assert found.ending == truth.ending
+        if truth.is_proven and truth.index is not None:
+            accuracy = solver.settings.accuracy
+            assert found.foot == pytest.approx(truth.foot, rel=2.0 * accuracy)
+            solves += len(some_days), len(all_days)
+            compared += 1
+    assert compared >= 3
+    assert solves[0] < 0.7 * solves[1]
+
+
 def hide_thin(base, solver, least):
     """The same solver, for which snow thinner than some thickness has no force."""
 
@@ -103,11 +139,12 @@ def compare(base, solver, rng):
     truth, _ = find_annual_maximum("2001/2002", packs, solver)
     hiding = hide_thin(base, solver, rng.uniform(0.3, 1.6))
     found, _ = find_annual_maximum("2001/2002", packs, hiding)
-    if found.is_proven:
-        assert found.foot == pytest.approx(truth.foot)
-    else:
-        assert found.reason == say("net.would_touch_ground")
-        assert truth.foot <= found.bound
+    for one in (found, find_maximum_alone("2001/2002", packs, hiding)):
+        if one.is_proven:
+            assert one.foot == pytest.approx(truth.foot)
+        else:
+            assert one.reason == say("net.would_touch_ground")
+            assert truth.foot <= one.bound
     return found.ending
 
 

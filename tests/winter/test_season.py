@@ -9,8 +9,8 @@ from netdesign.checks.result import Band
 from netdesign.coupling.scene import SolverSettings
 from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
-from netdesign.winter.day import DaySolver
-from netdesign.winter.season import COARSEST_CURVE, CURVE_SHARE, follow_season
+from netdesign.winter.day import COARSEST_CURVE, CURVE_SHARE, DaySolver
+from netdesign.winter.season import follow_season
 from netdesign.words.message import say
 from tests.winter.made_up_row import a_solver, read_winter
 
