@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -182,7 +182,3 @@ class LimitState:
         margins = self.evaluate(places).reshape(count, -1)
         up, down = np.split(margins[:, 1:], 2, axis=1)
         return margins[:, 0], (up - down) / (2.0 * _STEP)
-
-    def shifted(self, shift: float) -> LimitState:
-        """Limit state with another number added to every margin."""
-        return replace(self, shift=shift)

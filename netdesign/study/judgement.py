@@ -275,7 +275,6 @@ def record_member(known: RowForces, one: MemberCheck) -> CheckRecord:
     if one.unsure is None:
         check = replace(
             check,
-            resistance_ground=one.given.ground,
             resistance_years=known.row.design_life if one.given.wear else None,
         )
     if one.force is None:

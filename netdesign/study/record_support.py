@@ -53,12 +53,6 @@ def record_panel(
     if not row.solved_panels:
         return None
     panel = row.panels[0]
-    solved = [
-        variant.solution
-        for one in results
-        if isinstance(one.panel, PanelForces)
-        for variant in one.panel.variants
-    ]
     found = {name: extremes[name] for name in PANEL_QUANTITIES if name in extremes}
     highs = {name: one.widened.high for name, one in found.items()}
     return PanelRecord(
@@ -83,11 +77,6 @@ def record_panel(
         ],
         extremes=[record_extreme(one) for one in found.values()],
         failed=sum(isinstance(one.panel, FailedPanel) for one in results),
-        effective_height_m=min(
-            (row.net_height + one.upper.mid_displacement[1] for one in solved),
-            default=None,
-        ),
-        lift_m=max((one.lower.mid_displacement[1] for one in solved), default=None),
         end_guy_deg=degree_if_known(row.row_end.guy_angle if row.row_end else None),
         drawing=_draw(drawn) if drawn and not row.panel_assumed else None,
     )

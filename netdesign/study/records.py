@@ -211,7 +211,6 @@ class CheckRecord:
     resistance_basis: str = ""  # "tested", "computed", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
-    resistance_ground: str = ""  # of a pull-out; "" where type or row gives none
     resistance_years: int | None = None  # for which its steel lasts; None: not known
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     tests: TestsRecord | None = None  # of a pull-out resistance that is from them

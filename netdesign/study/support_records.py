@@ -211,8 +211,6 @@ class PanelRecord:
     ropes: list[RopeRecord]
     extremes: list[ExtremeRecord]  # quantities "panel_foot_anchor", ...
     failed: int = 0  # solved cases without forces by the panel
-    effective_height_m: float | None = None  # least in mid-panel, normal to the slope
-    lift_m: float | None = None  # largest of the lower rope in mid-panel
     end_guy_deg: float | None = None  # angle to the row; None where none is given
     drawing: PanelDrawing | None = None  # None where the drawn case has no panel
     # columns that are empty: several panels were tried, forces are the largest of all,

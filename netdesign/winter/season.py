@@ -51,8 +51,8 @@ class Season:
         By uniform snow of each day, on the safe side.
     curve : tuple of RowDay
         Ascending: those of the curve, and those that may govern.
-    highest, heaviest : RowDay
-        Days of the largest snow height, and of the largest mass.
+    highest : RowDay
+        Day of the largest snow height.
     days : slice
         Of the winter in the series of heights.
     equivalent_density : float or None
@@ -64,7 +64,6 @@ class Season:
     maximum: AnnualMaximum
     curve: tuple[RowDay, ...]
     highest: RowDay
-    heaviest: RowDay
     days: slice
     equivalent_density: float | None
 
@@ -124,7 +123,6 @@ def follow_season(
         maximum=maximum,
         curve=tuple(curve[k] for k in sorted(curve)),
         highest=curve[highest],
-        heaviest=curve[heaviest],
         days=slice(min(packs), max(packs) + 1),
         equivalent_density=(
             find_equivalent(top, governing, solver) if governing else None

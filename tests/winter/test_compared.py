@@ -39,7 +39,6 @@ def a_season(*days):
         maximum=AnnualMaximum(winter="2002/2003", ending="solved"),
         curve=days,
         highest=days[0],
-        heaviest=days[0],
         days=slice(0, 28),
         equivalent_density=None,
     )
