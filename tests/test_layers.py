@@ -42,7 +42,7 @@ ROWS = (
     {"study.rejudge", "files"},
     {"report.words"},
     {"report.blocks"},
-    {"report.governing", "report.gate", "report.what_if"},
+    {"report.gate", "report.what_if"},
     {"report.drawing"},
     {"report.sections"},
     {"report.page", "report.workbook", "report.document"},

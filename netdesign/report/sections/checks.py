@@ -17,7 +17,6 @@ from netdesign.report.blocks import (
     Sketch,
     rich_cell,
 )
-from netdesign.report.governing import is_far_from_limit
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -27,7 +26,13 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.study.governing import SEVERITY, find_governing, find_shown, rank_check
+from netdesign.study.governing import (
+    SEVERITY,
+    find_governing,
+    find_shown,
+    is_far_from_limit,
+    rank_check,
+)
 from netdesign.study.records import ChangeRecord, CheckRecord, HoldRecord, RowStudy
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_mode

@@ -23,7 +23,6 @@ from netdesign.report.blocks import (
     text_cell,
     text_column,
 )
-from netdesign.report.governing import list_failed
 from netdesign.report.sections.basis import group_notes, name_rows
 from netdesign.report.words import (
     MISSING,
@@ -41,7 +40,7 @@ from netdesign.study.case_records import (
     CaseRecord,
     DriverRecord,
 )
-from netdesign.study.governing import find_shown, find_shown_member
+from netdesign.study.governing import find_shown, find_shown_member, list_failed
 from netdesign.study.records import (
     CheckRecord,
     ModelFormRecord,

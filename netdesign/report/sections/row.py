@@ -35,7 +35,6 @@ from netdesign.report.drawing.charts import (
 from netdesign.report.drawing.envelope_maps import draw_envelope
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.report.governing import is_far_from_limit
 from netdesign.report.sections.basis import is_of_row, show_value
 from netdesign.report.sections.checks import (
     CheckLine,
@@ -56,7 +55,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.study.governing import find_shown
+from netdesign.study.governing import find_shown, is_far_from_limit
 from netdesign.study.records import (
     CheckRecord,
     RowStudy,

@@ -15,7 +15,6 @@ from typing import Any
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Cell, Column
-from netdesign.report.governing import find_case
 from netdesign.report.sections.checks import (
     describe_loads,
     describe_resistance,
@@ -38,6 +37,7 @@ from netdesign.report.workbook.formulas import (
     write_verdict,
 )
 from netdesign.report.workbook.writer import Book, count_lines, fit_headings
+from netdesign.study.governing import find_case
 from netdesign.study.records import CheckRecord, Study
 from netdesign.words.message import Message
 

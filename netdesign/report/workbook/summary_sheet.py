@@ -8,7 +8,6 @@ from typing import Any
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Cell, Column
-from netdesign.report.governing import find_case
 from netdesign.report.sections.checks import describe_briefly
 from netdesign.report.sections.decision import (
     identify,
@@ -29,7 +28,7 @@ from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.formulas import quote, write_merged
 from netdesign.report.workbook.writer import Book, count_lines, fit_headings
 from netdesign.study.document import compute_digest
-from netdesign.study.governing import find_governing, find_highest
+from netdesign.study.governing import find_case, find_governing, find_highest
 from netdesign.study.records import CheckRecord, RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
