@@ -16,8 +16,8 @@ from netdesign.reliability.form import DesignPoint
 from netdesign.reliability.limit_state import LimitState
 
 LARGEST_ERROR = 0.02  # standard error of an index that is stated
-_GOAL = 0.015  # at which the sampling ends
-_BATCH = 2000
+_GOAL = 0.018  # at which the sampling ends
+_BATCH = 1500
 _MOST_BATCHES = 50
 SEED = 1945
 

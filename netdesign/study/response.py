@@ -26,7 +26,7 @@ _INWARDS = 1e-4  # step of a tangent, as a share of a range
 _TRIES = 3  # of a value without a result
 _SPARE = 2  # cases that a model has beyond its trend terms, at least
 _ROUNDING = 1e-9
-_DENSER = 1.3  # of the largest density in the workbook: what is solved beside it
+_DENSER = 1.3  # of the largest density in the workbook: at most at a design point
 # Beside what ranges: the end effect of a support follows the glide factor.
 _WIDENING = ("thickness", "slip_length", "glide_factor")
 
@@ -79,7 +79,7 @@ class Response:
     base : float
         ln mu in the governing case; it counts where there is no model.
     ends : ndarray, shape (2, axes)
-        Least and largest coordinates that were solved: the ranges, and denser snow.
+        Least and largest coordinates that were solved.
     lines : tuple of Line
         Of the other quantities.
     shift : float
@@ -131,11 +131,17 @@ class Response:
         return float(self.model.predict(np.clip(at, *self.ends)).standard_error[0, 0])
 
     def find_beyond(self, values: Mapping[str, float]) -> str | None:
-        """First quantity whose value lies beyond those that were solved."""
+        """First quantity whose value lies too far from those that were solved.
+
+        Denser snow than the range has is solved at the design point.
+        """
         spans = {
             name: tuple(span.low + end * (span.high - span.low) for end in ends)
             for (name, span), ends in zip(self.axes, self.ends.T, strict=True)
         }
+        if "density" in spans:
+            low, high = spans["density"]
+            spans["density"] = low, _find_densest(high)
         spans |= {line.name: (line.low, line.high) for line in self.lines}
         for name, (low, high) in spans.items():
             room = _ROUNDING * max(abs(low), abs(high))
@@ -172,6 +178,8 @@ class Rater:
 
     def _widen(self, moved: Mapping[str, float]) -> float:
         """Load of the support by its end, of what is moved over that of the row."""
+        if self.check.row.ground.kind != "sliding":
+            return 1.0
         now = self._find_width({})
         moved = {name: one for name, one in moved.items() if name in _WIDENING}
         return self._find_width(moved) / now if now else 1.0
@@ -237,11 +245,7 @@ def build_response(
     if len(rated) < count_trend_terms(len(axes)) + _SPARE and axes:
         raise ModelError(say("reliability.few_cases", count=len(rated)))
     asked = [(name, value) for name, (_, *two) in lines.items() for value in two]
-    asked += [(name, _find_denser(one)) for name, one in axes if name == "density"]
     solved = _solve_beside(rater, asked, {k: v[0] for k, v in lines.items()})
-    if any(name == "density" for name, _ in axes):
-        (_, denser), rate = solved.pop()
-        rated[check.governing.with_value("density", denser)] = rate
     model, ends = _fit(axes, rated) if axes else (None, np.zeros((2, 0)))
     changes = [(value, rate - base) for (_, value), rate in solved]
     fitted = tuple(
@@ -278,9 +282,9 @@ def _solve_beside(
     raise ModelError(say("reliability.no_solve"))
 
 
-def _find_denser(span: Interval) -> float:
-    """Density beyond the range, up to which the design point may lie [kg/m3]."""
-    return max(span.high, min(_DENSER * span.high, TRIED_DENSITIES[1]))
+def _find_densest(high: float) -> float:
+    """Density up to which a design point may lie, of the range's high end [kg/m3]."""
+    return max(high, min(_DENSER * high, TRIED_DENSITIES[1]))
 
 
 def _fit(
