@@ -143,8 +143,8 @@ def _collect(days: Sequence[RowDay], name: str) -> Floats:
 # Powers of density and thickness that rank the days (fitted; no force follows).
 _RANKS = {"free": (0.95, 1.15), "no-slip": (1.2, 1.9), "sliding": (1.2, 1.9)}
 RANKED = 0.7  # of the best rank: days below it are not solved for the maximum
-# Within one winter pulls over ranks differ by less than this factor (section 4).
-RANK_SPREAD = 1.12
+# Within one winter pulls over ranks differ by less than this factor (section 2).
+RANK_SPREAD = 1.2
 _FEW = 2  # days that are solved at once
 # A failed day above this share of the best day's rank may be the one that governs.
 DOUBTED = 0.8
