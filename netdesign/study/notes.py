@@ -17,6 +17,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import ModelError, Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
+from netdesign.snowpack.model_code import find_model_code_density
 from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
@@ -27,7 +28,6 @@ from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord, PullRecord
 from netdesign.units import kilonewton_from_newton
-from netdesign.winter.maxima import find_model_code_density
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member

@@ -29,6 +29,7 @@ from netdesign.reliability.reliability import (
     find_reliability,
 )
 from netdesign.site.model import Site
+from netdesign.snowpack.model_code import compare_densities
 from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.record_envelope import record_point
 from netdesign.study.records import CheckRecord
@@ -49,7 +50,6 @@ from netdesign.study.row_variables import (
     list_lines,
     list_variables,
 )
-from netdesign.winter.maxima import compare_densities
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 

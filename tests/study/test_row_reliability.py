@@ -12,6 +12,7 @@ from netdesign.outcome import Verdict
 from netdesign.reliability.form import follow_design_point
 from netdesign.site.model import UncertainQuantity
 from netdesign.site.reader import read_site
+from netdesign.snowpack.model_code import compare_densities
 from netdesign.study.cases import search_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import read_document, write_document
@@ -22,7 +23,6 @@ from netdesign.study.response import Line
 from netdesign.study.row_reliability import record_reliability
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import name_rows
-from netdesign.winter.maxima import compare_densities
 from tests.each import each
 from tests.short_example import write_short_example
 from tests.small_site import RUN

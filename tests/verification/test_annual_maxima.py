@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import gumbel_r, norm
 
-from netdesign.winter.maxima import find_model_code_density
+from netdesign.snowpack.model_code import find_model_code_density
 from netdesign.winter.statistics import Gumbel, find_trend, fit_gumbel
 
 VARIATION = 0.30  # of the maxima, whose mean is 1
