@@ -9,7 +9,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import require_positive
-from netdesign.snow.snowpack import GRAVITY
+from netdesign.snowpack.pack import GRAVITY
 
 # JCSS Probabilistic Model Code, Part 2.12 (secondary).
 _SETTLED, _FRESH = 5000.0, 1700.0  # unit weights [N/m3]

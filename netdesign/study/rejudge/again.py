@@ -27,6 +27,7 @@ from netdesign.study.case_records import (
     ForceRecord,
 )
 from netdesign.study.check_to_record import UNBOUNDED
+from netdesign.study.governing import find_shown
 from netdesign.study.member_force import leave_out_governing
 from netdesign.study.model_form import span_variants
 from netdesign.study.notes import list_reasons
@@ -211,7 +212,7 @@ def _follow_check(
         resistance_kN=again.read("R_d"),
         utilisation=again.read("μ"),
         verdict=_follow_verdict(check, row),
-        spreads=_follow_spreads(check),
+        spreads=_follow_spreads(check, is_shown=check is find_shown(row.checks)),
     )
 
 
@@ -305,13 +306,14 @@ def is_used_up(check: CheckRecord) -> bool:
     return reason.key in UNBOUNDED and not has_numbers
 
 
-def _follow_spreads(check: CheckRecord) -> list[SpreadRecord]:
+def _follow_spreads(check: CheckRecord, *, is_shown: bool) -> list[SpreadRecord]:
     """Parts of the interval; those that count in the verdict make up its band.
 
-    None but of the check that is shown.
+    The check that is shown has them, where it has a force.
     """
     (low, high), used = check.utilisation_band, check.utilisation
-    if not check.spreads or not used or high is None:
+    is_wanted = bool(check.spreads) or (is_shown and check.is_of_force)
+    if not used or high is None or not is_wanted:
         return []
     numerical, between, *others = check.spreads
     hidden = high - (math.nan if numerical.high is None else numerical.high)

@@ -689,6 +689,12 @@ def a_map_lowered(study):
 
 
 @alteration
+def parts_of_the_interval_dropped(study):
+    for check in study["rows"][0]["checks"]:
+        check["spreads"] = []
+
+
+@alteration
 def a_loaded_width_narrowed(study):
     for check in forces(study):
         scale_steps(check, ("f_R", "Δl"), 0.7)
