@@ -305,6 +305,8 @@ def _show_statistics(row: Mapping[str, Any], words: Words) -> Iterator[Block]:
         yield notes(*told, look="notes open")
     yield from _compare_tails(statistics or {"return_values": ()}, words)
     yield _show_trend(row["trend"])
+    if row["snow_heights"]:
+        yield Paragraph(text=show_text(row["snow_heights"]["text"]))
 
 
 def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
@@ -366,8 +368,6 @@ def _describe_range(
     if row["equivalent_density"]:
         found.insert(0, show_text(row["equivalent_density"]["justification"]))
         found.append(words("winter_page.feed", sheet=document["ranges_sheet"]))
-    if row["snow_heights"]:
-        found.append(show_text(row["snow_heights"]["text"]))
     return found
 
 
