@@ -212,7 +212,7 @@ def _follow_check(
         resistance_kN=again.read("R_d"),
         utilisation=again.read("μ"),
         verdict=_follow_verdict(check, row),
-        spreads=_follow_spreads(check, is_shown=check is find_shown(row.checks)),
+        spreads=_follow_spreads(check, is_wanted=check is _find_detailed(row)),
     )
 
 
@@ -306,13 +306,16 @@ def is_used_up(check: CheckRecord) -> bool:
     return reason.key in UNBOUNDED and not has_numbers
 
 
-def _follow_spreads(check: CheckRecord, *, is_shown: bool) -> list[SpreadRecord]:
-    """Parts of the interval; those that count in the verdict make up its band.
+def _find_detailed(row: RowStudy) -> CheckRecord | None:
+    """Check of which the parts of the interval are stored: that shown, of a force."""
+    stored = next((one for one in row.checks if one.spreads), None)
+    shown = find_shown(row.checks)
+    return stored or (shown if shown and shown.is_of_force else None)
 
-    The check that is shown has them, where it has a force.
-    """
+
+def _follow_spreads(check: CheckRecord, *, is_wanted: bool) -> list[SpreadRecord]:
+    """Parts of the interval; those that count in the verdict make up its band."""
     (low, high), used = check.utilisation_band, check.utilisation
-    is_wanted = bool(check.spreads) or (is_shown and check.is_of_force)
     if not used or high is None or not is_wanted:
         return []
     numerical, between, *others = check.spreads
