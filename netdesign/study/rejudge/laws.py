@@ -172,6 +172,8 @@ def _look_at_alone(
     least, value = max(pulls, default=0.0), force.value_kN
     if not _are_ordered(0.0, force.low_kN, value, force.high_kN):
         yield say("audit.outside_band", place=place)
+    if all(one.case != force.case for one in list_solved(row)):
+        yield say("audit.of_no_case", place=place)
     for key, kind, ends in (
         ("audit.more_on_base", Member.POST_BASE, (value, post)),
         ("audit.less_than_pull", NetPart.MESH, (least, value)),

@@ -689,6 +689,12 @@ def a_map_lowered(study):
 
 
 @alteration
+def the_case_of_an_unchecked_force_moved(study):
+    force = next(x for x in study["rows"][0]["forces"] if x["quantity"] == "post_foot")
+    force["case"]["density_kg_m3"] *= 0.73
+
+
+@alteration
 def parts_of_the_interval_dropped(study):
     for check in study["rows"][0]["checks"]:
         check["spreads"] = []
