@@ -106,14 +106,13 @@ class Response:
             return np.full(1, self.base)
         at = self._place(values)
         inside = np.clip(at, *self.ends)
-        (found,) = self.model.evaluate(inside, 0)
         beyond = at - inside
-        far = np.abs(beyond).max(axis=1) > 0.0
-        if far.any():
-            size = np.linalg.norm(beyond[far], axis=1)
-            back = inside[far] - _INWARDS * beyond[far] / size[:, None]
-            (before,) = self.model.evaluate(back, 0)
-            found[far] += (found[far] - before) / _INWARDS * size
+        sizes = np.linalg.norm(beyond, axis=1)
+        far = sizes > 0.0
+        back = inside[far] - _INWARDS * beyond[far] / sizes[far, None]
+        (both,) = self.model.evaluate(np.vstack([inside, back]), 0)
+        found, before = both[: len(at)], both[len(at) :]
+        found[far] += (found[far] - before) / _INWARDS * sizes[far]
         return found
 
     def _place(self, values: Values) -> Floats:
