@@ -60,8 +60,8 @@ class ErrorModel(NamedTuple):
     slip_share, lift_share : float
         What is added to ``share`` where the snow slips along the whole net, and where
         it lifts off ground or net [-].
-    lift_floor : float
-        What is added to ``floor`` where it lifts [-].
+    lift_floor, lift_ratio : float
+        What is added to ``floor`` and ``floor_ratio`` where it lifts [-].
     memory : float
         What a further mesh leaves at least of a difference: two meshes in turn may
         agree by accident [-].
@@ -75,6 +75,7 @@ class ErrorModel(NamedTuple):
     slip_share: float = 0.0
     lift_share: float = 0.0
     lift_floor: float = 0.0
+    lift_ratio: float = 0.0
     memory: float = 0.0
     kinship: float = 0.0
 
@@ -92,7 +93,8 @@ class ErrorModel(NamedTuple):
         """
         share = self.share + self.slip_share * held.slip + self.lift_share * held.lifts
         floor = self.floor + self.lift_floor * held.lifts
-        floor *= self.floor_ratio ** (len(meshes) - 2)
+        ratio = self.floor_ratio + self.lift_ratio * held.lifts
+        floor *= ratio ** (len(meshes) - 2)
         sizes = [math.hypot(*vector) for vector in meshes[-1]]
         steps = [self._remember(one) for one in zip(*meshes, strict=True)]
         pairs = list(zip(steps, sizes, strict=True))
@@ -119,10 +121,11 @@ class ErrorModel(NamedTuple):
 STEADY_ERROR = ErrorModel(
     share=0.9,
     floor=2.5e-3,
-    floor_ratio=0.8,
+    floor_ratio=0.5,
     slip_share=0.3,
     lift_share=0.5,
     lift_floor=3e-3,
+    lift_ratio=0.3,
     memory=0.45,
     kinship=0.5,
 )

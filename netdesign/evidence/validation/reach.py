@@ -27,7 +27,7 @@ MARKS = (3.0, 4.0, 3.0 * HEIGHT)  # of what was observed, and of the guideline [
 PLACES = np.concatenate([np.linspace(0.1, 1.0, 10), np.linspace(1.25, 10.0, 36)])
 SLOPE, _DENSITY = 35.0, 300.0  # [degrees], [kg/m3]
 _LENGTH = 80.0 * HEIGHT  # [m]
-_SETTINGS = SolverSettings(accuracy=0.002)
+_SETTINGS = SolverSettings(accuracy=0.001)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
