@@ -60,8 +60,11 @@ class ErrorModel(NamedTuple):
     slip_share, lift_share : float
         What is added to ``share`` where the snow slips along the whole net, and where
         it lifts off ground or net [-].
-    lift_floor, lift_ratio : float
-        What is added to ``floor`` and ``floor_ratio`` where it lifts [-].
+    lift_floor : float
+        What is added to ``floor`` where it lifts [-].
+    loose_ratio : float
+        What is added to ``floor_ratio`` where it slips along the whole net or lifts
+        [-].
     memory : float
         What a further mesh leaves at least of a difference: two meshes in turn may
         agree by accident [-].
@@ -75,7 +78,7 @@ class ErrorModel(NamedTuple):
     slip_share: float = 0.0
     lift_share: float = 0.0
     lift_floor: float = 0.0
-    lift_ratio: float = 0.0
+    loose_ratio: float = 0.0
     memory: float = 0.0
     kinship: float = 0.0
 
@@ -93,7 +96,7 @@ class ErrorModel(NamedTuple):
         """
         share = self.share + self.slip_share * held.slip + self.lift_share * held.lifts
         floor = self.floor + self.lift_floor * held.lifts
-        ratio = self.floor_ratio + self.lift_ratio * held.lifts
+        ratio = self.floor_ratio + self.loose_ratio * max(held.slip, held.lifts)
         floor *= ratio ** (len(meshes) - 2)
         sizes = [math.hypot(*vector) for vector in meshes[-1]]
         steps = [self._remember(one) for one in zip(*meshes, strict=True)]
@@ -125,7 +128,7 @@ STEADY_ERROR = ErrorModel(
     slip_share=0.3,
     lift_share=0.5,
     lift_floor=3e-3,
-    lift_ratio=0.3,
+    loose_ratio=0.3,
     memory=0.45,
     kinship=0.5,
 )
