@@ -104,7 +104,7 @@ def _judge_new(
         jobs = _list_jobs(solved, build)
 
     def keep(job: RowsJob, judged: list[Studies]) -> None:
-        keep_rows(names, job.rows, judged, runner)
+        keep_rows(names, job.site.rows, judged, runner)
 
     return judge_rows(jobs, runner, watch.count_piece, keep)
 
@@ -172,8 +172,7 @@ def _build_job(
     solved: tuple[RowGrid | RowEnvelope, ...] | None = None,
 ) -> RowsJob:
     return RowsJob(
-        site=site,
-        rows=rows,
+        site=replace(site, rows=rows),
         solved=solved,
         standards=tuple(standards),
         run=run,

@@ -154,9 +154,7 @@ class RowsJob:
     Attributes
     ----------
     site : Site
-        With all its rows.
-    rows : tuple of NetRow
-        Those that are judged.
+        With these rows alone: all rows of a large site take long to be sent.
     solved : tuple of RowGrid or RowEnvelope, or None
         Cases of these rows; None where they are to be searched first.
     standards : tuple of Standard
@@ -168,7 +166,6 @@ class RowsJob:
     """
 
     site: Site
-    rows: tuple[NetRow, ...]
     solved: tuple[RowGrid | RowEnvelope, ...] | None
     standards: tuple[Standard, ...]
     run: CheckRun
@@ -235,13 +232,15 @@ def judge_rows(
     return {
         row.id: studies
         for place, job in enumerate(jobs)
-        for row, studies in zip(job.rows, found[place], strict=True)
+        for row, studies in zip(job.site.rows, found[place], strict=True)
     }
 
 
 def _expect_work(job: RowsJob) -> int:
     """Measure of the work in a job; the most is begun first, so that none waits."""
-    return sum(_WORK[row.ground.kind] * max(1, len(row.layers)) for row in job.rows)
+    return sum(
+        _WORK[row.ground.kind] * max(1, len(row.layers)) for row in job.site.rows
+    )
 
 
 def judge_away(job: RowsJob) -> JudgedRows | None:
@@ -285,11 +284,11 @@ def _judge_away(job: RowsJob) -> JudgedRows:
 def _judge(job: RowsJob, runner: Runner, on_check: Callable[[], None]) -> list[Studies]:
     solved: Sequence[RowGrid | RowEnvelope] | None = job.solved
     if solved is None:
-        solved = search_site(replace(job.site, rows=job.rows), job.run, runner)
-    keep_faults(job.rows, solved, runner)
+        solved = search_site(job.site, job.run, runner)
+    keep_faults(job.site.rows, solved, runner)
     return [
         _judge_row(job, row, of_row, runner, on_check)
-        for row, of_row in zip(job.rows, solved, strict=True)
+        for row, of_row in zip(job.site.rows, solved, strict=True)
     ]
 
 
