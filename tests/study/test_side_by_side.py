@@ -57,7 +57,7 @@ SITE = draw_site()
 
 def die_of_one(job):
     """As a worker that the case of a row kills."""
-    if any(row.id == DYING for row in job.rows):
+    if any(row.id == DYING for row in job.site.rows):
         os._exit(9)
     return judge_away(job)
 
@@ -149,3 +149,16 @@ class Counting:
         """No phase is told."""
 
     report_wave = enter
+
+
+def test_a_row_is_sent_without_the_others(pool, monkeypatch):
+    """All rows of a large site, sent with each of them, would cost more than solves."""
+    sent = []
+
+    def spread(_, work, waiting):
+        sent.extend([row.id for row in job.site.rows] for _, job in waiting)
+        yield from ((place, work(job)) for place, job in waiting)
+
+    monkeypatch.setattr(ProcessPool, "spread", spread)
+    check_site(SITE, STANDARDS, RUN, Runner(workers=pool))
+    assert sorted(sent) == [["R1", "R5"], ["R2"], ["R3"], ["R4"]]
