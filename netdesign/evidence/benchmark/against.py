@@ -89,7 +89,8 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
         Figure([[*check, str(folder / "out"), str(folder / one)]], [], (0, 1, 4))
         for one in ("site", *CHANGED)
     )
-    history = [[*one, "--method", "transient"] for one in scenes[:1]]
+    two_sided = str(NAMED / "paper-30.toml")
+    history = [["solve", two_sided, "--json", "--method", "transient"]]
     winter = ["winter", "--example", "--row", "R1", "--no-cache", "--quiet", "--out"]
     own = [*check, str(folder / "own"), "--example", "--no-cache"]
     return {
