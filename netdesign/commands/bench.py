@@ -24,6 +24,7 @@ from netdesign.words.message import say
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from netdesign.coupling.scene import Scene
     from netdesign.evidence.benchmark.precision import Row
 
 _EXIT_FAIL = 1
@@ -121,28 +122,34 @@ def _run_against(asked: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _run_named(asked: Mapping[str, Any]) -> dict[str, Any]:
-    from netdesign.evidence.benchmark.precision import draw_work_precision, write_bench
+    from netdesign.evidence.benchmark.precision import (
+        draw_work_precision,
+        time_accuracies,
+        write_bench,
+    )
+    from netdesign.evidence.benchmark.scenes import load_scenes
     from netdesign.report.words import Words
 
     plot: Path | None = asked["plot"]
     require_places(plot and plot.parent, [plot.name] if plot else [], asked)
     names = asked["scenes"].split(",") if asked["scenes"] else ()
-    rows = _measure(tuple(name.strip() for name in names), asked)
+    chosen = load_scenes(tuple(name.strip() for name in names))
+    rows = _measure(chosen, asked)
     if plot is not None:
         drawn = draw_work_precision(rows, Words(speak()))
         write_outputs(plot.parent, {plot.name: drawn.encode()}, asked)
-    return write_bench(rows)
+    return write_bench(rows, time_accuracies(chosen.values()))
 
 
-def _measure(names: tuple[str, ...], asked: Mapping[str, Any]) -> Sequence[Row]:
+def _measure(chosen: Mapping[str, Scene], asked: Mapping[str, Any]) -> Sequence[Row]:
     from netdesign.evidence.benchmark.precision import (
         QUICK,
         measure_steady,
         measure_transient,
     )
-    from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, load_scenes
+    from netdesign.evidence.benchmark.scenes import HISTORY_SCENES
 
-    chosen, quick = load_scenes(names), asked["quick"]
+    quick = asked["quick"]
     rows: list[Row] = []
     with follow(len(chosen), "scenes", asked) as on_done:
         for name, scene in chosen.items():

@@ -41,6 +41,7 @@ _ASK = "from importlib.metadata import version; print(version('netdesign'))"
 _LONGEST_S = 900.0
 _PROCESSES = "2"
 _SIDES = ("this", "other")
+_FOLLOWED = ("paper-30", "layered")  # in time, with two-sided contacts
 _CLOCKS = {"processor": "cpu_s", "wall": "wall_s"}
 
 # Sites beside the first one, each with another value in one of its cells.
@@ -89,8 +90,8 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
         Figure([[*check, str(folder / "out"), str(folder / one)]], [], (0, 1, 4))
         for one in ("site", *CHANGED)
     )
-    two_sided = str(NAMED / "paper-30.toml")
-    history = [["solve", two_sided, "--json", "--method", "transient"]]
+    in_time = ["--json", "--method", "transient"]
+    history = [["solve", str(NAMED / f"{one}.toml"), *in_time] for one in _FOLLOWED]
     winter = ["winter", "--example", "--row", "R1", "--no-cache", "--quiet", "--out"]
     own = [*check, str(folder / "own"), "--example", "--no-cache"]
     return {

@@ -13,7 +13,7 @@ import os
 import platform
 import tracemalloc
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
@@ -35,7 +35,12 @@ from netdesign.evidence.benchmark.truth import (
     solve_truth,
     state_error,
 )
-from netdesign.evidence.runner import fit_order, measure, run_in_turns
+from netdesign.evidence.runner import (
+    fit_order,
+    measure,
+    run_in_turns,
+    summarise_times,
+)
 from netdesign.evidence.table import show_document, show_rows
 from netdesign.outcome import SolveError
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, bounds_of
@@ -58,7 +63,7 @@ _TIGHT, _OFFERED = 1e-4, 5e-3
 
 
 QUICK = {"finest": 2, "repeats": 3}  # place of the finest level; of each timing
-
+_ASKED = (1e-2, 5e-3, 1e-3)  # accuracies whose times are told
 
 Solve = Callable[[], Solution | FailedSolution]
 
@@ -110,6 +115,17 @@ def measure_transient(name: str, scene: Scene, repeats: int = 5) -> list[Row]:
     return rows
 
 
+def time_accuracies(scenes: Iterable[Scene], repeats: int = 5) -> list[dict[str, Any]]:
+    """Times of all scenes to each accuracy, which is stated with the result."""
+    shown = []
+    for accuracy in _ASKED:
+        settings = SolverSettings(accuracy=accuracy)
+        solves = [partial(solve_steady, scene, settings) for scene in scenes]
+        times = [min(measure(solve) for _ in range(repeats)) for solve in solves]
+        shown.append({"accuracy": accuracy, **summarise_times(times)})
+    return shown
+
+
 def _measure(
     name: str, method: Method, solves: Mapping[Path, Solve], truth: Truth, repeats: int
 ) -> list[Row]:
@@ -149,7 +165,7 @@ def _observe(solve: Solve) -> tuple[Solution, float]:
     return solution, peak / 1e6
 
 
-def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
+def write_bench(rows: Sequence[Row], asked: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Plain values in the form ``netdesign.bench/1``."""
     return {
         "schema": BENCH_SCHEMA,
@@ -161,13 +177,15 @@ def write_bench(rows: Sequence[Row]) -> dict[str, Any]:
             **{name: version(name) for name in ("numpy", "scipy", "scikit-fem")},
         },
         "rows": [asdict(row) for row in rows],
+        "asked": list(asked),
         "summary": summarise(rows),
     }
 
 
 def print_bench(document: dict[str, Any], console: Console, words: Words) -> None:
-    """Print a line for each row, then what they say together."""
+    """Print a line for each row, times to accuracies, then what all say together."""
     show_rows(document["rows"], console, words)
+    show_rows(document["asked"], console, words)
     show_document(document["summary"], console, words)
 
 

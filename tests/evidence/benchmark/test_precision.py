@@ -11,6 +11,7 @@ from netdesign.evidence.benchmark.precision import (
     Row,
     measure_steady,
     summarise,
+    time_accuracies,
     write_bench,
 )
 from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, SCENES, load_scenes
@@ -52,10 +53,24 @@ def test_what_is_measured(rows):
 
 
 def test_document(rows):
-    document = json.loads(json.dumps(write_bench(rows), allow_nan=False))
+    document = json.loads(json.dumps(write_bench(rows, []), allow_nan=False))
     assert document["schema"] == "netdesign.bench/1"
     assert len(document["rows"]) == len(rows)
     assert all(row.keys() >= KEYS for row in document["rows"])
+
+
+def test_accuracies_are_timed_to_the_mesh_that_states_them(monkeypatch):
+    scenes, asked = load_scenes(("paper-30", "smooth-net")).values(), []
+
+    def note(scene, settings):
+        asked.append((scene, settings.accuracy))
+
+    monkeypatch.setattr(precision, "solve_steady", note)
+    shown = time_accuracies(scenes, repeats=2)
+    accuracies = [one["accuracy"] for one in shown]
+    assert accuracies == sorted(accuracies, reverse=True)
+    assert asked == [(k, a) for a in accuracies for k in scenes for _ in range(2)]
+    assert all(0.0 < one["median_s"] <= one["p95_s"] for one in shown)
 
 
 def test_a_failed_solve_is_no_row(monkeypatch):
