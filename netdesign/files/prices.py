@@ -1,4 +1,4 @@
-"""Prices of types from a csv file: type, price, per."""
+"""Prices of types from a csv file: type, price, per; in any of the languages."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from netdesign.study.cost import NET, Per, Price, Prices
 from netdesign.words.message import Message, say
 
 _MOST_BYTES = 1_000_000
-_HEADINGS = ("type", "price", "per")
+_HEADINGS = ({"type", "typ"}, {"price", "prix", "preis"}, {"per", "par", "je", "pro"})
+_NETS = ("filet", "netz")
 _PER: Mapping[str, Per] = {
     **dict.fromkeys(("piece", "pièce", "piece(s)", "stück", "stk", "pce"), "piece"),
     **dict.fromkeys(("m", "metre", "meter", "mètre"), "m"),
@@ -46,6 +47,8 @@ def read_prices(path: Path, types: Collection[str]) -> Prices:
     faults: list[Message] = []
     found: dict[str, tuple[Price, ...]] = {}
     for number, (name, price) in _list_prices(text, faults):
+        if name.lower() in _NETS and name not in types:
+            name = NET
         if name not in types and name != NET:
             faults.append(say("prices.strange", line=number, type=name))
         found[name] = (*found.get(name, ()), price)
@@ -68,7 +71,8 @@ def _list_prices(
         for number, line in enumerate(csv.reader(text.splitlines(), delimiter=mark), 1)
         if any(cell.strip() for cell in line)
     ]
-    if not lines or [one.lower() for one in lines[0][1]] != list(_HEADINGS):
+    heads = [one.lower() for one in lines[0][1]] if lines else []
+    if len(heads) != len(_HEADINGS) or any(map(_is_strange, heads, _HEADINGS)):
         faults.append(say("prices.headings"))
         return
     for number, cells in lines[1:]:
@@ -77,6 +81,10 @@ def _list_prices(
             faults.append(say("prices.line", line=number))
         else:
             yield number, (cells[0], price)
+
+
+def _is_strange(head: str, accepted: Collection[str]) -> bool:
+    return head not in accepted
 
 
 def _read_price(cells: Sequence[str], mark: str) -> Price | None:

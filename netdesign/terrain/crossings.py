@@ -90,6 +90,24 @@ def _cross(one: Floats, other: Floats) -> Floats:
     return one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
 
 
+def crosses_itself(ring: Floats) -> bool:
+    """Two edges of a ring, shape (n, 2), cross each other, at none of its corners.
+
+    Verified by
+    -----------
+    tests/terrain/test_plan.py
+    """
+    starts, ends = ring, np.roll(ring, -1, axis=0)
+    ways = ends - starts
+    return any(
+        np.any(
+            (_cross(way, starts - start) * _cross(way, ends - start) < 0.0)
+            & (_cross(ways, start - starts) * _cross(ways, end - starts) < 0.0)
+        )
+        for start, end, way in zip(starts, ends, ways, strict=True)
+    )
+
+
 def is_inside(places: Floats, ring: Floats) -> Mask:
     """Places inside a ring by the even-odd rule, shape (n,)."""
     found = np.zeros(len(places), dtype=bool)

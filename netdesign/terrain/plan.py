@@ -18,6 +18,7 @@ from netdesign.outcome import TerrainError
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import convert_unit, normalise_unit, split_heading
 from netdesign.site.columns.lexicon import Lexicon
+from netdesign.terrain.crossings import crosses_itself
 from netdesign.terrain.crs import read_member
 from netdesign.terrain.layers import GEOPACKAGE, SHAPEFILE, Feature, read_layers
 from netdesign.words.message import Message, say
@@ -225,6 +226,9 @@ def _build_plan(
             lines += [line] if line else []
         elif kind == "zone" and given.get("kind") == ZONE:
             zones += parts
+            if any(crosses_itself(one) for one in parts):
+                crosses = say("terrain.zone_crosses")
+                faults.append(say("text.at_place", place=place, text=crosses))
     names = Counter(one.id for one in lines)
     faults += [say("terrain.twice", row=one) for one, n in names.items() if n > 1]
     if has_rows and not lines and not faults:

@@ -48,6 +48,20 @@ def test_prices_are_read_whatever_the_columns_are_apart_by(tmp_path, mark):
 
 
 @pytest.mark.parametrize(
+    "lines",
+    [
+        ("Typ;Preis;je", "Seil 22;{};Stück", "Netz;{};m2"),
+        ("type;prix;par", "Seil 22;{};pièce", "filet;{};m²"),
+    ],
+)
+def test_prices_in_the_other_languages(tmp_path, lines):
+    shown = "\n".join(lines).format("217,35", "88,4")
+    found = read_prices(write(tmp_path, shown), ["Seil 22"])
+    assert found["Seil 22"] == (Price(amount=217.35, per="piece"),)
+    assert found["net"] == (Price(amount=88.4, per="m2"),)
+
+
+@pytest.mark.parametrize(
     ("text", "said"),
     [
         ("", "first line"),

@@ -2,6 +2,7 @@
 
 import json
 import math
+import random
 
 import pytest
 
@@ -51,6 +52,32 @@ def test_zones_other_columns_and_what_is_no_matter_are_read():
     )
     assert len(plan.zones) == 3
     assert plan.lines[0].cells["ground"] == "till"
+
+
+def test_a_zone_whose_outline_crosses_itself_is_refused():
+    """Corners on a circle in turn, then two neighbours exchanged."""
+    draws = random.Random(51)
+    for count in (4, 7, 12):
+        angles = sorted(draws.uniform(0.0, 2.0 * math.pi) for _ in range(count))
+        ring = [
+            [700.0 + 90.0 * math.cos(one), 300.0 + 90.0 * math.sin(one)]
+            for one in angles
+        ]
+        crossed = [ring[1], ring[0], *ring[2:]]
+        for points, kind, crosses in (
+            (ring, "starting zone", False),
+            (crossed, "starting zone", True),
+            (crossed, "house", False),
+        ):
+            closed = [*points, points[0]]
+            lines = feature(LINE, **GIVEN), feature([closed], "Polygon", kind=kind)
+            if not crosses:
+                parse_plan(collect(*lines), "rows.geojson")
+                continue
+            with pytest.raises(TerrainError) as refused:
+                parse_plan(collect(*lines), "rows.geojson")
+            assert "feature 2" in str(refused.value.message)
+            assert "crosses itself" in str(refused.value.message)
 
 
 def test_all_faults_are_told_at_once():
