@@ -72,7 +72,8 @@ def _list_prices(
         if any(cell.strip() for cell in line)
     ]
     heads = [one.lower() for one in lines[0][1]] if lines else []
-    if len(heads) != len(_HEADINGS) or any(map(_is_strange, heads, _HEADINGS)):
+    known = (one in names for one, names in zip(heads, _HEADINGS, strict=False))
+    if len(heads) != len(_HEADINGS) or not all(known):
         faults.append(say("prices.headings"))
         return
     for number, cells in lines[1:]:
@@ -81,10 +82,6 @@ def _list_prices(
             faults.append(say("prices.line", line=number))
         else:
             yield number, (cells[0], price)
-
-
-def _is_strange(head: str, accepted: Collection[str]) -> bool:
-    return head not in accepted
 
 
 def _read_price(cells: Sequence[str], mark: str) -> Price | None:

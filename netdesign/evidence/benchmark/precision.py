@@ -13,7 +13,7 @@ import os
 import platform
 import tracemalloc
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
@@ -115,7 +115,9 @@ def measure_transient(name: str, scene: Scene, repeats: int = 5) -> list[Row]:
     return rows
 
 
-def time_accuracies(scenes: Iterable[Scene], repeats: int = 5) -> list[dict[str, Any]]:
+def time_accuracies(
+    scenes: Collection[Scene], repeats: int = 5
+) -> list[dict[str, Any]]:
     """Times of all scenes to each accuracy, which is stated with the result."""
     shown = []
     for accuracy in _ASKED:
