@@ -97,15 +97,19 @@ def crosses_itself(ring: Floats) -> bool:
     -----------
     tests/terrain/test_plan.py
     """
-    starts, ends = ring, np.roll(ring, -1, axis=0)
-    ways = ends - starts
-    return any(
-        np.any(
-            (_cross(way, starts - start) * _cross(way, ends - start) < 0.0)
-            & (_cross(ways, start - starts) * _cross(ways, end - starts) < 0.0)
-        )
-        for start, end, way in zip(starts, ends, ways, strict=True)
-    )
+    edges = np.stack([ring, np.roll(ring, -1, axis=0)], axis=1)
+    edges = edges[np.argsort(edges[:, :, 0].min(axis=1))]
+    left, right = edges[:, :, 0].min(axis=1), edges[:, :, 0].max(axis=1)
+    # those that begin farther to the right than an edge ends do not cross it
+    last = np.searchsorted(left, right, side="right")
+    for k, (start, end) in enumerate(edges):
+        starts, ends = edges[k + 1 : last[k], 0], edges[k + 1 : last[k], 1]
+        way, ways = end - start, ends - starts
+        sides = _cross(way, starts - start) * _cross(way, ends - start)
+        others = _cross(ways, start - starts) * _cross(ways, end - starts)
+        if np.any((sides < 0.0) & (others < 0.0)):
+            return True
+    return False
 
 
 def is_inside(places: Floats, ring: Floats) -> Mask:
