@@ -99,6 +99,17 @@ def follow_design_point(
     return found
 
 
+def approach_design_point(
+    state: LimitState, point: DesignPoint, shift: float
+) -> Floats:
+    """Place near the design point of the margins plus ``shift``: one step of (U9).
+
+    NaN where the step has no end.
+    """
+    (margin,), (slope,) = state.differentiate(point.place[None])
+    return _find_nearest(margin + shift, slope, point.place, state.caps)
+
+
 def _descend(
     state: LimitState, starts: Floats, sign: float
 ) -> list[DesignPoint | None]:

@@ -151,13 +151,10 @@ class LimitState:
     margin : callable
         Values of shape (n, variables) to margins of shape (n,): failure below 0. It is
         smooth, as if no variable had a cap.
-    shift : float
-        What is added to every margin.
     """
 
     variables: tuple[Variable, ...]
     margin: Callable[[Floats], Floats]
-    shift: float = 0.0
 
     @property
     def caps(self) -> Floats:
@@ -171,8 +168,7 @@ class LimitState:
 
     def evaluate(self, u: Floats) -> Floats:
         """Margins at standard normal places of shape (n, variables), caps left out."""
-        result: Floats = self.margin(self.place(u)) + self.shift
-        return result
+        return self.margin(self.place(u))
 
     def differentiate(self, u: Floats) -> tuple[Floats, Floats]:
         """Margins (n,) and their gradients at places, both of shape (n, variables)."""

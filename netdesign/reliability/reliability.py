@@ -10,13 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.reliability.form import (
-    DesignPoint,
     NotAvailable,
+    approach_design_point,
     find_design_points,
-    follow_design_point,
 )
 from netdesign.reliability.limit_state import LimitState
-from netdesign.reliability.sampling import estimate_beta
+from netdesign.reliability.sampling import estimate_betas
 from netdesign.words.message import say
 
 
@@ -28,6 +27,8 @@ class Reliability:
     ----------
     beta, standard_error : float
         Index by sampling, and its error by sampling alone.
+    beta_shifted : float or None
+        Index with the margins shifted; None where its error is too large.
     beta_by_form : float
         Distance of the design point.
     alpha_squared : tuple of float
@@ -36,34 +37,29 @@ class Reliability:
         Values of the variables there, each in its unit, at most its cap.
     samples : int
         Number of samples.
-    nearest : DesignPoint
-        The design point in standard normal space.
     """
 
     beta: float
     standard_error: float
+    beta_shifted: float | None
     beta_by_form: float
     alpha_squared: tuple[float, ...]
     design_point: tuple[float, ...]
     samples: int
-    nearest: DesignPoint
 
 
-def find_index_near(state: LimitState, found: Reliability) -> float | None:
-    """Index of a limit state that differs from one that is known by its shift [-].
-
-    By sampling about the design point that follows from the known one; None where it
-    is not available.
-    """
-    point = follow_design_point(state, found.nearest)
-    if point is None:
-        return None
-    estimate = estimate_beta(state, [point])
-    return estimate.beta if estimate.is_sound else None
-
-
-def find_reliability(state: LimitState) -> Reliability | NotAvailable:
+def find_reliability(
+    state: LimitState, shift: float | None = None
+) -> Reliability | NotAvailable:
     """Reliability of a limit state, or the reason why there is none.
+
+    Parameters
+    ----------
+    state : LimitState
+        Its margins, in any unit.
+    shift : float, optional
+        By which the margins differ from those of another state, whose index is asked
+        for too.
 
     Verified by
     -----------
@@ -72,17 +68,22 @@ def find_reliability(state: LimitState) -> Reliability | NotAvailable:
     points = find_design_points(state)
     if isinstance(points, NotAvailable):
         return points
-    estimate = estimate_beta(state, points)
+    nearest, shifts = points[0], [0.0]
+    centres = np.array([one.place for one in points])
+    if shift is not None:
+        beside = approach_design_point(state, nearest, shift)
+        if np.isfinite(beside).all():
+            centres, shifts = np.vstack([centres, beside]), [0.0, shift]
+    estimate, *others = estimate_betas(state, centres, shifts)
     if not estimate.is_sound:
         return NotAvailable(reason=say("reliability.not_sampled"))
-    nearest = points[0]
     (values,) = state.place(nearest.place[None])
     return Reliability(
         beta=estimate.beta,
         standard_error=estimate.standard_error,
+        beta_shifted=next((one.beta for one in others if one.is_sound), None),
         beta_by_form=nearest.beta,
         alpha_squared=tuple(float(one) for one in nearest.alpha_squared),
         design_point=tuple(float(one) for one in np.asarray(values)),
         samples=estimate.samples,
-        nearest=nearest,
     )

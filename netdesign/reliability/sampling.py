@@ -12,13 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.numerics.arrays import Floats
-from netdesign.reliability.form import DesignPoint
 from netdesign.reliability.limit_state import LimitState
 
 LARGEST_ERROR = 0.02  # standard error of an index that is stated
 _GOAL = 0.018  # at which the sampling ends
-_BATCH = 1500
-_MOST_BATCHES = 50
+_BATCH = 500
+_MOST_BATCHES = 150
 SEED = 1945
 
 
@@ -36,27 +35,48 @@ class Estimate:
         return self.standard_error < LARGEST_ERROR
 
 
-def estimate_beta(
-    state: LimitState, points: Sequence[DesignPoint], seed: int = SEED
-) -> Estimate:
-    """Reliability index by samples around all design points, (U12) to (U14)."""
+def estimate_betas(
+    state: LimitState,
+    centres: Floats,
+    shifts: Sequence[float] = (0.0,),
+    seed: int = SEED,
+) -> list[Estimate]:
+    """Reliability indices by the same samples, (U12) to (U14).
+
+    Parameters
+    ----------
+    state : LimitState
+        Its margins are evaluated.
+    centres : ndarray, shape (n, variables)
+        Places around which samples are drawn, in standard normal space.
+    shifts : sequence of float
+        What is added to every margin, for each index.
+    seed : int
+        Of the samples.
+    """
     random = np.random.default_rng(seed)
-    centres = np.array([one.place for one in points])
-    values: list[Floats] = []
-    estimate = Estimate(beta=math.nan, standard_error=math.inf, samples=0)
+    values = np.empty((len(shifts), 0))
+    estimates: list[Estimate] = []
     for _ in range(_MOST_BATCHES):
-        values.append(_sample(state, centres, random))
-        estimate = _rate(np.concatenate(values))
-        if estimate.standard_error <= _GOAL:
+        drawn = _sample(state, centres, shifts, random)
+        values = np.concatenate([values, drawn], axis=1)
+        estimates = [_rate(one) for one in values]
+        if all(one.standard_error <= _GOAL for one in estimates):
             break
-    return estimate
+    return estimates
 
 
-def _sample(state: LimitState, centres: Floats, random: np.random.Generator) -> Floats:
-    """Weights of the failures in one batch, 0 of all others; shape (n,)."""
+def _sample(
+    state: LimitState,
+    centres: Floats,
+    shifts: Sequence[float],
+    random: np.random.Generator,
+) -> Floats:
+    """Weights of the failures in one batch, 0 of all others; shape (shifts, n)."""
     drawn = random.integers(len(centres), size=_BATCH)
     u = centres[drawn] + random.standard_normal((_BATCH, centres.shape[1]))
-    fails = state.evaluate(np.minimum(u, state.caps)) < 0.0
+    margins = state.evaluate(np.minimum(u, state.caps))
+    fails = np.array([margins + shift < 0.0 for shift in shifts])
     # logarithms of the mixture's density over the standard normal one
     exponents = u @ centres.T - 0.5 * np.sum(centres**2, axis=1)
     most = exponents.max(axis=1)

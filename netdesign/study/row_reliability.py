@@ -23,11 +23,7 @@ from netdesign.reliability.form import (
     follow_design_point,
 )
 from netdesign.reliability.limit_state import LimitState
-from netdesign.reliability.reliability import (
-    Reliability,
-    find_index_near,
-    find_reliability,
-)
+from netdesign.reliability.reliability import Reliability, find_reliability
 from netdesign.site.model import Site
 from netdesign.snowpack.model_code import compare_densities
 from netdesign.study.check_by_case import CheckByCase
@@ -146,12 +142,11 @@ def _analyse(
         height=by_case.row.snow_thickness / math.cos(by_case.row.slope_angle),
     )
     state, miss = _meet_design_point(state, rater)
-    found = find_reliability(state.build())
+    found = find_reliability(state.build(), math.log(used))
     if isinstance(found, NotAvailable):
         raise ModelError(found.reason)
     state.require_within(found.design_point)
-    full = find_index_near(state.build(math.log(used)), found)
-    return _record(check, state, found, full, miss, by_case.governing)
+    return _record(check, state, found, miss, by_case.governing)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -172,9 +167,9 @@ class _State:
     def names(self) -> list[str]:
         return [one.name for one in self.known]
 
-    def build(self, shift: float = 0.0) -> LimitState:
+    def build(self) -> LimitState:
         variables = tuple(one.variable for one in self.known)
-        return LimitState(variables=variables, margin=self._find_margin, shift=shift)
+        return LimitState(variables=variables, margin=self._find_margin)
 
     def _find_margin(self, values: Floats) -> Floats:
         columns = dict(zip(self.names, values.T, strict=True))
@@ -273,7 +268,6 @@ def _record(
     check: CheckRecord,
     state: _State,
     found: Reliability,
-    full: float | None,
     miss: _Miss,
     governing: Case,
 ) -> ReliabilityRecord:
@@ -289,7 +283,7 @@ def _record(
         beta=found.beta,
         standard_error=found.standard_error,
         beta_by_form=found.beta_by_form,
-        beta_at_full=full,
+        beta_at_full=found.beta_shifted,
         action_factor=ratio * values[MODEL],
         resistance_factor=1.0 / values[RESISTANCE],
         profile_action_factor=check.read("γ_E"),
