@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import SiteDataError
@@ -74,13 +75,18 @@ class Question:
         To be completed: it holds a ``?``.
     hints : tuple of Message or str
         What the answer may be.
+    is_word : bool
+        A word of a cell is asked for.
+    likely : str
+        Planned sheet that is proposed for the sheet; empty where none is.
     """
 
     sheet: str
     asked: str
     answer: str
     hints: tuple[Message | str, ...]
-    is_word: bool = False  # of a cell
+    is_word: bool = False
+    likely: str = ""
 
 
 def write_questions(
@@ -108,18 +114,23 @@ def write_questions(
         If the workbook cannot be read at all, or a file of answers beside it.
     """
     workbook = read_cells(path, text_format)
-    findings = _collect(path, text_format)
+    answers = workbook.answers
+    asked = [
+        _answer(one, ask)
+        for one in _ask_sheets(path, text_format, workbook, _collect(path, text_format))
+    ]
+    # The headings of a sheet are asked for together with what the sheet may be.
+    taken = {one.asked: _take(one) for one in asked if _take(one)}
+    findings = _collect(path, text_format, taken)
+    workbook = read_cells(path, text_format, taken)
     found = [table for plan in SHEETS for table in find_tables(workbook, plan, [])]
-    questions = [*_ask_sheets(path, text_format, workbook, findings)]
-    questions += _ask_names(found, findings, language)
     mark = Question("", _MARK, UNANSWERED, (say("map.mark"),))
     asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
     if asks_mark:
         mark = _answer(mark, ask)
-    questions = [_answer(one, ask) for one in questions]
-    answers = workbook.answers
+    names = _ask_names(found, findings, language)
+    questions = [_answer(one, ask) for one in names]
     lines = [*_begin(path, workbook, mark.answer if asks_mark else "", language)]
-    asked = [one for one in questions if not one.sheet]
     if answers.sheets or asked:
         lines += [*_list_answers("sheets", answers.sheets, asked, language), ""]
     for table in found:
@@ -148,9 +159,20 @@ def _answer(question: Question, ask: Callable[[Question], str] | None) -> Questi
     return replace(question, answer=answer)
 
 
-def _collect(path: Path, text_format: TextFormat) -> list[Finding]:
+def _take(question: Question) -> str:
+    """Planned sheet that a sheet is taken for until somebody answers; may be empty."""
+    is_open = question.answer == UNANSWERED
+    return question.likely if is_open else question.answer
+
+
+def _collect(
+    path: Path,
+    text_format: TextFormat,
+    sheets: Mapping[str, str] = MappingProxyType({}),
+) -> list[Finding]:
     try:
-        findings: Iterable[object] = read_site(path, text_format).findings
+        site = read_site(path, text_format, sheets=sheets)
+        findings: Iterable[object] = site.findings
     except SiteDataError as error:
         findings = error.findings
     return [one for one in findings if isinstance(one, Finding)]
@@ -160,9 +182,10 @@ def _ask_sheets(
     path: Path, text_format: TextFormat, workbook: Workbook, findings: list[Finding]
 ) -> Iterator[Question]:
     """Sheets that are asked about, and those with headings of one that is missing."""
-    asked = {one.sheet: one.accepted for one in findings if one.rule.key in _OF_SHEETS}
-    for name, accepted in asked.items():
-        yield Question("", name, UNANSWERED, (accepted,))
+    asked = {one.sheet: one for one in findings if one.rule.key in _OF_SHEETS}
+    for name, one in asked.items():
+        likely = NETS.name if one.rule.key == "table.net_rows" else ""
+        yield Question("", name, UNANSWERED, (one.accepted,), likely=likely)
     given, names = workbook.answers.sheets, [one.name for one in workbook.sheets]
     open_names = {
         one
@@ -184,7 +207,7 @@ def _ask_sheets(
         likely = max(counts, key=lambda name: counts[name])
         if counts[likely] >= _LEAST_KNOWN:
             hints = (say("finding.in_quotes", text=say(f"sheet.{likely}")),)
-            yield Question("", sheet.name, UNANSWERED, hints)
+            yield Question("", sheet.name, UNANSWERED, hints, likely=likely)
 
 
 def _ask_names(

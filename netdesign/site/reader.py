@@ -110,6 +110,7 @@ def read_site(
     path: str | Path,
     text_format: TextFormat = UNDECLARED,
     instead: Mapping[str, str] = MappingProxyType({}),
+    sheets: Mapping[str, str] = MappingProxyType({}),
 ) -> Site:
     """Read a site workbook.
 
@@ -122,6 +123,8 @@ def read_site(
         What is declared of the file's text.
     instead : mapping of str to str
         Texts that are read in the place of those of some cells (``Nets!P8``).
+    sheets : mapping of str to str
+        Answers about sheets beside those of the file of answers.
 
     Returns
     -------
@@ -134,7 +137,8 @@ def read_site(
     SiteDataError
         With all findings of all sheets, if any of them is an error.
     """
-    workbook, replaced = replace_cells(read_cells(Path(path), text_format), instead)
+    cells = read_cells(Path(path), text_format, sheets)
+    workbook, replaced = replace_cells(cells, instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
     cover = find_table(workbook, PROJECT, findings)
@@ -361,9 +365,14 @@ def _build_rows(
     return rows
 
 
-def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
+def read_cells(
+    path: Path,
+    text_format: TextFormat = UNDECLARED,
+    sheets: Mapping[str, str] = MappingProxyType({}),
+) -> Workbook:
     """Cells of the sheets that a site workbook has; nothing is understood yet."""
     answers = read_answers(path)
+    answers = replace(answers, sheets={**answers.sheets, **sheets})
     if not text_format.decimal_mark:
         text_format = replace(text_format, decimal_mark=answers.decimal_mark)
     is_wanted = partial(_is_wanted, answers=answers)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
-from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import (
     Field,
@@ -340,10 +340,8 @@ def _explain(
         rule = say("item.in_one_cell" if is_item else "item.quantity_in_one_cell")
         return rule, say("item.alone", name=quote_title(both))
     rule = say("item.unknown" if what == "item" else "item.unknown_quantity")
-    names = tuple(field.title for field in table.plan.items)
-    known = [name for field in table.plan.items for name in field.raw_names]
-    accepted = say("item.accepted", names=names)
-    return rule, add_nearest(accepted, start.strip(), dict.fromkeys(known, ""))
+    likely = find_near(start, table.plan.items) or table.plan.items
+    return rule, say("item.accepted", names=tuple(one.title for one in likely))
 
 
 # What makes a single text below a table a note and not the start of another line.

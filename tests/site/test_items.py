@@ -42,10 +42,10 @@ def findings_of(path):
         ("standard, my own profile of limits", '"standard" alone'),
         ("standard: my own profile of limits", '"standard" alone'),
         ("standard\teurocode", '"standard" alone'),
-        ("Standrad;eurocode", 'nearest: "Stand", "standard"'),
-        ("Standrad;", 'nearest: "Stand", "standard"'),
-        ("Standrad,eurocode", 'nearest: "Stand", "standard"'),
-        ("nrme;eurocode", 'nearest: "norme"'),
+        ("Standrad;eurocode", "standard"),
+        ("Standrad;", "standard"),
+        ("Standrad,eurocode", "standard"),
+        ("nrme;eurocode", "standard"),
         ("client;Commune", "name, number, author, checker, revision, standard"),
         ("what follows is by the office of forests;x", "name, number"),
     ],
@@ -55,7 +55,7 @@ def test_a_line_that_names_no_item_is_one_finding(tmp_path, line, near):
     (finding,) = findings_of(path)
     assert (finding.sheet, finding.cell) == ("Project", "A4")
     assert finding.text == line.split(";")[0]
-    assert near in str(finding.accepted)
+    assert str(finding.accepted).startswith(near)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -140,6 +140,19 @@ def test_a_sheet_with_the_headings_of_a_missing_one_is_proposed(sheets, save):
     assert '"Feuil1" = "?"  # "Nets"' in text
 
 
+def test_headings_of_a_proposed_sheet_are_asked_for_at_once(sheets, save):
+    sheets["Feuil1"] = sheets.pop("Nets")
+    sheets["Feuil1"][HEADINGS][1] = "Neigung [°]"
+    path = save(sheets)
+    text, missing = write_questions(path)
+    assert missing == 2
+    assert tomllib.loads(text)["headings"]["Feuil1"] == {"Neigung [°]": "?"}
+    answered = text.replace('"Feuil1" = "?"', '"Feuil1" = "Nets"')
+    answered = answered.replace('"Neigung [°]" = "?"', '"Neigung [°]" = "slope angle"')
+    name_map(path).write_text(answered, encoding="utf-8")
+    assert read_site(path).rows
+
+
 def test_two_columns_of_one_heading_are_asked_by_their_letters(sheets, give, refused):
     sheets["Nets"][HEADINGS] += ["Anker", "Anker"]
     path = give("")

@@ -230,6 +230,10 @@ def test_a_heading_with_a_word_more_is_not_taken(heading):
         ("Stuetzen-Abstand a", "", "post_spacing"),
         ("Altezza rete DK\nNetzhöhe DK [m]", "", "net_height"),
         ("Distanza a monte / Länge bergwärts", "", "upslope_length"),
+        ("Netz-Steifigkeit EA [kN/m]", "", "net_stiffness"),
+        ("Extremschneehöhe Hext [m]", "", "snow_height"),
+        ("Pfostenprofil", "", "post"),
+        ("hauteur de neige extrême", "", "snow_height"),
     ],
 )
 def test_headings_of_offices_are_taken(heading, group, key):
