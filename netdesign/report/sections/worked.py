@@ -27,7 +27,7 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
-from netdesign.report.sections.checks import describe_resistance, name_case
+from netdesign.report.sections.checks import describe_resistance, name_case, name_checks
 from netdesign.report.words import (
     MISSING,
     UNBOUNDED,
@@ -127,9 +127,7 @@ def show_all(study: Study, words: Words) -> Part:
         look="worked-out",
         symbols="headings",
     )
-    further = tuple(
-        _describe_further(*one, words) for one in _choose(study, is_of_force=False)
-    )
+    further = _list_further(_choose(study, is_of_force=False), words)
     return section(*named, reading, table, Items(items=further, look="small"))
 
 
@@ -152,12 +150,25 @@ def _name_kind(check: CheckRecord) -> tuple[str, ...]:
     return (check.member, check.mode, check.position, told.key if told else "")
 
 
-def _describe_further(row: str, check: CheckRecord, words: Words) -> str:
-    """Check that compares no force, with its verdict, clause and reason."""
-    sign = show_verdict(check.verdict, words).symbol
-    clause = f" ({check.clause})" if check.clause not in ("", MISSING) else ""
-    label = f"{sign} {show_text(row)}, {show_check(words, check)}{clause}"
-    return words("show.label", label=label, text=words.show(check.reason))
+def _list_further(checks: Sequence[_OfRow], words: Words) -> tuple[str, ...]:
+    """Checks that compare no force; those of a row with one reason in one line.
+
+    Each line has verdict, names, clause and reason.
+    """
+    alike: dict[tuple[str, str, str, str], list[CheckRecord]] = {}
+    for row, check in checks:
+        sign = show_verdict(check.verdict, words).symbol
+        clause = f" ({check.clause})" if check.clause not in ("", MISSING) else ""
+        told = (sign, show_text(row), clause, words.show(check.reason))
+        alike.setdefault(told, []).append(check)
+    return tuple(
+        words(
+            "show.label",
+            label=f"{sign} {row}, {name_checks(every, words)}{clause}",
+            text=reason,
+        )
+        for (sign, row, clause, reason), every in alike.items()
+    )
 
 
 def _group(checks: Sequence[_OfRow]) -> list[list[_OfRow]]:

@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 
+from netdesign.report.blocks import Items
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.worked import work_out
+from netdesign.report.sections.worked import show_all, work_out
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.governing import find_shown
+from netdesign.words.message import say
 from tests.report.build_study import build_row, build_study
 from tests.report.reading import PageReader
 
@@ -76,3 +78,14 @@ def test_the_annex_has_each_requirement_without_a_force_once():
     }
     assert wanted
     assert all(name in annex for name in wanted)
+
+
+def test_one_reason_of_many_checks_of_a_row_stands_once_in_the_annex():
+    reason = say("heading.no_rows")
+    checks = [replace(one, governs="", reason=reason) for one in ROW.checks]
+    bare = replace(STUDY, rows=[replace(ROW, checks=checks)])
+    (items,) = (one for one in show_all(bare, ENGLISH).blocks if isinstance(one, Items))
+    clauses = {(one.clause, one.verdict) for one in checks}
+    assert len(items.items) == len(clauses) < len(checks)
+    for one in checks:
+        assert any(show_check(ENGLISH, one) in line for line in items.items)
