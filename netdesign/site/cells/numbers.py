@@ -107,6 +107,8 @@ def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
     if readings:
         rule = say("number.many_digits", most=_MOST_DIGITS)
         return Refusal(rule, say("accepted.fewer_digits"))
+    if split_range(text):
+        return Refusal(say("number.two_numbers"), say("accepted.one_number"))
     return Refusal(say("number.not_a_number"), _ACCEPTED)
 
 
