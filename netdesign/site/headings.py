@@ -20,6 +20,7 @@ from netdesign.site.columns.fields import (
 from netdesign.site.columns.lexicon import (
     Lexicon,
     Meaning,
+    has_no_part,
     says_sag,
 )
 from netdesign.site.readings import refuse_stored
@@ -366,7 +367,12 @@ def _judge_all_unknown(
     The headings that the sheet still needs are told once.
     """
     judged = [_judge_unknown(title.cell, missing) for title in unknown]
-    first = next((n for n, (one, _) in enumerate(judged) if one.severity == "note"), -1)
+    sought = (
+        n
+        for n, (one, _) in enumerate(judged)
+        if one.severity == "note" and not has_no_part(one.text)
+    )
+    first = next(sought, -1)
     given = {field.key for field in table.plan.fields} - {one.key for one in missing}
     needed = [
         field for field in missing if field.required and not _has_instead(field, given)
