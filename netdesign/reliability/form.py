@@ -21,6 +21,7 @@ _MOST_STEPS = 60
 _CLOSE = 5e-3  # distance to the next step at the end: 1e-5 of the index
 _APART = 0.5  # distance from which two design points are two
 _HALVINGS = 8
+_MEMORY = 1  # steps back with whose merit a whole step is compared, too
 _ON_IT = 1e-3  # margin below which a place counts as on the limit state
 
 
@@ -115,14 +116,15 @@ def _descend(
 ) -> list[DesignPoint | None]:
     """Design points from starts of shape (n, variables); None where there is none.
 
-    HL-RF with a line search, all starts at once.
+    HL-RF, all starts at once, with a line search where a whole step is no gain.
     """
     caps = state.caps
     found: list[DesignPoint | None] = [None] * len(starts)
     active = np.arange(len(starts))
     places, weights = np.minimum(starts, caps), np.zeros(len(starts))
+    margins, slopes = state.differentiate(places)
+    past = np.empty((2, 0, len(starts)))
     for _ in range(_MOST_STEPS):
-        margins, slopes = state.differentiate(places)
         targets = np.array(
             [
                 _find_nearest(*one, caps)
@@ -137,10 +139,35 @@ def _descend(
         if not on.any():
             break
         active, places, targets = active[on], places[on], targets[on]
-        now = _find_weights(margins[on], slopes[on], places, targets)
+        margins, slopes = margins[on], slopes[on]
+        now = _find_weights(margins, slopes, places, targets)
         weights = np.maximum(weights[on], now)
-        places = _search_lines(state, places, targets - places, weights)
+        now_at = _measure(places, margins)[:, None]
+        past = np.concatenate([past[:, -_MEMORY:, on], now_at], axis=1)
+        limits = (past[0] + weights * past[1]).max(axis=0)
+        places, margins, slopes = _step(state, places, targets, weights, limits)
     return found
+
+
+def _step(
+    state: LimitState, places: Floats, targets: Floats, weights: Floats, limits: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Next places with margins and gradients: the targets, or nearer than those."""
+    following = targets.copy()
+    margins, slopes = state.differentiate(following)
+    far, off = _measure(following, margins)
+    worse = far + weights * off >= limits
+    if worse.any():
+        steps = targets[worse] - places[worse]
+        nearer = _search_lines(state, places[worse], steps, weights[worse])
+        following[worse] = nearer
+        margins[worse], slopes[worse] = state.differentiate(nearer)
+    return following, margins, slopes
+
+
+def _measure(places: Floats, margins: Floats) -> Floats:
+    """Both parts of the merit (U9a): half the squared distance, and the margin."""
+    return np.stack([0.5 * np.sum(places**2, axis=-1), np.abs(margins)])
 
 
 def _find_nearest(margin: float, slope: Floats, place: Floats, caps: Floats) -> Floats:
@@ -182,7 +209,8 @@ def _search_lines(
     shares = 0.5 ** np.arange(_HALVINGS)[:, None]
     tried = places[:, None] + shares * steps[:, None]
     margins = state.evaluate(tried.reshape(-1, places.shape[1])).reshape(-1, _HALVINGS)
-    merits = 0.5 * np.sum(tried**2, axis=2) + weights[:, None] * np.abs(margins)
+    far, off = _measure(tried, margins)
+    merits = far + weights[:, None] * off
     chosen: Floats = tried[np.arange(len(places)), merits.argmin(axis=1)]
     return chosen
 

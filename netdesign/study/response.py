@@ -35,27 +35,37 @@ Values = Mapping[str, Floats]  # by the names of the quantities, each of shape (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """Parabola of ln mu over the logarithm of one quantity, 0 at its centre.
+    """Parabola of ln mu over the logarithm of one quantity, 0 at its centre; (U7a).
 
     Attributes
     ----------
     name : str
         The quantity.
     low, centre, high : float
-        Values that were solved [SI].
-    slope, bend : float
-        Coefficients of the first and the second power.
+        Least value, that of the governing case, and largest [SI].
+    solved : float
+        Value at which the slope is found by a solve [SI].
+    bend : float
+        Coefficient of the second power.
+    slope : float
+        Coefficient of the first power; NaN before that solve.
     """
 
     name: str
     low: float
     centre: float
     high: float
-    slope: float
+    solved: float
     bend: float
+    slope: float = math.nan
+
+    def meet(self, value: float, change: float) -> Line:
+        """Line with the slope by which it has a change at a value."""
+        at = math.log(value / self.centre)
+        return replace(self, slope=change / at - self.bend * at)
 
     def find(self, values: Floats) -> Floats:
-        """Change of ln mu at some values; beyond those solved along the tangent."""
+        """Change of ln mu at some values; beyond its ends along the tangent."""
         at = np.log(np.maximum(values, 1e-12) / self.centre)
         low, high = (math.log(end / self.centre) for end in (self.low, self.high))
         inside = np.clip(at, low, high)
@@ -215,17 +225,15 @@ def move(case: Case, moved: Mapping[str, float]) -> Case:
     return case
 
 
-def build_response(
-    rater: Rater, lines: Mapping[str, tuple[float, float, float]]
-) -> Response:
-    """Model of a check from its solved cases, and two solves along each line.
+def build_response(rater: Rater, lines: Sequence[Line]) -> Response:
+    """Model of a check from its solved cases, and one solve along each line.
 
     Parameters
     ----------
     rater : Rater
         Of the check.
-    lines : mapping of str to (float, float, float)
-        Value of the row and two others, by the quantity's name [SI].
+    lines : sequence of Line
+        Of the other quantities, without slopes.
 
     Raises
     ------
@@ -243,21 +251,17 @@ def build_response(
     base = rated[check.governing]
     if len(rated) < count_trend_terms(len(axes)) + _SPARE and axes:
         raise ModelError(say("reliability.few_cases", count=len(rated)))
-    asked = [(name, value) for name, (_, *two) in lines.items() for value in two]
-    solved = _solve_beside(rater, asked, {k: v[0] for k, v in lines.items()})
+    solved = _solve_beside(rater, lines)
     model, ends = _fit(axes, rated) if axes else (None, np.zeros((2, 0)))
-    changes = [(value, rate - base) for (_, value), rate in solved]
     fitted = tuple(
-        _fit_line(name, values[0], changes[2 * place : 2 * place + 2])
-        for place, (name, values) in enumerate(lines.items())
+        line.meet(value, rate - base)
+        for line, (value, rate) in zip(lines, solved, strict=True)
     )
     return Response(axes=axes, model=model, base=base, ends=ends, lines=fitted)
 
 
-def _solve_beside(
-    rater: Rater, asked: Sequence[tuple[str, float]], centres: Mapping[str, float]
-) -> list[tuple[tuple[str, float], float]]:
-    """Quantities with their values, and ln mu there in the governing case.
+def _solve_beside(rater: Rater, lines: Sequence[Line]) -> list[tuple[float, float]]:
+    """Solved value of each line, and ln mu there in the governing case.
 
     A value without a result comes nearer to that of the governing case.
 
@@ -266,18 +270,17 @@ def _solve_beside(
     ModelError
         If it has none nearby either.
     """
-    case = rater.check.governing
-    known = {**case.values, **centres}
-    points, found = list(asked), list[float | None]()
+    values = [one.solved for one in lines]
     for _ in range(_TRIES):
-        found = rater.solve(case, [{name: value} for name, value in points])
-        points = [
-            (name, value if rate is not None else math.sqrt(value * known[name]))
-            for (name, value), rate in zip(points, found, strict=True)
-        ]
+        moved = [{one.name: value} for one, value in zip(lines, values, strict=True)]
+        found = rater.solve(rater.check.governing, moved)
         rates = [rate for rate in found if rate is not None]
-        if len(rates) == len(points):
-            return list(zip(points, rates, strict=True))
+        if len(rates) == len(values):
+            return list(zip(values, rates, strict=True))
+        values = [
+            value if rate is not None else math.sqrt(value * one.centre)
+            for one, value, rate in zip(lines, values, found, strict=True)
+        ]
     raise ModelError(say("reliability.no_solve"))
 
 
@@ -299,23 +302,6 @@ def _fit(
     rates = np.array(list(rated.values()))
     ends = np.vstack([places.min(axis=0), places.max(axis=0)])
     return fit_surrogate(places, rates[:, None]), ends
-
-
-def _fit_line(name: str, centre: float, changes: Sequence[tuple[float, float]]) -> Line:
-    """Parabola through 0 at the centre and two changes at other values."""
-    (one, first), (other, second) = (
-        (math.log(value / centre), change) for value, change in changes
-    )
-    bend = (first / one - second / other) / (one - other)
-    values = [centre, *(value for value, _ in changes)]
-    return Line(
-        name=name,
-        low=min(values),
-        centre=centre,
-        high=max(values),
-        slope=first / one - bend * one,
-        bend=bend,
-    )
 
 
 def meet(response: Response, values: Mapping[str, float], rate: float) -> Response:

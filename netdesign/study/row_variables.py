@@ -22,6 +22,7 @@ from netdesign.site.model import NetRow, Site, UncertainQuantity
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.records import CheckRecord
+from netdesign.study.response import Line
 from netdesign.words.message import Message, say
 
 HEIGHT, MODEL, RESISTANCE = "snow_height", "model", "resistance"
@@ -29,7 +30,7 @@ _GLIDES = ("glide_factor", "slip_length")
 _WITHIN = 1.645  # place of the ends of a range: its middle nine tenths
 _CHARACTERISTIC = -1.645  # place of a characteristic resistance: the 5 % fractile
 _OF_GROUND = ("pull_out", "bearing", "sliding")  # modes of a resistance
-# Shares of the row's value between which a quantity is solved.
+# Shares of the row's value between which a quantity's line holds.
 _SHARES: Mapping[str, tuple[float, float]] = {
     "thickness": (0.6, 2.0),
     "glide_factor": (0.7, 1.8),
@@ -38,7 +39,8 @@ _SHARES: Mapping[str, tuple[float, float]] = {
     "friction_angle": (0.6, 1.5),
 }
 _LEAST_GLIDE = 1.05
-_TOO_NEAR = 0.03  # to the row's value, in logarithms
+_HEIGHT_BEND = -0.5  # measured: -0.8 to 0; that of the others is 0.1 at most
+_TOO_NEAR = 0.1  # to the row's value, in logarithms
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -198,10 +200,8 @@ def _find_resistance(source: _Source, check: CheckRecord) -> KnownVariable:
     return _tell(variable, typed, assumed.told)
 
 
-def list_lines(
-    check: CheckByCase, known: tuple[KnownVariable, ...]
-) -> dict[str, tuple[float, float, float]]:
-    """Value of the row and two beside it, of what is solved along a line [SI].
+def list_lines(check: CheckByCase, known: tuple[KnownVariable, ...]) -> list[Line]:
+    """Lines to be solved.
 
     That is every variable but those over which the search went.
     """
@@ -213,20 +213,24 @@ def list_lines(
         values["glide_factor"] = row.glide_factor
     ends = {"thickness": (0.0, row.net_height)}
     ends["glide_factor"] = (_LEAST_GLIDE, LARGEST_GLIDE_FACTOR)
-    return {
-        name: _choose_values(values[name], shares, ends.get(name, (0.0, math.inf)))
+    return [
+        _choose_line(name, values[name], shares, ends.get(name, (0.0, math.inf)))
         for name, shares in _SHARES.items()
         if name in names and name not in check.ranges.axes
-    }
+    ]
 
 
-def _choose_values(
-    value: float, shares: tuple[float, float], ends: tuple[float, float]
-) -> tuple[float, float, float]:
-    """Value and two others within the ends; both on one side if it is at an end."""
+def _choose_line(
+    name: str, value: float, shares: tuple[float, float], ends: tuple[float, float]
+) -> Line:
+    """Line that is solved at its high end, or below the value if that is near it."""
     low, high = max(shares[0] * value, ends[0]), min(shares[1] * value, ends[1])
-    if math.log(high / value) < _TOO_NEAR:
-        high = math.sqrt(low * value)
-    elif math.log(value / low) < _TOO_NEAR:
-        low = math.sqrt(high * value)
-    return value, low, high
+    is_near = math.log(high / value) < _TOO_NEAR
+    return Line(
+        name=name,
+        low=low,
+        centre=value,
+        high=high,
+        solved=math.sqrt(low * value) if is_near else high,
+        bend=_HEIGHT_BEND if name == "thickness" else 0.0,
+    )

@@ -244,7 +244,10 @@ def test_the_store_keeps_rows_with_and_without_it_apart(searched):
 
 
 def test_a_line_goes_through_its_values_and_on_along_its_tangent():
-    line = Line(name="thickness", low=1.3, centre=2.1, high=2.9, slope=2.2, bend=-0.4)
+    line = Line(
+        name="thickness", low=1.3, centre=2.1, high=2.9, solved=2.7, bend=-0.4
+    ).meet(2.7, 0.53)
+    assert line.find(np.array([2.7]))[0] == pytest.approx(0.53)
     assert line.find(np.array([2.1]))[0] == 0.0
     steps = np.array([2.9 - 1e-6, 2.9, 2.9 + 1e-6, 3.4, 3.4 * (3.4 / 2.9)])
     found = line.find(steps)
