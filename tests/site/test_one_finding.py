@@ -98,7 +98,7 @@ def test_a_sheet_without_an_id_that_is_asked_for_may_be_missing(sheets, save):
     ("spoil", "rule"),
     [
         (lambda _: [["some", "words"]], "has no row of headings"),
-        (lambda sheet: [["name", *sheet[0][1:]], *sheet[1:]], 'lacks the heading "id"'),
+        (lambda sheet: [["what", *sheet[0][1:]], *sheet[1:]], 'lacks the heading "id"'),
     ],
 )
 def test_ids_of_a_sheet_that_cannot_be_read_are_not_told_one_by_one(

@@ -50,10 +50,14 @@ class Part:
         that it has: "de" is a heading of its own.
     symbols : frozenset of str
         Symbols of the trade beside it, such as ``Dk``.
+    sense : frozenset of str or None
+        What its words say, whatever their language and order; None where a word is
+        unknown.
     """
 
     name: str
     symbols: frozenset[str]
+    sense: frozenset[str] | None = None
 
     @property
     def whole(self) -> str:
@@ -181,7 +185,48 @@ def read_part(text: str) -> Part:
     if not found and is_small(text):
         return Part("".join(_list_words(text)), frozenset())
     rest = _SYMBOL.sub(lambda one: "" if one[1] in found else one[0], text)
-    return Part(fold(rest), frozenset(found.values()))
+    is_one = len(re.split(_BETWEEN[-1], rest)) == 1  # in one language
+    sense = find_sense(rest) if is_one else None
+    return Part(fold(rest), frozenset(found.values()), sense)
+
+
+def find_sense(text: str) -> frozenset[str] | None:
+    """Sense of a text by its words; None where one is unknown, or there is none.
+
+    >>> find_sense("Abstand der Stützen") == find_sense("post spacing")
+    True
+    >>> find_sense("Stützenabstand Nord") is None
+    True
+    """
+    words = [one for one in _list_words(text) if one not in _small_words()]
+    senses = [_split_word(fold(one)) for one in words]
+    if not senses or any(one is None for one in senses):
+        return None
+    return frozenset(sense for one in senses if one for sense in one)
+
+
+@lru_cache(maxsize=8192)
+def _split_word(word: str) -> frozenset[str] | None:
+    """Senses of the parts of a word, the longest first; None where one is unknown."""
+    table = _load_senses()
+    if word in table:
+        return frozenset((table[word],))
+    links = ("", *load_file("thesaurus")["link"]["words"])
+    for size in range(len(word) - 1, 1, -1):
+        if (start := word[:size]) not in table:
+            continue
+        for link in links:
+            tail = word[size:].removeprefix(link)
+            if tail and (others := _split_word(tail)):
+                return others | {table[start]}
+    return None
+
+
+@lru_cache(maxsize=1)
+def _load_senses() -> Mapping[str, str]:
+    """Senses by folded word."""
+    words = load_file("thesaurus")["words"]
+    return {fold(word): sense for sense, known in words.items() for word in known}
 
 
 def _list_words(text: str) -> list[str]:
@@ -207,6 +252,7 @@ def _known_symbols() -> frozenset[str]:
     )
 
 
+_Sense = frozenset[str]  # of a heading: keys of the thesaurus
 _Keys = frozenset[str]  # of fields; with _UNCLEAR among them never one for sure
 _NOTHING: _Keys = frozenset()
 _UNCLEAR: _Keys = frozenset(("?",))
@@ -273,11 +319,17 @@ class Lexicon:
         Keys of the fields by normalised heading; several where it is unclear.
     folded : mapping of str to frozenset of str
         The same by folded heading, with its symbols.
+    senses : mapping of frozenset to frozenset of str
+        The same by sense, without the noun of the sheet.
+    noun : frozenset of str
+        That noun, if there is one.
     """
 
     fields: Mapping[str, Field]
     names: Mapping[str, _Keys]
     folded: Mapping[str, _Keys]
+    senses: Mapping[_Sense, _Keys]
+    noun: _Sense
 
     @classmethod
     def of(cls, fields: Iterable[Field], plan: SheetPlan) -> Lexicon:
@@ -296,7 +348,12 @@ class Lexicon:
             for name in field.raw_names:
                 # a name as typed is surer than one of which only the core is alike
                 _add(folded, read_part(name), frozenset((key,)), is_sure=True)
-        return cls(by_key, names, folded)
+        noun = frozenset(
+            noun
+            for sheet, noun in load_file("thesaurus")["nouns"].items()
+            if sheet == plan.name
+        )
+        return cls(by_key, names, folded, _list_senses(by_key, plan, noun), noun)
 
     def match(self, text: str, group: str = "") -> Meaning:
         """Meaning of a heading, under the text of a group or none."""
@@ -377,13 +434,19 @@ class Lexicon:
             return self._find_symbols(part.symbols)
         if part.whole in self.folded:
             return self.folded[part.whole], ""
-        keys = self.folded.get(part.name, _NOTHING)
+        keys = self.folded.get(part.name, _NOTHING) or self._find_by_sense(part)
         for symbol in sorted(part.symbols) if keys else ():
             meant, is_clear = _find_meant(symbol)
             if keys.isdisjoint(meant):
                 return keys, symbol
             keys &= meant if is_clear else meant | _UNCLEAR
         return keys, ""
+
+    def _find_by_sense(self, part: Part) -> _Keys:
+        """Fields that say the same in other words."""
+        if part.sense is None:
+            return _NOTHING
+        return self.senses.get(part.sense - self.noun, _NOTHING)
 
     def _find_symbols(self, symbols: frozenset[str]) -> tuple[_Keys, str]:
         """Fields that a part of nothing but a symbol may mean.
@@ -407,6 +470,34 @@ class Lexicon:
         if len(fields) == 1 and not keys & _UNCLEAR:
             return Meaning(field=fields[0])
         return Meaning(readings=fields, contrary=contrary)
+
+
+def _list_senses(
+    fields: Mapping[str, Field], plan: SheetPlan, noun: _Sense
+) -> Mapping[_Sense, _Keys]:
+    """Keys of fields by the senses of their names; the noun alone names the id."""
+    found: dict[_Sense, _Keys] = {}
+    for key, field in fields.items():
+        for name in field.raw_names:
+            sense = read_part(name).sense
+            if sense is not None and not _is_too_little(name):
+                found[sense - noun] = found.get(sense - noun, _NOTHING) | {key}
+    for heading, keys in plan.unclear.items():
+        sense, known = read_part(heading).sense, frozenset(keys).intersection(fields)
+        if sense is not None and known and not _is_too_little(heading):
+            found.setdefault(sense - noun, known | _UNCLEAR)
+    found.pop(frozenset(), None)
+    if noun and "id" in fields:
+        found[frozenset()] = frozenset(("id",))
+    return found
+
+
+def _is_too_little(name: str) -> bool:
+    """A name says one thing that many a heading says, or says it by a symbol."""
+    part = read_part(name)
+    words = frozenset(load_file("thesaurus")["alone"]["words"])
+    sense = part.sense or frozenset()
+    return bool(part.symbols) or (len(sense) == 1 and sense <= words)
 
 
 def _add(
