@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from typing import NamedTuple
 
+from netdesign.resistance.products import find_product
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number, read_grade
+from netdesign.site.columns.all_tables import POSTS
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
@@ -38,11 +40,14 @@ from netdesign.site.titles import (
     refuse_unit,
     understand,
 )
+from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.words.message import say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 _EXAMPLES = 3  # cells that show how a column is written
+_GUYS = frozenset(("uphill_guy", "downhill_guy"))
+_NONE: frozenset[str] = frozenset()
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
 
@@ -282,14 +287,25 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     columns: dict[str, Column] = {}
     claimed: set[str] = set()  # by headings that are refused as unclear
     unknown: list[Title] = []
-    for title, meaning in table.titles:
-        cell, field = title.cell, _settle(table, title, meaning)
+    settled = [(*one, _settle(table, *one)) for one in table.titles]
+    clear = {field.key for *_, field in settled if field}
+    for title, meaning, field in settled:
+        cell = title.cell
         if field and _is_note_of_steel(table, title, field):
             unknown.append(title)
+        elif field is None and (both := _find_both(meaning, clear)):
+            columns |= dict.fromkeys(both, Column(number=cell.column, unit=""))
+            names = tuple(one.name for one in meaning.readings)
+            rule = say("heading.says_both", names=names)
+            findings.append(cell.finding(rule, severity="note"))
         elif field is None:
-            claimed |= {one.key for one in meaning.readings}
+            open_keys = {one.key for one in meaning.readings} - clear
+            claimed |= open_keys
             refusal = explain(meaning, table.sheet)
-            if refusal:
+            if meaning.readings and not (open_keys or meaning.answer):
+                rule = say("heading.stands_elsewhere", name=meaning.readings[0].name)
+                findings.append(cell.finding(rule, severity="note"))
+            elif refusal:
                 severity: Severity = "note" if meaning.is_ignored else "error"
                 findings.append(cell.finding(*refusal, severity=severity))
             else:
@@ -301,13 +317,40 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
         else:
             unit = _find_unit(table, title, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
-            if meaning.answer:
-                file = table.sheet.answered_in
-                rule = say("heading.answered", name=field.name, file=file)
-                findings.append(cell.finding(rule, severity="note"))
-                if field.key == "slack" and says_sag(title.text):
-                    rule = say("heading.is_sag")
-                    findings.append(cell.finding(rule, severity="note"))
+            findings.extend(_note_answer(table, title, meaning, field))
+    if table.plan.name == POSTS.name and "section" in columns:
+        columns.setdefault("id", columns["section"])  # named by its section alone
+    _judge_rest(table, columns, claimed, unknown, findings)
+    return columns
+
+
+def _find_both(meaning: Meaning, clear: set[str]) -> frozenset[str]:
+    """Both guys that a heading without a side is about, where no other names one."""
+    keys = frozenset(one.key for one in meaning.readings)
+    return keys if keys == _GUYS and not (keys & clear or meaning.contrary) else _NONE
+
+
+def _note_answer(
+    table: Table, title: Title, meaning: Meaning, field: Field
+) -> Iterator[Finding]:
+    """Notes on a heading that is read as somebody answered."""
+    if not meaning.answer:
+        return
+    file = table.sheet.answered_in
+    rule = say("heading.answered", name=field.name, file=file)
+    yield title.cell.finding(rule, severity="note")
+    if field.key == "slack" and says_sag(title.text):
+        yield title.cell.finding(say("heading.is_sag"), severity="note")
+
+
+def _judge_rest(
+    table: Table,
+    columns: Mapping[str, Column],
+    claimed: set[str],
+    unknown: list[Title],
+    findings: list[Finding],
+) -> None:
+    """Judge headings that are not read, and tell those that are missing."""
     plan = table.plan
     missing = [field for field in plan.fields if field.key not in columns]
     judged = _judge_all_unknown(table, unknown, missing)
@@ -316,7 +359,6 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     _report_missing(table, {*columns, *claimed}, findings)
     if not plan.items:
         refuse_unused_answers(table, (title for title, _ in table.titles), findings)
-    return columns
 
 
 def _is_note_of_steel(table: Table, title: Title, field: Field) -> bool:
@@ -333,9 +375,19 @@ def _is_note_of_steel(table: Table, title: Title, field: Field) -> bool:
 
 
 def _settle(table: Table, title: Title, meaning: Meaning) -> Field | None:
-    """Field of a heading; of several columns of words, the one that knows its cells."""
-    if meaning.field:
-        return meaning.field
+    """Field of a heading, where need be by the cells below it.
+
+    Of several columns of words, the one that knows them; a section by its name, not its
+    area; a glide factor N, which is no number of pieces.
+    """
+    field = meaning.field
+    if field and field.key == "area" and _names_sections(table, title):
+        return next(one for one in table.plan.fields if one.key == "section")
+    if field:
+        return field
+    keys = [one.key for one in meaning.readings]
+    if keys == ["glide_factor"] and _has_glide_factors(table, title):
+        return meaning.readings[0]
     if not meaning.readings or any(one.kind != "word" for one in meaning.readings):
         return None
     cells = [row.get(title.cell.column) for row in table.sheet.rows.values()]
@@ -346,6 +398,23 @@ def _settle(table: Table, title: Title, meaning: Meaning) -> Field | None:
         if typed & {normalise(one) for one in field.spellings}
     ]
     return known[0] if len(known) == 1 else None
+
+
+def _names_sections(table: Table, title: Title) -> bool:
+    """A column without unit holds names of rolled or hollow sections."""
+    products = [find_product(one.text) for one in table.examples(title.cell.column)]
+    families = {one.family if one else "" for one in products}
+    return not title.unit and families == {"section"}
+
+
+def _has_glide_factors(table: Table, title: Title) -> bool:
+    """A column N holds numbers of which one is not whole, all as glide factors are."""
+    cells = table.examples(title.cell.column)
+    numbers = [parse_number(one.value, one.decimal_mark) for one in cells]
+    values = [one for one in numbers if not isinstance(one, Refusal)]
+    is_all = len(values) == len(cells) > 0 and not title.unit
+    in_bounds = all(1.0 <= one <= LARGEST_GLIDE_FACTOR for one in values)
+    return is_all and in_bounds and any(one % 1.0 for one in values)
 
 
 def refuse_unused_answers(

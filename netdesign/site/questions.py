@@ -19,6 +19,7 @@ from netdesign.site.cells.cells import (
     split_address,
 )
 from netdesign.site.cells.findings import Finding
+from netdesign.site.cells.numbers import split_range
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
@@ -27,6 +28,7 @@ from netdesign.site.columns.all_tables import (
     RANGES,
     ROPES,
     SHEETS,
+    USUAL_QUANTITIES,
 )
 from netdesign.site.columns.fields import KNOWN_UNITS, normalise, normalise_unit
 from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, Lexicon, has_no_part
@@ -79,6 +81,8 @@ class Question:
         A word of a cell is asked for.
     likely : str
         Planned sheet that is proposed for the sheet; empty where none is.
+    is_range : bool
+        The lowest and highest value of a quantity are asked for.
     """
 
     sheet: str
@@ -87,6 +91,7 @@ class Question:
     hints: tuple[Message | str, ...]
     is_word: bool = False
     likely: str = ""
+    is_range: bool = False
 
 
 def write_questions(
@@ -130,9 +135,12 @@ def write_questions(
         mark = _answer(mark, ask)
     names = _ask_names(found, findings, language)
     questions = [_answer(one, ask) for one in names]
+    of_ranges = [_answer(one, ask) for one in _ask_ranges(workbook, findings, language)]
     lines = [*_begin(path, workbook, mark.answer if asks_mark else "", language)]
     if answers.sheets or asked:
         lines += [*_list_answers("sheets", answers.sheets, asked, language), ""]
+    if answers.ranges or of_ranges:
+        lines += [*_list_answers("ranges", answers.ranges, of_ranges, language), ""]
     for table in found:
         name = table.sheet.name
         place, given = f"headings.{_quote(name)}", answers.headings.get(name, {})
@@ -208,6 +216,23 @@ def _ask_sheets(
         if counts[likely] >= _LEAST_KNOWN:
             hints = (say("finding.in_quotes", text=say(f"sheet.{likely}")),)
             yield Question("", sheet.name, UNANSWERED, hints, likely=likely)
+
+
+def _ask_ranges(
+    workbook: Workbook, findings: list[Finding], language: Language
+) -> Iterator[Question]:
+    """Ranges that must be given, where the workbook has no sheet for them."""
+    if any(is_meant(one.name, RANGES, workbook.answers) for one in workbook.sheets):
+        return
+    no_sheet = say(
+        "table.lacks_sheet", wanted=say("finding.in_quotes", text=RANGES.title)
+    )
+    is_nowhere = any(one.rule == no_sheet for one in findings)
+    for one in USUAL_QUANTITIES:
+        lacks = say("range.lacks", heading=one.title)
+        if one.required and (is_nowhere or any(x.rule == lacks for x in findings)):
+            name = f"{one.label_in(language)} [{one.unit}]"
+            yield Question("", name, UNANSWERED, (say("map.range"),), is_range=True)
 
 
 def _ask_names(
@@ -324,6 +349,8 @@ def is_accepted(question: Question, typed: str) -> bool:
     """An answer means something: a sheet, a unit, a heading, a word of a column."""
     if typed == IGNORE:
         return question.asked != _MARK
+    if question.is_range:
+        return split_range(typed) is not None
     if question.asked == _MARK and not question.sheet:
         return typed in MARKS and bool(typed)
     if not question.sheet:

@@ -60,6 +60,7 @@ from netdesign.site.ranges import (
     free_columns,
     refuse_large_grid,
 )
+from netdesign.site.ranges_elsewhere import gather_ranges
 from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
 from netdesign.site.snow_sheets import (
     check_layers,
@@ -142,6 +143,7 @@ def read_site(
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
     cover = find_table(workbook, PROJECT, findings)
+    workbook, cover = gather_ranges(workbook, cover)
     project, of_project, site_wide = _read_project(cover, findings)
     tables, nets, ranges = _find_tables(workbook, site_wide, findings)
     typed = _read_net_rows(nets, site_wide, findings)

@@ -38,7 +38,7 @@ from netdesign.site.cells.findings import (
     refuse_file,
 )
 from netdesign.site.cells.numbers import parse_number, read_grade
-from netdesign.site.columns.all_tables import NETS, SHEETS
+from netdesign.site.columns.all_tables import NETS, RANGES, SHEETS
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     Field,
@@ -268,7 +268,7 @@ def quote_title(field: Field) -> Message:
 
 SCHEMA = "netdesign.map/1"
 MARKS: Mapping[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
-_KEYS = ("schema", "workbook", "decimal_mark", "sheets", "headings", "words")
+_KEYS = ("schema", "workbook", "decimal_mark", "sheets", "headings", "words", "ranges")
 
 
 def name_map(site_file: Path) -> Path:
@@ -309,6 +309,7 @@ def read_answers(site_file: Path) -> Answers:
         sheets=table.get("sheets", {}),
         headings=table.get("headings", {}),
         words=table.get("words", {}),
+        ranges=table.get("ranges", {}),
         decimal_mark=MARKS[table.get("decimal_mark", "")],
     )
 
@@ -327,7 +328,7 @@ def _find_fault(table: Mapping[str, Any]) -> Message | None:
         return say("map.decimal_mark")
     sheets = table.get("sheets", {})
     by_sheet = [table.get(key, {}) for key in ("headings", "words")]
-    tables = [sheets]
+    tables = [sheets, table.get("ranges", {})]
     for one in by_sheet:
         tables += one.values() if isinstance(one, dict) else ()
     for one in (*by_sheet, *tables):
@@ -413,6 +414,7 @@ def judge_answers(workbook: Workbook) -> list[Finding]:
         *_list_wrong_sheets(answers),
         *(_refuse(answers, say("map.sheet_not_read"), one) for one in unread),
         *(one for sheet in workbook.sheets for one in _list_unused_words(sheet)),
+        *_list_ranges_twice(workbook),
     ]
 
 
@@ -422,6 +424,14 @@ def _list_wrong_sheets(answers: Answers) -> Iterator[Finding]:
         if answer not in (IGNORE, UNANSWERED) and find_plan(answer) is None:
             rule = say("map.no_sheet", answer=quote(answer), key=quote(name))
             yield _refuse(answers, rule, name)
+
+
+def _list_ranges_twice(workbook: Workbook) -> Iterator[Finding]:
+    """Ranges that are answered beside a sheet of ranges."""
+    names = [one.name for one in workbook.sheets]
+    own = [one for one in names if is_meant(one, RANGES, workbook.answers)]
+    if own and workbook.answers.ranges:
+        yield _refuse(workbook.answers, say("map.ranges_twice"), own[0])
 
 
 def _list_unused_words(sheet: Sheet) -> Iterator[Finding]:

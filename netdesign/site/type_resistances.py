@@ -172,7 +172,8 @@ def fill_in_section(row: Row) -> Row:
     is_post = "buckling_length" in row
     if not is_post or row["compression"].state == "given":
         return row
-    product = find_product(row["id"].word)
+    typed = row["section"] if row["section"].state == "given" else row["id"]
+    product = find_product(typed.word)
     if product is None or product.family != "section":
         return row
     filled = dict(row)
@@ -188,7 +189,7 @@ def fill_in_section(row: Row) -> Row:
             state="given",
             value=from_si(value, row[key].field.unit),
             derivation=how,
-            cell=row["id"].cell,
+            cell=typed.cell,
         )
     return filled
 

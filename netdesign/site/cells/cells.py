@@ -53,6 +53,8 @@ class Answers:
     words : mapping of str to mapping of str to str
         By sheet as typed, then text of a cell: one of the words of its column, or
         ``ignore``.
+    ranges : mapping of str to str
+        Lowest and highest value of a quantity, by its name with its unit.
     decimal_mark : str
         Of numbers stored as text.
     """
@@ -62,6 +64,7 @@ class Answers:
     sheets: Mapping[str, str] = field(default_factory=dict)
     headings: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     words: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    ranges: Mapping[str, str] = field(default_factory=dict)
     decimal_mark: DecimalMark = ""
 
 

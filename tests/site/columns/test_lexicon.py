@@ -362,3 +362,57 @@ def test_a_sheet_for_each_structure_holds_net_rows(name):
 )
 def test_schedules_are_known(sheet, name):
     assert [one.name for one in SHEETS if one.matches(name)] == [sheet]
+
+
+@pytest.mark.parametrize(
+    ("sheet", "key", "headings"),
+    [
+        ("Nets", "post_spacing", ["Abstand Pfosten", "distance between posts"]),
+        ("Nets", "ridge_rope", ["Tragseil oben", "top rope", "câble supérieur"]),
+        ("Nets", "downhill_anchor_distance", ["Abstand tals. Anker"]),
+        ("Nets", "post_count", ["Pfosten Anzahl", "count of posts", "nbre poteaux"]),
+        ("Anchors", "drill_diameter", ["Hole dia.", "Ø trou", "Durchmesser Bohrung"]),
+        ("Anchors", "test_least", ["essai mini", "min. test", "Versuch min."]),
+        ("Ropes", "rope_diameter", ["Durchmesser", "wire dia."]),
+        ("Ropes", "id", ["Seil", "cable"]),
+        ("Posts", "id", ["Stütze", "poteau"]),
+    ],
+)
+def test_other_words_in_another_order_say_the_same(sheet, key, headings):
+    for heading in headings:
+        assert LEXICA[sheet].match(heading).field.key == key, heading
+
+
+@pytest.mark.parametrize(
+    ("sheet", "heading"),
+    [
+        ("Nets", "Neigung"),
+        ("Nets", "Abstand"),
+        ("Nets", "Länge Stütze Nord"),
+        ("Nets", "Stützen-Nr."),
+        ("Anchors", "Festigkeit Anker"),
+        ("Anchors", "longueur"),
+        ("Posts", "Breite oben"),
+        ("Tests", "design force"),
+        ("Tests", "Bemessungskraft"),
+        ("Ropes", "working load"),
+        ("Anchors", "design resistance of the ground"),
+    ],
+)
+def test_what_says_too_little_or_more_is_not_taken(sheet, heading):
+    assert LEXICA[sheet].match(heading).field is None
+
+
+def test_no_sense_is_of_two_fields_but_where_it_is_asked():
+    for name, lexicon in LEXICA.items():
+        for sense, keys in lexicon.senses.items():
+            if len(keys) > 1 and "?" not in keys:
+                assert (name, sorted(keys)) in TWO_OF_A_SENSE, sorted(sense)
+
+
+TWO_OF_A_SENSE = [
+    ("Project", ["item", "value"]),
+    ("Nets", ["ground", "ground_law"]),
+    ("Anchors", ["bond_length", "drilled_length"]),
+    ("Anchors", ["id", "kind"]),
+]

@@ -1,0 +1,85 @@
+"""Ranges without a sheet of their own: on the cover sheet, or answered."""
+
+import random
+
+import openpyxl
+import pytest
+
+from netdesign.outcome import SiteDataError
+from netdesign.site.questions import write_questions
+from netdesign.site.reader import read_site
+from netdesign.site.titles import name_map
+from netdesign.words.catalogue import LANGUAGES
+from tests.site_lines import write_lines
+from tests.study.knowing_less.drawn_site import draw_lines
+
+TO = {"en": "to", "de": "bis", "fr": "à"}
+
+
+def write(path, cover=()):
+    lines = draw_lines(3)
+    lines["Project"] = [
+        *lines["Project"],
+        *({"item": item, "value": value} for item, value in cover),
+    ]
+    write_lines(path, lines)
+    book = openpyxl.load_workbook(path)
+    del book["Ranges"]
+    book.save(path)
+    return path
+
+
+def ends(site):
+    return {
+        name: (one.low, one.high)
+        for name, one in site.ranges.intervals
+        if name in ("density", "friction_angle")
+    }
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_they_are_asked_for_and_answered(tmp_path, language):
+    draw = random.Random(language)
+    path = write(tmp_path / "site.xlsx")
+    text, count = write_questions(path, language=language)
+    low, high = draw.randint(210, 290), draw.randint(350, 480)
+    answers = [f"{low} {TO[language]} {high}", f"12.5 {TO[language]} 37.5"]
+    head, *pieces = text.split('"?"')
+    assert count == 2
+    assert "[ranges]" in head
+    for answer, piece in zip(answers, pieces, strict=True):
+        head += f'"{answer}"{piece}'
+    name_map(path).write_text(head, encoding="utf-8")
+    site = read_site(path)
+    assert ends(site)["density"] == (low, high)
+    assert ends(site)["friction_angle"] == pytest.approx((0.2181662, 0.6544985))
+    places = [one.cell for one in site.range_inputs if "range" in one.cell.lower()]
+    assert places  # where an answer stands is told
+
+
+def test_one_is_on_the_cover_and_the_other_is_asked_for(tmp_path):
+    cover = [("Densité de la neige", "290 à 410 kg/m3")]
+    path = write(tmp_path / "site.xlsx", cover)
+    text, count = write_questions(path)
+    assert count == 1
+    name_map(path).write_text(text.replace('"?"', '"18 to 34"'), encoding="utf-8")
+    site = read_site(path)
+    assert ends(site)["density"] == (290.0, 410.0)
+    assert any("Project" in one.cell for one in site.range_inputs)
+
+
+def test_an_open_question_is_no_range(tmp_path):
+    path = write(tmp_path / "site.xlsx")
+    text, _ = write_questions(path)
+    name_map(path).write_text(text, encoding="utf-8")
+    with pytest.raises(SiteDataError):
+        read_site(path)
+
+
+def test_they_are_refused_beside_a_sheet_of_ranges(tmp_path):
+    path = tmp_path / "site.xlsx"
+    write_lines(path, draw_lines(3))
+    answers = 'schema = "netdesign.map/1"\n[ranges]\n"density [kg/m3]" = "200 to 300"\n'
+    name_map(path).write_text(answers, encoding="utf-8")
+    with pytest.raises(SiteDataError, match="has a sheet of ranges"):
+        read_site(path)
