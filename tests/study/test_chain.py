@@ -320,7 +320,7 @@ def test_anchors_that_cross_in_the_ground_are_not_proven(solved):
     crossing = replace(row.guys, are_shared=False)
     check = judge(solved, guys=crossing)[1]["geometry.anchors"]
     assert check.verdict is Verdict.NOT_PROVEN
-    assert "come as near as 0 m" in str(check.reason)
+    assert "come as near as 0.00 m" in str(check.reason)
 
 
 def test_a_row_above_too_near_leaves_the_anchors_not_proven(solved):
@@ -332,7 +332,7 @@ def test_a_row_above_too_near_leaves_the_anchors_not_proven(solved):
 @pytest.mark.parametrize(
     ("place", "said"),
     [
-        ({"lateral_distance": 1.3}, "as near as 1.3 m"),
+        ({"lateral_distance": 1.3}, "as near as 1.30 m"),
         ({"lateral_distance": None}, "distance of the lateral anchor"),
         ({"lateral_axis": None}, "axis of the lateral anchor"),
     ],
