@@ -97,6 +97,8 @@ def understand(title: Title, lexicon: Lexicon, answers: Mapping[str, str]) -> Me
     answer = find_answer(title, answers)
     if not answer:
         return lexicon.match(title.text, title.group)
+    if answer == UNANSWERED and (known := lexicon.match(title.text, title.group)).field:
+        return known  # asked before it was understood
     if answer in (IGNORE, UNANSWERED):
         return Meaning(answer=answer)
     field = lexicon.fields.get(answer.partition("[")[0].strip())

@@ -94,10 +94,6 @@ def test_a_line_of_a_sheet_of_items_is_answered(sheets, give):
             "has no heading of which site.map.toml says what it is",
         ),
         (
-            '[headings.Nets]\n"slope angle [deg]" = "?"\n',
-            "has a question mark still",
-        ),
-        (
             '[headings.Nets]\n"slope angle [deg]" = "height"\n',
             'is answered with "height", which is no heading of this sheet',
         ),
@@ -167,3 +163,19 @@ def test_two_columns_of_one_heading_are_asked_by_their_letters(sheets, give, ref
         "O1": "is not read: so site.map.toml says",
         "P1": 'is read as "uphill anchor": so site.map.toml says',
     }
+
+
+def test_an_open_question_is_one_until_its_heading_is_understood(sheets, save, refused):
+    headings = sheets["Nets"][HEADINGS]
+    known, headings[1] = headings[1], "Neigung [°]"
+    path = save(sheets)
+    answers = 'schema = "netdesign.map/1"\n[headings.Nets]\n"Neigung [°]" = "?"\n'
+    name_map(path).write_text(answers, encoding="utf-8")
+    rules = [str(one.rule) for one in refused(path)]
+    assert any(one.startswith("has a question mark still") for one in rules)
+    headings[1] = known
+    path = save(sheets)
+    answers = answers.replace("Neigung [°]", known)
+    name_map(path).write_text(answers, encoding="utf-8")
+    assert len(read_site(path).rows) == 2
+    assert write_questions(path)[1] == 0
