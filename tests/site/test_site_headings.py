@@ -91,7 +91,7 @@ def test_a_heading_whose_sides_mean_two_columns_is_refused(sheets, save, refused
     assert str(finding.rule) == 'is ambiguous: "low" or "high"'
 
 
-@pytest.mark.parametrize("heading", ["slak [-]", "slack value"])
+@pytest.mark.parametrize("heading", ["slak [-]", "slack agreed"])
 def test_an_optional_heading_nearly_right_is_refused_not_defaulted(
     sheets, save, refused, heading
 ):
@@ -106,7 +106,7 @@ def test_an_optional_heading_nearly_right_is_refused_not_defaulted(
     else:  # quite another name: read as what it is, a column of somebody else's
         site = read_site(save(sheets))
         assert site.rows[0].slack == 0.02
-        assert any("slack value" in note for note in map(str, site.notes))
+        assert any("slack agreed" in note for note in map(str, site.notes))
 
 
 def test_notes_below_a_table_are_listed_and_not_read(sheets, save):

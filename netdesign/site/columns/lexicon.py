@@ -200,9 +200,9 @@ def find_sense(text: str) -> frozenset[str] | None:
     """
     words = [one for one in _list_words(text) if one not in _small_words()]
     senses = [_split_word(fold(one)) for one in words]
-    if not senses or any(one is None for one in senses):
+    if any(one is None for one in senses):
         return None
-    return frozenset(sense for one in senses if one for sense in one)
+    return frozenset(sense for one in senses if one for sense in one if sense) or None
 
 
 @lru_cache(maxsize=8192)
@@ -224,8 +224,9 @@ def _split_word(word: str) -> frozenset[str] | None:
 
 @lru_cache(maxsize=1)
 def _load_senses() -> Mapping[str, str]:
-    """Senses by folded word."""
-    words = load_file("thesaurus")["words"]
+    """Senses by folded word; an empty one of a word that says nothing."""
+    table = load_file("thesaurus")
+    words = {"": table["empty"]["words"], **table["words"]}
     return {fold(word): sense for sense, known in words.items() for word in known}
 
 
