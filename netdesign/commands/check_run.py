@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -81,16 +82,18 @@ def carry_out(task: Check, site_name: str) -> int:
             *(task.site, task.profiles, task.run, task.read_instead),
             *(runner, progress),
         )
-        progress.enter("reports")
         begun = begin_outputs(task.outputs, studies, runner)
+        if not asked["as_json"]:  # known before the reports are
+            progress.clear()
+            _print_summaries(studies, asked["explain"])
+        progress.enter("reports")
         files = render_outputs(task.outputs, studies, sized, begun)
-    lines = print_sizes(sized, studies)
     failed = print_faults(runner.faults)
     write_files(files, overwrite=asked["force"], is_recorded=True)
     if asked["as_json"]:
         print_json(_write_documents(studies))
         return failed or find_exit_code(studies)
-    _print_summaries(studies, lines, explain=asked["explain"])
+    _print_sizes(sized, studies)
     report_places(files, asked)
     if not asked["quiet"]:
         verdicts = frozenset(row.verdict for study in studies for row in study.rows)
@@ -107,16 +110,21 @@ def _write_documents(studies: Sequence[Study]) -> str:
     return f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}'
 
 
-def _print_summaries(
-    studies: Sequence[Study], sized: Sequence[str], *, explain: bool
-) -> None:
-    """Print what each study says, and lines of what ``--size`` found."""
-    from netdesign.report.terminal import open_console, print_lines, print_summary
+def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
+    """Print what each study says."""
+    from netdesign.report.terminal import open_console, print_summary
 
     console = open_console()
     for study in studies:
         print_summary(study, console, speak(), explain=explain)
-    print_lines(tuple(sized), console)
+    sys.stdout.flush()
+
+
+def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
+    """Print what ``--size`` found."""
+    from netdesign.report.terminal import open_console, print_lines
+
+    print_lines(tuple(list_sizes(sized, studies)), open_console())
 
 
 # Made by other processes, which first read the study: so this one makes the workbook,
@@ -321,7 +329,7 @@ def render_sized(
     )
 
 
-def print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> list[str]:
+def list_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> list[str]:
     """Lines of what was found for each profile, and what those what-if studies say."""
     from netdesign.report.what_if import describe_overall, list_sized
     from netdesign.report.words import Words

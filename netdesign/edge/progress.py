@@ -159,8 +159,13 @@ class RunProgress:
         phases: Sequence[Phase],
         show: Callable[[Standing], None],
         clock: Callable[[], float] = time.monotonic,
+        clear: Callable[[], None] = lambda: None,
     ) -> None:
-        """Take the phases in their order, what shows a standing, and a clock [s]."""
+        """Take the phases in their order, what shows a standing, and a clock [s].
+
+        ``clear`` takes what is shown off the screen for good.
+        """
+        self.clear = clear
         self._phases, self._show, self._clock = tuple(phases), show, clock
         self._place, self._done, self._waiting = 0, 0, 0
         self._pace: float | None = None  # seconds of a case whose cost is 1
@@ -319,7 +324,7 @@ def show_phases(
                 description=render(standing.bar, language),
             )
 
-        yield RunProgress(phases, show)
+        yield RunProgress(phases, show, clear=progress.stop)
 
 
 def _write_lines(
