@@ -20,6 +20,7 @@ from netdesign.site.columns.fields import (
     normalise,
 )
 from netdesign.site.columns.lexicon import (
+    UNKNOWN,
     Lexicon,
     Meaning,
     has_no_part,
@@ -155,8 +156,7 @@ def find_headings(
         findings.append(sheet.finding(say("heading.no_row"), accepted))
         return None
     titles = [
-        (title, understand(title, lexicon, sheet.answers))
-        for title in list_titles(sheet, row)
+        (title, _understand(title, lexicon, sheet)) for title in list_titles(sheet, row)
     ]
     units_row = _find_units_row(sheet, titles, row, findings)
     merged_to = [
@@ -184,6 +184,14 @@ def find_headings(
         ),
     )
     return replace(table, columns=_find_columns(table, findings))
+
+
+def _understand(title: Title, lexicon: Lexicon, sheet: Sheet) -> Meaning:
+    """Meaning of a heading, by its unit where its words say too little."""
+    meaning = understand(title, lexicon, sheet.answers)
+    if meaning == UNKNOWN and title.unit and not title.group:
+        return lexicon.match_by_unit(title.text, title.unit)
+    return meaning
 
 
 def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
@@ -381,8 +389,11 @@ def _settle(table: Table, title: Title, meaning: Meaning) -> Field | None:
     area; a glide factor N, which is no number of pieces.
     """
     field = meaning.field
+    by_key = {one.key: one for one in table.plan.fields}
     if field and field.key == "area" and _names_sections(table, title):
-        return next(one for one in table.plan.fields if one.key == "section")
+        return by_key["section"]
+    if field and field.key == "ground_law" and _has_glide_factors(table, title):
+        return by_key.get("glide_factor", field)
     if field:
         return field
     keys = [one.key for one in meaning.readings]

@@ -366,6 +366,19 @@ class Lexicon:
             return Meaning(readings=(found.field,), contrary=group)
         return found
 
+    def match_by_unit(self, text: str, unit: str) -> Meaning:
+        """Meaning of a heading that leaves one word to its unit: "Bar (mm)"."""
+        sense = read_part(_remove_units(text)).sense
+        own = sense - self.noun if sense else None
+        keys = {
+            key
+            for full, meant in self.senses.items()
+            if own and own < full and len(full) == len(own) + 1
+            for key in meant - _UNCLEAR
+            if self.fields[key].units and self.fields[key].unit == unit
+        }
+        return Meaning(self.fields[keys.pop()]) if len(keys) == 1 else UNKNOWN
+
     def _may_stand_under(self, group: str, text: str) -> bool:
         """A group is about the subject of a heading; "de" stands not under "high"."""
         field, above = self._match_alone(text).field, self._match_alone(group).field

@@ -416,3 +416,24 @@ TWO_OF_A_SENSE = [
     ("Anchors", ["bond_length", "drilled_length"]),
     ("Anchors", ["id", "kind"]),
 ]
+
+
+@pytest.mark.parametrize(
+    ("sheet", "heading", "unit", "key"),
+    [
+        ("Anchors", "Bar (mm)", "mm", "bar_diameter"),
+        ("Anchors", "Drill (mm)", "mm", "drill_diameter"),
+        ("Anchors", "Bond (m)", "m", "bond_length"),
+        ("Anchors", "Scellement (m)", "m", "bond_length"),
+        ("Anchors", "Test (kN)", "kN", None),
+        ("Anchors", "Länge (m)", "m", None),
+        ("Anchors", "Bar (m)", "m", None),
+        ("Nets", "Snow (m)", "m", None),
+        ("Nets", "Post (m)", "m", None),
+    ],
+)
+def test_a_word_and_a_unit_say_enough_where_one_column_alone_has_both(
+    sheet, heading, unit, key
+):
+    found = LEXICA[sheet].match_by_unit(heading, unit).field
+    assert (found and found.key) == key
