@@ -24,6 +24,7 @@ from netdesign.site.columns.lexicon import (
     Lexicon,
     Meaning,
     has_no_part,
+    list_symbols,
     says_sag,
 )
 from netdesign.site.readings import refuse_stored
@@ -498,6 +499,8 @@ def _find_unit(
             findings.append(below.finding(rule, say("accepted.one_unit")))
             return None
         unit, cell = unit_below, below
+    # a symbol such as N below "glide factor" is no unit
+    unit = "" if unit in list_symbols(field.key) else unit
     if meaning.unit and unit in ("", *UNCLEAR_UNITS):
         unit = meaning.unit
     elif meaning.unit and meaning.unit != unit:

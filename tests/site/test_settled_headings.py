@@ -119,3 +119,15 @@ def test_a_section_with_a_unit_is_an_area(change):
         find(sheet, "section area [cm2]").value = "Section [cm2]"
 
     assert len(change("Posts", rename).rows) == 7
+
+
+def test_a_symbol_below_its_heading_is_no_unit(change):
+    def put(sheet):
+        sheet.insert_rows(2)
+        find(sheet, "glide factor [-]").value = "glide factor"
+        find(sheet, "net height [m]").value = "net height"
+        sheet.cell(2, find(sheet, "glide factor").column).value = "N"
+        sheet.cell(2, find(sheet, "net height").column).value = "m"
+
+    site = change("Nets", put)
+    assert echoes(site, "glide_factor")[2:5] == [1.2, 1.8, 2.4]

@@ -124,6 +124,15 @@ def has_no_part(text: str) -> bool:
     return normalise(text) in set(map(normalise, words))
 
 
+def list_symbols(key: str) -> tuple[str, ...]:
+    """Symbols of the trade for a quantity; none where it has none.
+
+    >>> list_symbols("glide_factor")
+    ('N',)
+    """
+    return tuple(load_file("signs")["symbols"].get(key, ()))
+
+
 def says_sag(text: str) -> bool:
     """A heading speaks of sag, which is several times the slack.
 
