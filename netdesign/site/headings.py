@@ -25,6 +25,7 @@ from netdesign.site.columns.lexicon import (
     Meaning,
     has_no_part,
     list_symbols,
+    says_length,
     says_sag,
 )
 from netdesign.site.readings import refuse_stored
@@ -48,6 +49,7 @@ from netdesign.words.message import say
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 _EXAMPLES = 3  # cells that show how a column is written
+_BY_CELLS = ("glide_factor", "section")
 _GUYS = frozenset(("uphill_guy", "downhill_guy"))
 _NONE: frozenset[str] = frozenset()
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
@@ -326,7 +328,7 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
         else:
             unit = _find_unit(table, title, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
-            findings.extend(_note_answer(table, title, meaning, field))
+            findings.extend(_note_reading(table, title, meaning, field))
     if table.plan.name == POSTS.name and "section" in columns:
         columns.setdefault("id", columns["section"])  # named by its section alone
     _judge_rest(table, columns, claimed, unknown, findings)
@@ -336,13 +338,20 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
 def _find_both(meaning: Meaning, clear: set[str]) -> frozenset[str]:
     """Both guys that a heading without a side is about, where no other names one."""
     keys = frozenset(one.key for one in meaning.readings)
-    return keys if keys == _GUYS and not (keys & clear or meaning.contrary) else _NONE
+    has_sides = clear.issuperset(("uphill_anchor", "downhill_anchor"))
+    is_open = has_sides and not (keys & clear or meaning.contrary)
+    return keys if keys == _GUYS and is_open else _NONE
 
 
-def _note_answer(
+def _note_reading(
     table: Table, title: Title, meaning: Meaning, field: Field
 ) -> Iterator[Finding]:
-    """Notes on a heading that is read as somebody answered."""
+    """Notes on a heading that does not say itself what it is read as."""
+    if field.key in _BY_CELLS and field is not meaning.field:
+        rule = say("heading.by_cells", name=field.name)
+        yield title.cell.finding(rule, severity="note")
+    if field.key == "buckling_length" and says_length(title.text):
+        yield title.cell.finding(say("heading.is_length"), severity="note")
     if not meaning.answer:
         return
     file = table.sheet.answered_in

@@ -72,6 +72,24 @@ def test_a_column_n_is_the_glide_factor_where_its_numbers_say_so(change):
 
     site = change("Nets", rename)
     assert echoes(site, "glide_factor")[2:5] == [1.2, 1.8, 2.4]
+    assert "by what its cells hold" in told(site)
+
+
+def test_one_guy_is_asked_for_where_one_side_has_no_anchor(change):
+    def merge(sheet):
+        find(sheet, "downhill guy").value = "Remarks"
+        find(sheet, "downhill anchor").value = "Supplier"
+        find(sheet, "uphill guy").value = "Guy"
+
+    with pytest.raises(SiteDataError, match='"Guy" is ambiguous'):
+        change("Nets", merge)
+
+
+def test_a_length_is_told_to_be_read_as_the_buckling_length(change):
+    def rename(sheet):
+        find(sheet, "buckling length [m]").value = "Length [m]"
+
+    assert "hinge at both ends" in told(change("Posts", rename))
 
 
 @pytest.mark.parametrize("numbers", [(None, None, 2, 2, 3), (None, None, 1.2, 8, 2.4)])

@@ -133,6 +133,16 @@ def list_symbols(key: str) -> tuple[str, ...]:
     return tuple(load_file("signs")["symbols"].get(key, ()))
 
 
+def says_length(text: str) -> bool:
+    """A heading of a post speaks of its length, not of its buckling length.
+
+    >>> says_length("Stützenlänge [m]"), says_length("Knicklänge [m]")
+    (True, False)
+    """
+    sense = read_part(_remove_units(text)).sense or frozenset()
+    return sense - {"post"} == {"length"}
+
+
 def says_sag(text: str) -> bool:
     """A heading speaks of sag, which is several times the slack.
 
@@ -379,6 +389,8 @@ class Lexicon:
         """Meaning of a heading that leaves one word to its unit: "Bar (mm)"."""
         sense = read_part(_remove_units(text)).sense
         own = sense - self.noun if sense else None
+        if own and own <= frozenset(load_file("thesaurus")["alone"]["words"]):
+            return UNKNOWN
         keys = {
             key
             for full, meant in self.senses.items()
