@@ -7,25 +7,22 @@ of which nothing counts but names, numbers and the operations of a quantity.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import cast
 
 from netdesign.calculation.quantity import OPERATIONS, Quantity, apply, constant
 from netdesign.outcome import ContentError
 from netdesign.words.message import say
 
 _RANK = {"+": 1, "-": 1, "*": 2, "/": 2}
-_SIGNS: dict[type[ast.operator], str] = {
-    ast.Add: "+",
-    ast.Sub: "-",
-    ast.Mult: "*",
-    ast.Div: "/",
-}
+_OPERATORS = {"+": ast.Add(), "-": ast.Sub(), "*": ast.Mult(), "/": ast.Div()}
+_SIGNS = {type(operator): sign for sign, operator in _OPERATORS.items()}
 _MOST_SIGNS = 500  # of a formula that is read
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Notation:
     """Signs and names of one way to write a formula."""
 
@@ -54,67 +51,105 @@ SPREADSHEET = Notation(
 )
 
 
-def write_formula(
-    quantity: Quantity,
-    leaf: Callable[[Quantity, int], str],
-    notation: Notation = PLAIN,
+# Text of a formula, or a symbol in it with the end that is wanted of its quantity.
+_Part = str | tuple[str, int]
+
+
+def write_formula(quantity: Quantity) -> str:
+    """Right side of the equation that makes a quantity, of symbols; "" of a leaf."""
+    if not quantity.operation:
+        return ""
+    parts = _list_parts(_build_tree(quantity, is_whole=True), PLAIN, 0, 0)
+    return "".join(part if isinstance(part, str) else part[0] for part in parts)
+
+
+def translate(
+    formula: str,
+    notation: Notation,
+    leaf: Callable[[str, int], str] = lambda symbol, _: symbol,
     end: int = 0,
 ) -> str:
-    """Right side of the equation that makes a quantity; "" of a leaf.
+    """Formula in another notation.
 
     Parameters
     ----------
-    quantity : Quantity
-        Under a symbol or not.
-    leaf : callable
-        Text of a quantity under a symbol, and of the end that is wanted of it.
+    formula : str
+        As `write_formula` writes it.
     notation : Notation
         How signs and functions are written.
+    leaf : callable
+        Text of a symbol, and of the end that is wanted of its quantity.
     end : int
-        Of the quantity: -1 for its low end, 0 for its value, 1 for its high end.
+        Of the result: -1 for its low end, 0 for its value, 1 for its high end.
+
+    Raises
+    ------
+    SyntaxError
+        If it is no formula.
     """
-    if not quantity.operation:
-        return ""
-    return _write_operation(quantity, leaf, notation, end, 0)
+    return "".join(
+        part if isinstance(part, str) else leaf(*part)
+        for part in _split(formula, notation, end)
+    )
 
 
-def _write(
-    quantity: Quantity,
-    leaf: Callable[[Quantity, int], str],
-    notation: Notation,
-    end: int,
-    rank: int,
-) -> str:
-    if quantity.symbol:
-        return leaf(quantity, end)
-    if not quantity.operation:
-        return notation.number(quantity.value or 0.0)
-    return _write_operation(quantity, leaf, notation, end, rank)
+@lru_cache(maxsize=4096)
+def _split(formula: str, notation: Notation, end: int) -> tuple[_Part, ...]:
+    """Parts of a formula: a study has a few hundred, each many times."""
+    return tuple(_list_parts(_parse(formula), notation, end, 0))
 
 
-def _write_operation(
-    quantity: Quantity,
-    leaf: Callable[[Quantity, int], str],
-    notation: Notation,
-    end: int,
-    rank: int,
-) -> str:
-    name = quantity.operation
+def _list_parts(
+    tree: ast.expr, notation: Notation, end: int, rank: int
+) -> Iterator[_Part]:
+    """Parts of an operand that stands within an operation of some rank."""
+    if isinstance(tree, ast.Name):
+        yield tree.id, end
+        return
+    if isinstance(tree, ast.Constant):
+        yield notation.number(cast("float", tree.value))
+        return
+    name, of = _read_operation(tree)
     way = OPERATIONS[name].way
-    if name == "=" or notation.templates.get(name) == "{}":  # nothing is to be seen
-        return _write(quantity.of[0], leaf, notation, end * way(0), rank)
+    if notation.templates.get(name) == "{}":  # nothing is to be seen
+        yield from _list_parts(of[0], notation, end * way(0), rank)
+        return
     own = _RANK.get(name, 0)
-    parts = [
-        _write(one, leaf, notation, end * way(place), own + (place and name in "-/"))
-        for place, one in enumerate(quantity.of)
-    ]
-    if own:
-        text = notation.signs[name].join(parts)
-        return f"({text})" if own < rank else text
-    listed = notation.comma.join(parts)
-    if name in notation.templates:
-        return notation.templates[name].format(listed)
-    return f"{notation.functions.get(name, name)}({listed})"
+    before, between, after = _find_signs(name, notation, is_set_apart=0 < own < rank)
+    yield before
+    for place, one in enumerate(of):
+        if place:
+            yield between
+        inner = own + (place and name in "-/")
+        yield from _list_parts(one, notation, end * way(place), inner)
+    yield after
+
+
+def _find_signs(
+    name: str, notation: Notation, *, is_set_apart: bool
+) -> tuple[str, str, str]:
+    """What stands before, between and after the operands of an operation."""
+    if name in _RANK:
+        opened, closed = ("(", ")") if is_set_apart else ("", "")
+        return opened, notation.signs[name], closed
+    function = notation.functions.get(name, name)
+    before, after = notation.templates.get(name, f"{function}({{}})").split("{}")
+    return before, notation.comma, after
+
+
+def _build_tree(quantity: Quantity, *, is_whole: bool = False) -> ast.expr:
+    """Tree of what makes a quantity; of a part under a symbol the symbol alone."""
+    if quantity.symbol and not is_whole:
+        return ast.Name(id=quantity.symbol)
+    if not quantity.operation:
+        return ast.Constant(value=quantity.value or 0.0)
+    of = [_build_tree(one) for one in quantity.of]
+    if quantity.operation == "=":
+        return of[0]
+    if quantity.operation in _RANK:
+        operator = _OPERATORS[quantity.operation]
+        return ast.BinOp(left=of[0], op=operator, right=of[1])
+    return ast.Call(func=ast.Name(id=quantity.operation), args=of, keywords=[])
 
 
 def read_formula(text: str, known: Mapping[str, Quantity]) -> Quantity:
@@ -135,7 +170,7 @@ def read_formula(text: str, known: Mapping[str, Quantity]) -> Quantity:
 
 @lru_cache(maxsize=1024)
 def _parse(text: str) -> ast.expr:
-    """Tree of a formula: a study has a few hundred, each many times."""
+    """Tree of a formula."""
     return ast.parse(text, mode="eval").body
 
 
@@ -147,10 +182,17 @@ def _build(tree: ast.expr, known: Mapping[str, Quantity]) -> Quantity:
             return constant(float(number))
         case ast.Name(id=symbol) if symbol in known:
             return known[symbol]
+    name, of = _read_operation(tree)
+    return apply(name, *(_build(one, known) for one in of))
+
+
+def _read_operation(tree: ast.expr) -> tuple[str, Sequence[ast.expr]]:
+    """Key of ``OPERATIONS`` and its operands."""
+    match tree:
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _SIGNS:
-            return apply(_SIGNS[type(op)], _build(left, known), _build(right, known))
+            return _SIGNS[type(op)], (left, right)
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if (
             name in OPERATIONS and args and OPERATIONS[name].arity in (0, len(args))
         ):
-            return apply(name, *(_build(one, known) for one in args))
+            return name, args
     raise SyntaxError

@@ -83,7 +83,7 @@ def _record(one: Quantity) -> Step:
         high=None if one.high == one.value else one.high,
         kind=one.kind,
         source=one.source,
-        formula=write_formula(one, lambda leaf, _: leaf.symbol),
+        formula=write_formula(one),
     )
 
 

@@ -14,6 +14,7 @@ from netdesign.calculation.formula import (
     PRINTED,
     SPREADSHEET,
     read_formula,
+    translate,
     write_formula,
 )
 from netdesign.calculation.quantity import at_value, cos, given, largest
@@ -33,7 +34,7 @@ def test_a_formula_that_is_read_again_gives_the_same(seed):
     named = list_named(draw_calculation(Random(seed)))
     known = {one.symbol: one for one in named}
     for one in named:
-        text = write_formula(one, lambda leaf, _: leaf.symbol)
+        text = write_formula(one)
         assert bool(text) is bool(one.operation)
         if text:
             again = read_formula(text, known)
@@ -94,7 +95,7 @@ def test_a_formula_as_it_is_printed():
     a, b = KNOWN["a"], KNOWN["b"]
     angle = given("β", 30.0, "deg", "")
     made = largest(a * (b + 0.5) / 2 - a, at_value(a + a) * b, a * cos(angle))
-    text = write_formula(made, lambda leaf, _: leaf.symbol, PRINTED)
+    text = translate(write_formula(made), PRINTED)
     assert text == "max(a · (b + 0.5) / 2 − a; (a + a) · b; a · cos(β))"
 
 
@@ -133,8 +134,11 @@ def write_cells(one, ends, rows):
         return ends
     return [
         "="
-        + write_formula(
-            one, lambda x, to: f"{'CDB'[to]}{rows[x.symbol]}", SPREADSHEET, end
+        + translate(
+            write_formula(one),
+            SPREADSHEET,
+            lambda symbol, to: f"{'CDB'[to]}{rows[symbol]}",
+            end,
         )
         for end in (-1, 0, 1)
     ]

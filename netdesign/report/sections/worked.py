@@ -7,12 +7,10 @@ result. All others stand in the tables of their rows, and live in the workbook.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 
-from netdesign.calculation.formula import PRINTED, write_formula
-from netdesign.calculation.quantity import Quantity
-from netdesign.calculation.steps import Step, evaluate
+from netdesign.calculation.formula import PRINTED, translate
+from netdesign.calculation.steps import Step
 from netdesign.report.blocks import (
     Cell,
     Items,
@@ -62,14 +60,17 @@ def work_out(check: CheckRecord, words: Words) -> Table:
 
 def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
     """Every quantity that is worked out, from the solved force to the utilisation."""
-    for one in evaluate(check.steps).values():
+    known = {one.symbol: _show(one, words) for one in check.steps}
+    for one in check.steps:
         told = _describe_given(one, check, words)
         if told:
             yield rich_cell(symbols(one.symbol)), text_cell(told[0]), text_cell(told[1])
-        elif one.operation:
-            formula = _write(one, lambda leaf: leaf.symbol, words)
-            numbers = _write(one, lambda leaf: _show(leaf, words), words)
-            shown = _show(one, words)
+        elif one.formula:
+            formula = _print(one, words)
+            numbers = words.write_formula(
+                translate(one.formula, PRINTED, lambda symbol, _: known[symbol])
+            )
+            shown = known[one.symbol]
             if one.symbol == "μ":
                 shown = _add_band(words, *check.used_band, one.value, "utilisation")
             yield (
@@ -80,26 +81,25 @@ def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
 
 
 def _describe_given(
-    one: Quantity, check: CheckRecord, words: Words
+    one: Step, check: CheckRecord, words: Words
 ) -> tuple[str, str] | None:
     """Text in the place of numbers and result of a quantity without a formula."""
     if check.is_unbounded and one.symbol in ("R_d", "μ"):  # nothing is left to resist
         if one.symbol == "R_d":
             return words.show(check.reason), MISSING
         return words("show.nothing_resists"), UNBOUNDED
-    if one.operation or one.symbol != "R_k" or not check.resistance_derivation:
+    if one.formula or one.symbol != "R_k" or not check.resistance_derivation:
         return None
     return f"= {words.show(check.resistance_derivation)}", f"= {_show(one, words)}"
 
 
-def _show(quantity: Quantity, words: Words) -> str:
-    return append_unit(_show_digits(quantity.value, words), quantity.unit)
+def _show(step: Step, words: Words) -> str:
+    return append_unit(_show_digits(step.value, words), step.unit)
 
 
-def _write(quantity: Quantity, show: Callable[[Quantity], str], words: Words) -> str:
-    """Formula of a quantity with what is shown of each one that it is made of."""
-    notation = replace(PRINTED, number=words.show_given)
-    return write_formula(quantity, lambda one, _: show(one), notation)
+def _print(step: Step, words: Words) -> str:
+    """Formula of a step in symbols."""
+    return words.write_formula(translate(step.formula, PRINTED))
 
 
 def _add_band(
@@ -120,7 +120,7 @@ def show_all(study: Study, words: Words) -> Part:
     groups = _group(_choose(study, is_of_force=True))
     shared = _find_shared(groups)
     table = Table(
-        caption=words.join(_describe_step(one, {}, words) for one in shared),
+        caption=words.join(_describe_step(one, words) for one in shared),
         columns=name_columns([words("heading.calculation")], numbers=()),
         rows=tuple(_list_groups(groups, shared, words)),
         empty=words("heading.no_utilisation"),
@@ -211,8 +211,7 @@ def _list_groups(
         checks = [check for _, check in group]
         whole = list(_take_action(checks[0]))
         action = [one for one in whole if one.symbol not in above]
-        first = evaluate(checks[0].steps)
-        steps = [_describe_step(one, first, words) for one in _set_leaves_first(action)]
+        steps = [_describe_step(one, words) for one in _set_leaves_first(action)]
         name = f"{show_text(group[0][0])}, {_name_group(checks, words)}"
         parts = [
             Piece(words("show.label", label=name, text=""), "name"),
@@ -238,12 +237,12 @@ def _set_leaves_first(steps: Sequence[Step]) -> list[Step]:
     return sorted(steps, key=lambda one: bool(one.formula))
 
 
-def _describe_step(step: Step, known: dict[str, Quantity], words: Words) -> str:
+def _describe_step(step: Step, words: Words) -> str:
     """Symbol, formula, value; what the heading says of all checks is left out."""
     if not step.formula or step.symbol in _BY_HEADING:
         return f"{step.symbol} = {_show_step(step, words)}"
-    formula = _write(known[step.symbol], lambda leaf: leaf.symbol, words)
-    return f"{step.symbol} = {formula} = {_show_digits(step.value, words)}"
+    shown = _show_digits(step.value, words)
+    return f"{step.symbol} = {_print(step, words)} = {shown}"
 
 
 def _show_step(step: Step, words: Words) -> str:
@@ -268,15 +267,15 @@ def _describe_check(
     is_told: bool,
 ) -> tuple[Piece, Piece]:
     """Line of one check: where its resistance comes from, and what follows."""
-    told, known = [], evaluate(check.steps)
+    told = []
     for step in steps:
-        given = _describe_given(known[step.symbol], check, words)
+        given = _describe_given(step, check, words)
         if given and is_told and step.symbol == "R_k":
             told.append(f"R_k = {_show_step(step, words)}")
         elif given:
             told.append(f"{step.symbol} {' '.join(given)}")
         else:
-            told.append(_describe_step(step, known, words))
+            told.append(_describe_step(step, words))
     source = describe_resistance(check, words)
     mode = words.show(name_mode(check.mode))
     label = mode if source == MISSING else f"{mode} ({source})"

@@ -17,9 +17,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from netdesign.calculation.formula import PRINTED, SPREADSHEET, write_formula
-from netdesign.calculation.quantity import Kind, Quantity
-from netdesign.calculation.steps import SAME, Step, evaluate
+from netdesign.calculation.formula import PRINTED, SPREADSHEET, translate
+from netdesign.calculation.quantity import Kind
+from netdesign.calculation.steps import SAME, Step
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.report.blocks import Cell, Column, Table
 from netdesign.report.words import MISSING, Words, show_check, show_text, show_unit
@@ -219,7 +219,7 @@ class Line:
     ----------
     number : int
         From one.
-    step, quantity : Step, Quantity
+    step : Step
         What it shows.
     link : str
         Cell that its value is read from, on another sheet; "" where there is none.
@@ -229,7 +229,6 @@ class Line:
 
     number: int
     step: Step
-    quantity: Quantity
     link: str
     first: int
 
@@ -276,14 +275,13 @@ class Calculations:
 
     def _place_steps(self, row: int, first: int, check: CheckRecord) -> dict[str, Line]:
         """Lines of a check by symbol; those to its design force may be another's."""
-        quantities = evaluate(check.steps)
         names = [step.symbol for step in check.steps]
         last = names.index(_DEMAND) if _DEMAND in names else 0
         action = (row, tuple(check.steps[:last]))
         block = dict(self._actions.get(action, {}))
         for number, step in enumerate(check.steps[last if block else 0 :], first):
             earlier = block.get(step.symbol)
-            line = self._place(row, number, step, quantities[step.symbol])
+            line = self._place(row, number, step)
             block[step.symbol] = replace(line, first=earlier.first) if earlier else line
         if all(self._is_known(block[name]) for name in names[:last]):
             shared = {name: block[name] for name in names[: last + 1] if last}
@@ -297,16 +295,16 @@ class Calculations:
             step.formula or line.link or (step.value is not None and step.source)
         )
 
-    def _place(self, row: int, number: int, step: Step, quantity: Quantity) -> Line:
+    def _place(self, row: int, number: int, step: Step) -> Line:
         cell = None if step.formula else self._cells.find(row, step)
         if step.formula or cell is not None:
             link = self._cells.refer(cell) if cell else ""
-            return Line(number, step, quantity, link, number)
+            return Line(number, step, link, number)
         if step.value is None or not step.source:  # nobody says that it is the same
-            return Line(number, step, quantity, "", number)
+            return Line(number, step, "", number)
         whose = -1 if step.kind is Kind.GIVEN else row  # a cell serves all net rows
         first = self._typed.setdefault((whose, step), number)
-        return Line(number, step, quantity, "", first)
+        return Line(number, step, "", first)
 
     def list_blocks(self) -> Iterator[tuple[tuple[int, int], Mapping[str, Line]]]:
         """Lines of each check by symbol, by the places of net row and check."""
@@ -348,13 +346,13 @@ def _write_step(block: Mapping[str, Line], line: Line, end: int) -> str:
     """Formula of a step of the lines before it, and which of their cells count."""
     read: dict[str, Sequence[str]] = {}
 
-    def find(leaf: Quantity, of_end: int) -> str:
-        one = block[leaf.symbol]
+    def find(symbol: str, of_end: int) -> str:
+        one = block[symbol]
         cell = one.find(of_end)
         read[cell] = one.bounds
         return cell
 
-    formula = write_formula(line.quantity, find, SPREADSHEET, end)
+    formula = translate(line.step.formula, SPREADSHEET, find, end)
     return write_guarded(formula, read)
 
 
@@ -400,11 +398,11 @@ def _write_line(
 ) -> None:
     step, row, words = line.step, line.number - 1, book.words
     is_worked = line.first == line.number  # else the formula stands at another check
-    printed = write_formula(line.quantity, lambda leaf, _: leaf.symbol, PRINTED)
+    printed = translate(step.formula, PRINTED) if step.formula and is_worked else ""
     texts = {
         0: step.symbol,
         _NAME: words(f"symbol.{step.symbol}"),
-        _FORMULA: words.write_formula(printed) if is_worked else "",
+        _FORMULA: words.write_formula(printed),
         _UNIT: "" if step.unit == "-" else show_unit(step.unit),
         _SOURCE: _name_source(line, words),
     }
