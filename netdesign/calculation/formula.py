@@ -93,6 +93,18 @@ def translate(
     )
 
 
+def list_operands(formula: str, end: int) -> list[tuple[str, int]]:
+    """Symbols that an end of the result is made of, with the end of each.
+
+    Raises
+    ------
+    SyntaxError
+        If it is no formula.
+    """
+    parts = _split(formula, PLAIN, end)
+    return [part for part in parts if not isinstance(part, str)]
+
+
 @lru_cache(maxsize=4096)
 def _split(formula: str, notation: Notation, end: int) -> tuple[_Part, ...]:
     """Parts of a formula: a study has a few hundred, each many times."""

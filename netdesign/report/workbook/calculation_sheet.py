@@ -17,7 +17,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from netdesign.calculation.formula import PRINTED, SPREADSHEET, translate
+from netdesign.calculation.formula import (
+    PRINTED,
+    SPREADSHEET,
+    list_operands,
+    translate,
+)
 from netdesign.calculation.quantity import Kind
 from netdesign.calculation.steps import SAME, Step
 from netdesign.checks.schema import LATERAL_SHARE
@@ -225,20 +230,15 @@ class Line:
         Cell that its value is read from, on another sheet; "" where there is none.
     first : int
         Line where the same value stands as a number; itself unless another has it.
+    ends : set of int
+        Those that have a cell; the value stands for the others.
     """
 
     number: int
     step: Step
     link: str
     first: int
-
-    def has_end(self, end: int) -> bool:
-        """The end has a cell; else it is the value, which then stands alone.
-
-        A formula has all three: its ends follow those of what it is made of.
-        """
-        own = (self.step.low, self.step.value, self.step.high)[end + 1]
-        return end == 0 or bool(self.step.formula) or own is not None
+    ends: frozenset[int]
 
     def at(self, end: int) -> str:
         """Cell of one of its ends."""
@@ -246,7 +246,7 @@ class Line:
 
     def find(self, end: int) -> str:
         """Cell whose number counts for an end."""
-        return self.at(end if self.has_end(end) else 0)
+        return self.at(end if end in self.ends else 0)
 
     @property
     def bounds(self) -> tuple[str, ...]:
@@ -281,7 +281,7 @@ class Calculations:
         block = dict(self._actions.get(action, {}))
         for number, step in enumerate(check.steps[last if block else 0 :], first):
             earlier = block.get(step.symbol)
-            line = self._place(row, number, step)
+            line = self._place(row, number, step, _list_ends(step, block))
             block[step.symbol] = replace(line, first=earlier.first) if earlier else line
         if all(self._is_known(block[name]) for name in names[:last]):
             shared = {name: block[name] for name in names[: last + 1] if last}
@@ -295,16 +295,16 @@ class Calculations:
             step.formula or line.link or (step.value is not None and step.source)
         )
 
-    def _place(self, row: int, number: int, step: Step) -> Line:
+    def _place(self, row: int, number: int, step: Step, ends: frozenset[int]) -> Line:
         cell = None if step.formula else self._cells.find(row, step)
         if step.formula or cell is not None:
             link = self._cells.refer(cell) if cell else ""
-            return Line(number, step, link, number)
+            return Line(number, step, link, number, ends)
         if step.value is None or not step.source:  # nobody says that it is the same
-            return Line(number, step, "", number)
+            return Line(number, step, "", number, ends)
         whose = -1 if step.kind is Kind.GIVEN else row  # a cell serves all net rows
         first = self._typed.setdefault((whose, step), number)
-        return Line(number, step, "", first)
+        return Line(number, step, "", first, ends)
 
     def list_blocks(self) -> Iterator[tuple[tuple[int, int], Mapping[str, Line]]]:
         """Lines of each check by symbol, by the places of net row and check."""
@@ -333,6 +333,24 @@ class Calculations:
         if line.step.formula:
             return _write_step(block, line, end)
         return write_link(line.link, line.bounds) if line.link else ""
+
+
+def _list_ends(step: Step, block: Mapping[str, Line]) -> frozenset[int]:
+    """Ends of a step that may differ from its value: its own, or of what makes it."""
+    if not step.formula:
+        given = {-1: step.low, 0: step.value, 1: step.high}
+        return frozenset(
+            end for end, own in given.items() if end == 0 or own is not None
+        )
+    return frozenset(
+        end
+        for end in _ENDS
+        if end == 0
+        or any(
+            of_end and of_end in block[symbol].ends
+            for symbol, of_end in list_operands(step.formula, end)
+        )
+    )
 
 
 def _list_checks(study: Study) -> Iterator[tuple[tuple[int, int], CheckRecord]]:
@@ -412,7 +430,7 @@ def _write_line(
     lines = count_lines(list(texts.values()), [_WIDTHS[one] for one in texts])
     book.set_height(sheet, row, lines)
     for end, value in zip(_ENDS, step.ends, strict=True):
-        if not line.has_end(end):
+        if end not in line.ends:
             continue
         formula = calculations.write_end(block, line, end)
         _write_number(book, sheet, line, end, value, formula)
