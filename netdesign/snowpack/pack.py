@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -12,7 +13,7 @@ GRAVITY = 9.81  # [m/s2]
 DAY = 86400.0  # [s]; both models were fitted to daily heights
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class DayPack:
     """Snowpack of a flat station at the end of one day, from the ground up.
 
@@ -36,12 +37,12 @@ class DayPack:
     new_mass: float = 0.0
     runoff: float = 0.0
 
-    @property
+    @cached_property
     def height(self) -> float:
         """Height of all layers [m]."""
         return float(self.heights.sum())
 
-    @property
+    @cached_property
     def mass(self) -> float:
         """Snow water equivalent of all layers [kg/m2]."""
         return float(self.masses.sum())

@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -17,12 +18,15 @@ from netdesign.snowpack.pack import DayPack
 from netdesign.winter.day import LEAST_DENSITY, DaySolver, RowDay
 from netdesign.words.message import Message
 
+if TYPE_CHECKING:
+    from scipy.interpolate import RectBivariateSpline
+
 _THICKNESSES, _DENSITIES = 9, 7  # of a table
 _DEGREE = 2  # of its splines
 _EDGE = 1.005  # how far a table reaches beyond what it was asked for
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class UniformTable:
     """Pulls of uniform snow at the nodes of a grid, as logarithms.
 
@@ -59,8 +63,8 @@ class UniformTable:
             & (y <= self.densities[-1])
         )
         foot, head = (
-            np.where(is_inside, np.exp(self._interpolate(values, x, y)), np.nan)
-            for values in (self.foot, self.head)
+            np.where(is_inside, np.exp(spline(x, y, grid=False)), np.nan)
+            for spline in self._splines
         )
         return foot, head
 
@@ -80,13 +84,18 @@ class UniformTable:
             return None
         return float(np.interp(foot, pulls, densities))
 
-    def _interpolate(self, values: Floats, x: Floats, y: Floats) -> Floats:
+    @cached_property
+    def _splines(self) -> tuple[RectBivariateSpline, RectBivariateSpline]:
+        """Of the pulls at foot and head; many winters ask one table."""
         from scipy.interpolate import RectBivariateSpline
 
-        spline = RectBivariateSpline(
-            self.thicknesses, self.densities, values, kx=_DEGREE, ky=_DEGREE
+        foot, head = (
+            RectBivariateSpline(
+                self.thicknesses, self.densities, values, kx=_DEGREE, ky=_DEGREE
+            )
+            for values in (self.foot, self.head)
         )
-        return np.asarray(spline(x, y, grid=False))
+        return foot, head
 
 
 def build_table(
