@@ -26,7 +26,12 @@ LONGEST_HEADING = 100
 # Without brackets these are as often names as units: N is newton and glide factor.
 _SHORT = ("n", "t", "c", "d", "h", "j", "1", "-", "–", "—", "a")
 _BRACKETS = re.compile(r"[\[(]([^\[\]()]*)[\])]")
-_BEHIND = re.compile(r"(?:[,:]|\s(?:en|in))\s*(\S{1,6})\s*$")
+_BEHIND = re.compile(
+    r"(?:(?:[,:]|\s(?:en|in))\s*(?=\S{1,6}\s*$)"
+    # without a sign before it only what is no word
+    r"|\s(?=\S*[°%/]\S*\s*$|(?:[cm]?m|kn|[km]pa|gon|deg)\s*$))(\S+)\s*$",
+    re.IGNORECASE,
+)
 _WORD = re.compile(r"[^\W_]+")
 _SYMBOL = re.compile(
     r"(?<![^\s,;:(\[/|])([^\W\d_]{1,4}(?:_[^\W\d_]{1,3})?)(?![^\s,;:)\]/|])"
@@ -80,12 +85,14 @@ def fold(text: str) -> str:
 
 
 def find_unit(text: str) -> str:
-    """Unit of a heading, in brackets or behind a comma; empty where there is none.
+    """Unit of a heading, in brackets or at its end; empty where there is none.
 
     Two units that differ are both given: together they are none that anybody knows.
 
     >>> find_unit("Dk (rechtwinklig) [m]"), find_unit("Pente (deg) [%]")
     ('m', 'deg, %')
+    >>> find_unit("Dichte kg/m³"), find_unit("snow height, cm"), find_unit("Tag h")
+    ('kg/m3', 'cm', '')
     """
     bracketed = [normalise_unit(one) for one in _BRACKETS.findall(text)]
     known = dict.fromkeys(one for one in bracketed if one in KNOWN_UNITS)

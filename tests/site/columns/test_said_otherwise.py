@@ -8,7 +8,7 @@ from netdesign.site.columns.lexicon import Lexicon
 
 HEADINGS = tomllib.loads(Path(__file__).with_name("said_otherwise.toml").read_text())
 LEXICA = {plan.name: Lexicon.of(plan.fields, plan) for plan in SHEETS}
-LEAST = 0.92  # of 370 headings; before the thesaurus it was 0.5
+LEAST = 0.92  # of 430 headings; before the thesaurus it was 0.5
 
 
 def test_most_are_understood_and_none_is_misread():
@@ -21,7 +21,7 @@ def test_most_are_understood_and_none_is_misread():
                 if field and field.key != key:
                     misread.append((sheet, heading, field.key))
     assert misread == []
-    assert len(known) > 350
+    assert len(known) > 400
     assert sum(known) >= LEAST * len(known)
 
 
