@@ -28,6 +28,7 @@ from netdesign.evidence.benchmark.scenes import (
     NAMED,
     NAMES,
     change_value,
+    write_heights,
     write_site,
 )
 from netdesign.evidence.runner import SINGLE_THREADED, run_in_turns
@@ -43,6 +44,8 @@ _PROCESSES = "2"
 _SIDES = ("this", "other")
 _FOLLOWED = ("paper-30", "layered")  # in time, with two-sided contacts
 _CLOCKS = {"processor": "cpu_s", "wall": "wall_s"}
+
+_HEIGHTS, _WINTERS = "heights.csv", 35
 
 # Sites beside the first one, each with another value in one of its cells.
 CHANGED = {
@@ -92,7 +95,9 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
     )
     in_time = ["--json", "--method", "transient"]
     history = [["solve", str(NAMED / f"{one}.toml"), *in_time] for one in _FOLLOWED]
-    winter = ["winter", "--example", "--row", "R1", "--no-cache", "--quiet", "--out"]
+    heights = ["--heights", str(folder / _HEIGHTS)]
+    winter = ["winter", "--example", "--no-cache", "--quiet", "--force"]
+    winter += ["--out", str(folder / "winter"), "--row", "R1"]
     own = [*check, str(folder / "own"), "--example", "--no-cache"]
     return {
         "solve": Figure(scenes[:1]),
@@ -105,7 +110,10 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
         "resistance": resistance,
         "example": Figure([own], [], (0, 1, 4, 6)),
         "history": Figure(history, history),
-        "winter": Figure([[*winter, str(folder / "winter")]], [], (0, 4)),
+        "winter": Figure([winter], [], (0, 4)),
+        "winters": Figure(
+            [[*winter, "--row", "R2", "--row", "R3", *heights]], [], (0, 4)
+        ),
     }
 
 
@@ -170,8 +178,9 @@ def compare_versions(
 
 
 def write_sites(folder: Path, rows: int) -> None:
-    """Write the site of so many net rows, and those with one value changed."""
+    """Write the site of so many net rows, those with one value changed, and heights."""
     write_site(folder / "site", rows)
+    write_heights(folder / _HEIGHTS, _WINTERS)
     for name, change in CHANGED.items():
         write_site(folder / name, rows)
         change_value(folder / name, *change)

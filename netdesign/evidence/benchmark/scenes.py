@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import shutil
 import tomllib
+from datetime import date, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -181,3 +182,27 @@ def change_value(site: Path, sheet: str, column: str, text: str) -> None:
     rows[-1][rows[0].index(column)] = text
     with path.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file).writerows(rows)
+
+
+_SNOW_DAYS = (60, 230)  # after the first of September: snow falls, and does not melt
+_FALLS = 0.2  # share of these days on which snow falls
+_FALL_CM = 8.0  # mean of a fall
+_SETTLES = 0.008  # share of the height that goes each day
+_MELTS_CM = 6.0  # each day, once the snow melts
+
+
+def write_heights(path: Path, winters: int) -> None:
+    """Write a station's snow heights of so many winters, drawn: 0.7 to 2.5 m deep."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(("date", "HS [cm]"))
+        for number in range(winters):
+            rng = np.random.default_rng([winters, number])
+            first, height = date(1980 + number, 9, 1), 0.0
+            for day in range((date(1981 + number, 9, 1) - first).days):
+                height *= 1.0 - _SETTLES
+                if _SNOW_DAYS[0] <= day < _SNOW_DAYS[1]:
+                    height += float(rng.exponential(_FALL_CM)) * (rng.random() < _FALLS)
+                else:
+                    height = max(0.0, height - _MELTS_CM)
+                writer.writerow((first + timedelta(days=day), round(height)))
