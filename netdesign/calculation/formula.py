@@ -140,7 +140,7 @@ def _list_parts(
 def _find_signs(
     name: str, notation: Notation, *, is_set_apart: bool
 ) -> tuple[str, str, str]:
-    """What stands before, between and after the operands of an operation."""
+    """Signs before, between and after the operands of an operation."""
     if name in _RANK:
         opened, closed = ("(", ")") if is_set_apart else ("", "")
         return opened, notation.signs[name], closed

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from netdesign.envelope.support_bands import spread_out
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snowpack.pack import DayPack
 from netdesign.winter.day import LEAST_DENSITY, DaySolver, RowDay
@@ -68,6 +69,30 @@ class UniformTable:
         )
         return foot, head
 
+    def read_days(self, days: Sequence[RowDay]) -> tuple[RowDay, ...] | None:
+        """Days with their pulls, as if they were solved; None if one is outside.
+
+        Parameters
+        ----------
+        days : sequence of RowDay
+            Prepared.
+        """
+        foot, head = self.find_pulls(
+            np.array([day.thickness for day in days]),
+            np.array([day.density for day in days]),
+        )
+        if not np.isfinite(foot).all():
+            return None
+        return tuple(
+            replace(
+                day,
+                ending="solved",
+                foot=spread_out(float(at_foot), 0.0),
+                head=spread_out(float(at_head), 0.0),
+            )
+            for day, at_foot, at_head in zip(days, foot, head, strict=True)
+        )
+
     def find_density(self, thickness: float, foot: float) -> float | None:
         """Density of uniform snow that pulls so much [kg/m3]; None outside the table.
 
@@ -86,7 +111,7 @@ class UniformTable:
 
     @cached_property
     def _splines(self) -> tuple[RectBivariateSpline, RectBivariateSpline]:
-        """Of the pulls at foot and head; many winters ask one table."""
+        """Splines of the pulls at foot and head; many winters ask one table."""
         from scipy.interpolate import RectBivariateSpline
 
         foot, head = (
@@ -214,8 +239,9 @@ def find_annual_maximum(
     solver: DaySolver,
     *,
     is_alone: bool = False,
+    table: UniformTable | None = None,
 ) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
-    """Annual maximum by solves, and the days that were solved for it.
+    """Annual maximum, and the days among which it was found.
 
     Parameters
     ----------
@@ -227,14 +253,32 @@ def find_annual_maximum(
         Of the row.
     is_alone : bool, optional
         Nothing but the maximum is wanted: days that pull less by (Y26) are left out.
+    table : UniformTable, optional
+        Of the row; a winter with a day outside is solved.
     """
     days = solver.prepare(packs, layered=False)
+    return _find_maximum(winter, days, solver, is_alone=is_alone, table=table)
+
+
+def _find_maximum(
+    winter: str,
+    days: Sequence[RowDay],
+    solver: DaySolver,
+    *,
+    is_alone: bool,
+    table: UniformTable | None,
+) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
+    """Annual maximum of days that are prepared."""
     chosen = choose_days(days, solver)
-    solved = _solve_heaviest(chosen, solver) if is_alone else solver.solve(chosen)
+    solved = table.read_days(chosen) if table else None
+    if solved is None:
+        table = None
+        solved = _solve_heaviest(chosen, solver) if is_alone else solver.solve(chosen)
     best = find_largest(solved)
     known = _judge(winter, days, solved, solver)
     if best is None or best.foot is None or best.head is None:
         return known, solved
+    top = max(day.thickness for day in days)
     maximum = replace(
         known,
         index=best.index,
@@ -242,8 +286,10 @@ def find_annual_maximum(
         density=best.density,
         foot=best.foot.value,
         head=best.head.value,
-        equivalent_density=find_equivalent(
-            max(day.thickness for day in days), best, solver
+        equivalent_density=(
+            table.find_density(top, best.foot.value)
+            if table
+            else find_equivalent(top, best, solver)
         ),
     )
     return maximum, solved
@@ -306,8 +352,10 @@ def _list_heaviest(days: Sequence[RowDay]) -> list[RowDay]:
 
 def find_many_maxima(
     groups: Mapping[str, Mapping[str, Mapping[int, DayPack]]], solver: DaySolver
-) -> dict[str, tuple[AnnualMaximum, ...]]:
-    """Annual maxima of many winters through one table; by solves where it has none.
+) -> tuple[dict[str, tuple[AnnualMaximum, ...]], UniformTable | None]:
+    """Annual maxima of many winters, and the table that they are read from.
+
+    By solves where there is none.
 
     Parameters
     ----------
@@ -321,17 +369,13 @@ def find_many_maxima(
         for model, winters in groups.items()
         for winter, packs in winters.items()
     }
-    chosen = {key: choose_days(one, solver) for key, one in days.items()}
-    every = [day for one in chosen.values() for day in one]
-    table = _build_table(every, days.values(), solver) if every else None
+    chosen = [day for one in days.values() for day in choose_days(one, solver)]
+    table = _build_table(chosen, days.values(), solver) if chosen else None
     found: dict[str, list[AnnualMaximum]] = {model: [] for model in groups}
     for (model, winter), one in days.items():
-        key = model, winter
-        maximum = _look_up(winter, one, chosen[key], table) if table else None
-        found[model].append(
-            maximum or find_maximum_alone(winter, groups[model][winter], solver)
-        )
-    return {model: tuple(maxima) for model, maxima in found.items()}
+        maximum, _ = _find_maximum(winter, one, solver, is_alone=True, table=table)
+        found[model].append(maximum)
+    return {model: tuple(maxima) for model, maxima in found.items()}, table
 
 
 def choose_days(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
@@ -520,36 +564,4 @@ def _build_table(
     least = min(day.thickness for day in chosen)
     return build_table(
         solver, (least, max(thicknesses)), (min(densities), max(densities))
-    )
-
-
-def _look_up(
-    winter: str,
-    days: Sequence[RowDay],
-    chosen: Sequence[RowDay],
-    table: UniformTable,
-) -> AnnualMaximum | None:
-    """Annual maximum by the table; None where a day lies outside it."""
-    overtopped = any(day.ending == "overtopped" for day in days)
-    if not chosen:
-        ending: MaximumEnding = "overtopped" if overtopped else "no snow"
-        return AnnualMaximum(winter=winter, ending=ending)
-    foot, head = table.find_pulls(
-        np.array([day.thickness for day in chosen]),
-        np.array([day.density for day in chosen]),
-    )
-    if not np.isfinite(foot).all():
-        return None
-    best = int(np.argmax(foot))
-    return AnnualMaximum(
-        winter=winter,
-        ending="overtopped" if overtopped else "solved",
-        index=chosen[best].index,
-        thickness=chosen[best].thickness,
-        density=chosen[best].density,
-        foot=float(foot[best]),
-        head=float(head[best]),
-        equivalent_density=table.find_density(
-            max(day.thickness for day in days), float(foot[best])
-        ),
     )

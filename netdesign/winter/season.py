@@ -17,6 +17,7 @@ from netdesign.snowpack.series import HeightSeries, split_winters
 from netdesign.winter.day import DaySolver, RowDay
 from netdesign.winter.maxima import (
     AnnualMaximum,
+    UniformTable,
     find_annual_maximum,
     find_equivalent,
     find_largest,
@@ -36,6 +37,8 @@ CURVE_STEP = 4  # days between those of the curve
 # Layers pull at most so many times what uniform snow of their mass does (seen: 1.03, on
 # free ground; elsewhere they pull less).
 LAYERED_GAIN = 1.05
+# From so many days of a curve on, theirs is taken, and so much more between them.
+_SAMPLED, _BETWEEN = 6, 0.05
 _BATCH = 8
 
 
@@ -94,6 +97,7 @@ def follow_season(
     packs: Mapping[int, DayPack],
     solver: DaySolver,
     step: int = CURVE_STEP,
+    table: UniformTable | None = None,
 ) -> Season:
     """Season of a row: its annual maximum, and the curve of its forces.
 
@@ -107,15 +111,16 @@ def follow_season(
         Of the row.
     step : int
         Days between those of the curve; 0 for the days near the maximum alone.
+    table : UniformTable, optional
+        Of the row: days of uniform snow are read from it.
     """
-    maximum, uniform = find_annual_maximum(name, packs, solver)
-    near = _solve_near(uniform, packs, solver)
+    maximum, uniform = find_annual_maximum(name, packs, solver, table=table)
     highest = max(packs, key=lambda k: packs[k].height)
     heaviest = max(packs, key=lambda k: packs[k].mass)
     evenly = set(list(packs)[::step]) if step else set()
-    wanted = sorted((evenly | {highest, heaviest}) - near.keys())
-    curve = near | _solve_coarsely({k: packs[k] for k in wanted}, solver)
-    curve = _sharpen(curve, solver)
+    wanted = sorted(evenly | {highest, heaviest})
+    curve = _solve_coarsely({k: packs[k] for k in wanted}, solver)
+    curve = _sharpen(_solve_near(uniform, curve, packs, solver), solver)
     governing = find_largest(curve.values())
     top = curve[highest].thickness
     return Season(
@@ -131,28 +136,48 @@ def follow_season(
 
 
 def _solve_near(
-    uniform: Sequence[RowDay], packs: Mapping[int, DayPack], solver: DaySolver
+    uniform: Sequence[RowDay],
+    curve: Mapping[int, RowDay],
+    packs: Mapping[int, DayPack],
+    solver: DaySolver,
 ) -> dict[int, RowDay]:
-    """Layered days, by descending pull of uniform snow, while one may govern."""
-    left = sorted(
-        (day for day in uniform if day.foot is not None),
-        key=lambda day: -(day.pull or 0.0),
-    )
-    found: dict[int, RowDay] = {}
+    """Curve with all days that may govern, the likeliest first."""
+    pulls = {day.index: day.foot.value for day in uniform if day.foot}
+    prepared = solver.prepare({k: packs[k] for k in pulls}, layered=True)
+    layered = {day.index for day in prepared if day.layers}
+    found = dict(curve)
+    left = pulls.keys() - {k for k, day in curve.items() if day.reason is None}
     while left:
-        best = find_largest(found.values())
-        least = best.foot.low / LAYERED_GAIN if best and best.foot else 0.0
-        batch = [day for day in left[:_BATCH] if (day.pull or 0.0) >= least]
+        best, gain = find_largest(found.values()), _find_gain(pulls, found)
+        most = {k: pulls[k] * (gain if k in layered else 1.0) for k in left}
+        least = best.foot.low if best and best.foot else 0.0
+        order = sorted(left, key=lambda k: -most[k])
+        batch = [k for k in order[:_BATCH] if most[k] >= least]
         if not batch:
             break
-        left = left[_BATCH:]
-        near = {day.index: packs[day.index] for day in batch}
+        left -= set(batch)
+        near = {k: packs[k] for k in batch}
         found |= _solve_coarsely(near, solver)
         # what may govern is not given up for a coarse accuracy
         failed = {k: pack for k, pack in near.items() if found[k].reason}
         again = solver.solve(solver.prepare(failed, layered=True))
         found |= {day.index: day for day in again}
     return found
+
+
+def _find_gain(pulls: Mapping[int, float], solved: Mapping[int, RowDay]) -> float:
+    """Most by which layers may pull more than uniform snow, by the days that are known.
+
+    Between them it may be larger by ``_BETWEEN``.
+    """
+    ratios = [
+        day.foot.value / pulls[k]
+        for k, day in solved.items()
+        if k in pulls and day.foot and day.layers
+    ]
+    if len(ratios) < _SAMPLED:
+        return LAYERED_GAIN
+    return min(LAYERED_GAIN, (1.0 + _BETWEEN) * max(ratios))
 
 
 def _solve_coarsely(
@@ -345,13 +370,16 @@ def follow_winters(
     chosen, *rest = station.packs
     packs = station.packs[chosen]
     maxima: dict[str, tuple[AnnualMaximum, ...]] = {}
+    table: UniformTable | None = None
     names = list(packs)
     if len(packs) > MANY:
-        maxima = find_many_maxima(station.packs, solver)
+        maxima, table = find_many_maxima(station.packs, solver)
         ranked = sorted(maxima[chosen], key=lambda one: -one.foot)[:SHOWN]
         largest = {one.winter for one in ranked if one.index is not None}
         names = sorted(largest | (set(measured) & packs.keys()))
-    seasons = tuple(follow_season(name, packs[name], solver, step) for name in names)
+    seasons = tuple(
+        follow_season(name, packs[name], solver, step, table) for name in names
+    )
     if not maxima:
         maxima = {one: _find_maxima(station.packs[one], solver) for one in rest}
         maxima[chosen] = tuple(season.maximum for season in seasons)

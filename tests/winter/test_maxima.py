@@ -111,7 +111,7 @@ def test_maxima_through_the_table_are_those_of_solves():
         "2003/2004": follow([0.05 * h for h in heights]),
     }
     solver = a_solver(accuracy=0.02)
-    found = find_many_maxima({"delta-snow": winters}, solver)["delta-snow"]
+    found = find_many_maxima({"delta-snow": winters}, solver)[0]["delta-snow"]
     assert [one.ending for one in found] == [
         "solved",
         "solved",

@@ -1,18 +1,21 @@
 """Curve of a season: coarse where nothing is large, accurate where it may be."""
 
 from dataclasses import dataclass, replace
+from random import Random
 
 import numpy as np
 import pytest
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import SolverSettings
+from netdesign.snow.ground import GroundLaw
 from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
 from netdesign.winter.day import COARSEST_CURVE, CURVE_SHARE, DaySolver
 from netdesign.winter.season import follow_season
 from netdesign.words.message import say
-from tests.winter.made_up_row import a_solver, read_winter
+from tests.each import each
+from tests.winter.made_up_row import a_solver, read_winter, slides
 
 ACCURACY = 0.013
 
@@ -92,3 +95,30 @@ def test_a_day_that_fails_at_the_full_accuracy_has_no_force():
     assert (day.ending, day.foot, day.bands) == ("failed", None, {})
     assert place in [one.index for one in season.failed]
     assert season.governing.index != place
+
+
+GROUNDS = [None, GroundLaw(kind="free"), slides(1.6, 2.0)]
+
+
+@pytest.mark.long
+@each("number", range(6))
+def test_the_governing_day_is_that_of_all_days(number):
+    """Winters drawn with plateaus, where many days pull nearly as much."""
+    heights = draw_heights(Random(700 + number))
+    packs = dict(enumerate(follow_heights(heights, DELTA_SNOW)))
+    solver = a_solver(GROUNDS[number % 3])
+    season = follow_season("2020/2021", packs, solver)
+    every = follow_season("2020/2021", packs, solver, step=1)
+    most = max(day.pull for day in every.curve if day.pull is not None and day.layers)
+    assert season.governing.pull >= (1.0 - 2e-3) * most
+
+
+def draw_heights(random):
+    """Falls, and settling of a percent a day [m]; thaw at the end."""
+    heights, height = [], 0.0
+    for day in range(170):
+        height *= 0.99
+        if day < 140 and random.random() < 0.25:
+            height += random.expovariate(1.0 / 0.12)
+        heights.append(round(min(height, 3.2) if day < 140 else 0.9 * height, 2))
+    return heights
