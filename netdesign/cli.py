@@ -33,7 +33,7 @@ from netdesign.commands.running import EXIT_CODES, own_command, print_faults
 from netdesign.commands.usage import LanguageGroup, UsageRefusal, describe_refusal, tell
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
-from netdesign.edge.streams import guard_streams
+from netdesign.edge.streams import flush_streams, guard_streams
 from netdesign.outcome import (
     NetDesignError,
     OutputError,
@@ -190,16 +190,16 @@ def main() -> NoReturn:
     A reader who stops reading changes none of them: what was asked for was done. A
     standard output that cannot be written to is the user's to mend.
     """
-    streams = guard_streams()
+    output = guard_streams()
     try:
         _run()
     except SystemExit as end:
         code = end.code
-    streams.flush()
-    if streams.fault and code in (None, *EXIT_CODES.values()):
-        cause = explain_system(streams.fault)
+    flush_streams()
+    if output and output.fault and code in (None, *EXIT_CODES.values()):
+        cause = explain_system(output.fault)
         tell(say("cli.output_lost", cause=cause), _speak(), err=True)
-        streams.flush()
+        flush_streams()
         code = OutputError.exit_code
     sys.exit(code)
 
@@ -220,7 +220,9 @@ def _run() -> NoReturn:
         from netdesign.commands.completion import answer_shell
 
         sys.exit(answer_shell(cli, instruction))
-    _unset_empty("SOURCE_DATE_EPOCH")
+    if not os.environ.get("SOURCE_DATE_EPOCH"):
+        # an empty one counts as none; numpy would stumble over it
+        os.environ.pop("SOURCE_DATE_EPOCH", None)
     # nobody's plugin of pydantic belongs in a check; it would look for one for long
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
@@ -251,7 +253,8 @@ def _run() -> NoReturn:
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
             raise
-        sys.exit(_describe_unexpected(error))
+        # what given paths can cause, their readers have handled
+        sys.exit(print_faults({describe_fault(error): ()}, _speak()))
     sys.exit(0)
 
 
@@ -260,20 +263,9 @@ def _speak() -> Language:
     return find_language(cli, sys.argv[1:])
 
 
-def _describe_unexpected(error: Exception) -> int:
-    """Say what nobody handled: what given paths can cause, their readers have."""
-    return print_faults({describe_fault(error): ()}, _speak())
-
-
 def _count_findings(error: SiteDataError) -> Message:
     """Number of the faults; remarks on how a file was read are none."""
     count = sum(one.severity == "error" for one in error.findings)
     if count == 1:
         return say("finding.count_one")
     return say("finding.count", count=count)
-
-
-def _unset_empty(name: str) -> None:
-    """An empty variable counts as none; numpy would stumble over this one."""
-    if not os.environ.get(name):
-        os.environ.pop(name, None)

@@ -2,7 +2,7 @@
 
 A reader may stop (``netdesign check site.xlsx | head``), a disk be full, a code page
 lack the signs of a table. None of that changes a verdict, and none may look like one:
-a run goes on to its end, and what could not be written is told by `Streams.fault`.
+a run goes on to its end, and what could not be written is told by ``fault``.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import codecs
 import io
 import sys
 import unicodedata
-from dataclasses import dataclass
 
 _PLAIN = "netdesign.plain"  # the handler of signs that a code page lacks
 _SPELLED = {
@@ -37,7 +36,10 @@ _SPELLED = {
 
 
 class _Lasting(io.RawIOBase):
-    """A stream that goes on in silence once it can no longer be written to."""
+    """A stream that goes on in silence once it can no longer be written to.
+
+    ``fault`` is the reason why it is not complete; a reader who stopped is none.
+    """
 
     def __init__(self, raw: io.RawIOBase) -> None:
         self._raw = raw
@@ -68,29 +70,24 @@ class _Lasting(io.RawIOBase):
         return self._raw.isatty()
 
 
-@dataclass(frozen=True, slots=True)
-class Streams:
-    """Standard output and error of one run."""
+def guard_streams() -> _Lasting | None:
+    """Put lasting streams in the place of this process's own.
 
-    out: _Lasting | None  # None where the stream was made by somebody else
-    err: _Lasting | None
-
-    def flush(self) -> None:
-        """Write what is left; afterwards `fault` is final."""
-        for stream in (sys.stdout, sys.stderr):
-            if stream is not None:
-                stream.flush()
-
-    @property
-    def fault(self) -> OSError | None:
-        """Reason why standard output is not complete; a reader who stopped is none."""
-        return self.out.fault if self.out else None
-
-
-def guard_streams() -> Streams:
-    """Put lasting streams in the place of this process's own."""
+    Returns
+    -------
+    _Lasting or None
+        Standard output; None where somebody else made it.
+    """
     codecs.register_error(_PLAIN, _spell)
-    return Streams(_guard("stdout"), _guard("stderr"))
+    _guard("stderr")
+    return _guard("stdout")
+
+
+def flush_streams() -> None:
+    """Write what is left; afterwards the fault of a lasting stream is final."""
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
 
 
 def _guard(name: str) -> _Lasting | None:
