@@ -62,7 +62,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     site = choose_rows(read_asked_site(site_file, asked), asked["rows"])
 
     # behind the reading: a faulty workbook is refused without a solver
-    from netdesign.commands.check_run import Check, carry_out, plan_outputs
+    from netdesign.commands.check_run import carry_out, plan_outputs
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
@@ -90,8 +90,8 @@ def check(site_file: Path | None, **asked: Any) -> None:
         require_rows(outputs.style.places, site)
     bare = asked | {"annotate": None}
     again = partial(_read_replaced, site_file, bare) if asked["size"] else None
-    task = Check(site, profiles, run, outputs, again, asked)
-    sys.exit(carry_out(task, str(site_file or "--example")))
+    name = str(site_file or "--example")
+    sys.exit(carry_out(site, profiles, run, outputs, again, asked, name))
 
 
 def _refuse_contradictions(

@@ -36,16 +36,25 @@ if TYPE_CHECKING:
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.study.check_run import CheckRun
-    from netdesign.study.check_site import SolvedSite
     from netdesign.study.records import Study
     from netdesign.study.sizing import ReadInstead, SizedCell
 
+    # smallest types under one profile; no study where nothing is replaced
+    Sized = tuple[Sequence[SizedCell], Study | None]
 
-@dataclass(frozen=True, slots=True)
-class Check:
-    """A check that is asked for.
 
-    Attributes
+def carry_out(
+    site: Site,
+    profiles: Sequence[Standard],
+    run: CheckRun,
+    outputs: Outputs,
+    read_instead: ReadInstead | None,
+    asked: Mapping[str, Any],
+    site_name: str,
+) -> int:
+    """Exit code of a check; its files are written, its result is printed.
+
+    Parameters
     ----------
     site : Site
         As it was read, with every value.
@@ -59,35 +68,27 @@ class Check:
         Gives the site with some cells replaced; None without ``--size``.
     asked : mapping
         Options of the command line, by their names.
+    site_name : str
+        What the next commands are told to read.
     """
+    from netdesign.study.check_site import check_site
 
-    site: Site
-    profiles: Sequence[Standard]
-    run: CheckRun
-    outputs: Outputs
-    read_instead: ReadInstead | None
-    asked: Mapping[str, Any]
-
-
-def carry_out(task: Check, site_name: str) -> int:
-    """Exit code of a check; its files are written, its result is printed.
-
-    ``site_name`` is what the next commands are told to read.
-    """
-    asked = task.asked
-    is_sized = task.read_instead is not None
-    solved = len(task.profiles) * (2 if is_sized else 1)
-    with open_run(task.site, task.run, asked, solved) as (runner, progress):
-        studies, sized = check_and_size(
-            *(task.site, task.profiles, task.run, task.read_instead),
-            *(runner, progress),
-        )
-        begun = begin_outputs(task.outputs, studies, runner)
+    is_sized = read_instead is not None
+    solved = len(profiles) * (2 if is_sized else 1)
+    sized: list[Sized] = []
+    with open_run(site, run, asked, solved) as (runner, progress):
+        if read_instead is None:
+            studies = check_site(site, profiles, run, runner, progress)
+        else:
+            studies, sized = _check_and_size(
+                site, profiles, run, read_instead, runner, progress
+            )
+        begun = begin_outputs(outputs, studies, runner)
         if not asked["as_json"]:  # known before the reports are
             progress.clear()
             _print_summaries(studies, asked["explain"])
         progress.enter("reports")
-        files = render_outputs(task.outputs, studies, sized, begun)
+        files = render_outputs(outputs, studies, sized, begun)
     failed = print_faults(runner.faults)
     write_files(files, overwrite=asked["force"], is_recorded=True)
     if asked["as_json"]:
@@ -121,10 +122,21 @@ def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
 
 
 def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
-    """Print what ``--size`` found."""
+    """Print what ``--size`` found for each profile, and what its study says."""
     from netdesign.report.terminal import open_console, print_lines
+    from netdesign.report.what_if import describe_overall, list_sized
+    from netdesign.report.words import Words
 
-    print_lines(tuple(list_sizes(sized, studies)), open_console())
+    words = Words(speak())
+    lines: list[str] = []
+    for (cells, what_if), study in zip(sized, studies, strict=False):  # none unasked
+        lines.append(words("what_if.sized_for", profile=study.profile.id))
+        lines += list_sized(cells, words) or [words("what_if.nothing")]
+        if what_if is not None:
+            lines.append(describe_overall(what_if, words))
+        elif cells:
+            lines.append(words("what_if.no_study"))
+    print_lines(tuple(lines), open_console())
 
 
 # Made by other processes, which first read the study: so this one makes the workbook,
@@ -138,8 +150,6 @@ class Outputs:
 
     Attributes
     ----------
-    folder : Path or None
-        Of all files; None where none are written.
     of_studies : list of list of Path
         Of each profile.
     sized : list of list of Path
@@ -150,7 +160,6 @@ class Outputs:
         Of the reports.
     """
 
-    folder: Path | None
     of_studies: list[list[Path]]
     sized: list[list[Path]]
     together: list[Path]
@@ -178,9 +187,8 @@ def plan_outputs(
     is_compared = folder is not None and "report.html" in kinds and len(profiles) > 1
     page = mark([PROFILES_FILE])
     outputs = Outputs(
-        folder=folder,
         of_studies=names,
-        sized=mark_paths(names) if asked["size"] else [],
+        sized=_mark_paths(names) if asked["size"] else [],
         together=[folder / name for name in page] if folder and is_compared else [],
         style=choose_style(asked),
     )
@@ -231,83 +239,56 @@ def render_outputs(
 
     style = outputs.style
     files = render_files(studies, outputs.of_studies, style, begun)
-    files |= render_sized(sized, outputs.sized, style)
+    for (_, what_if), paths in zip(sized, outputs.sized, strict=True):
+        if what_if is not None:
+            files |= render_files([what_if], [paths], style)
     for place in outputs.together:
         files[place] = render_comparison(studies, style.language)
     return files
 
 
-_SIZE = "--size"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sized:
-    """Smallest types under one profile; no study where nothing is replaced."""
-
-    cells: Sequence[SizedCell]
-    study: Study | None
-
-
-def check_and_size(
+def _check_and_size(
     site: Site,
-    profiles: Sequence[Standard],
-    run: CheckRun,
-    read: ReadInstead | None,
-    runner: Runner,
-    watch: RunProgress,
-) -> tuple[list[Study], list[Sized]]:
-    """Studies of a site by profiles, and its smallest types where ``read`` is given."""
-    from netdesign.study.check_site import check_site, judge_solved, solve_rows
-
-    if read is None:
-        return check_site(site, profiles, run, runner, watch), []
-    solved = solve_rows(site, run, runner, watch)
-    studies = judge_solved(solved, profiles, run, runner, watch)
-    return studies, _size(solved, studies, profiles, run, read, runner, watch)
-
-
-def _size(
-    solved: SolvedSite,
-    studies: Sequence[Study],
     profiles: Sequence[Standard],
     run: CheckRun,
     read: ReadInstead,
     runner: Runner,
     watch: RunProgress,
-) -> list[Sized]:
-    """Smallest types for each profile, and the study of the site with all of them.
+) -> tuple[list[Study], list[Sized]]:
+    """Studies of a site, and its smallest types with the study of all of them.
 
     ``read`` gives the site with some cells replaced.
     """
     from netdesign.study.check_site import judge_solved, solve_rows
     from netdesign.study.sizing import size_site
 
-    sized = []
+    solved = solve_rows(site, run, runner, watch)
+    studies = judge_solved(solved, profiles, run, runner, watch)
+    sized: list[Sized] = []
     for study, profile in zip(studies, profiles, strict=True):
         cells = size_site(solved, study, profile, run, read)
         instead = {one.cell: one.now for one in cells if one.now}
         if not instead:
-            sized.append(Sized(cells=cells, study=None))
+            sized.append((cells, None))
             continue
-        site = read(instead)
-        own_run = replace(run, command=write_command(run.command, instead))
-        again = solve_rows(site, own_run, runner, watch, solved)
+        own_run = replace(run, command=_write_command(run.command, instead))
+        again = solve_rows(read(instead), own_run, runner, watch, solved)
         (what_if,) = judge_solved(again, [profile], own_run, runner, watch)
-        sized.append(Sized(cells=cells, study=what_if))
-    return sized
+        sized.append((cells, what_if))
+    return studies, sized
 
 
-def write_command(command: str, instead: Mapping[str, str]) -> str:
+def _write_command(command: str, instead: Mapping[str, str]) -> str:
     """Command that makes a what-if study again, from the one that sized it."""
     from netdesign.site.declared_sheet import write_replacement
 
-    words = [word for word in shlex.split(command) if word != _SIZE]
+    words = [word for word in shlex.split(command) if word != "--size"]
     for cell, text in instead.items():
         words += ["--what-if", write_replacement(cell, text)]
     return shlex.join(words)
 
 
-def mark_paths(names: Sequence[Sequence[Path]]) -> list[list[Path]]:
+def _mark_paths(names: Sequence[Sequence[Path]]) -> list[list[Path]]:
     """Places of what-if outputs beside those of each study."""
     return [
         [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in group]
@@ -315,47 +296,17 @@ def mark_paths(names: Sequence[Sequence[Path]]) -> list[list[Path]]:
     ]
 
 
-def render_sized(
-    sized: Sequence[Sized], names: Sequence[Sequence[Path]], style: ReportStyle
-) -> dict[Path, bytes]:
-    """Contents of the what-if outputs, of those profiles that have any."""
-    from netdesign.report.files import render_files
-
-    found = [
-        (one.study, group) for one, group in zip(sized, names, strict=True) if one.study
-    ]
-    return render_files(
-        [study for study, _ in found], [group for _, group in found], style
-    )
-
-
-def list_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> list[str]:
-    """Lines of what was found for each profile, and what those what-if studies say."""
-    from netdesign.report.what_if import describe_overall, list_sized
-    from netdesign.report.words import Words
-
-    words = Words(speak())
-    lines: list[str] = []
-    for one, built in zip(sized, studies, strict=False):  # none, if not asked for
-        lines.append(words("what_if.sized_for", profile=built.profile.id))
-        lines += list_sized(one.cells, words) or [words("what_if.nothing")]
-        if one.study is not None:
-            lines.append(describe_overall(one.study, words))
-        elif one.cells:
-            lines.append(words("what_if.no_study"))
-    return lines
-
-
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 
 
-def announce(site: Site, run: CheckRun, profiles: int = 1, *, as_json: bool) -> int:
+def announce(site: Site, run: CheckRun, profiles: int, *, as_json: bool) -> int:
     """Print net rows, solves of every phase and the predicted time; the exit code."""
     from netdesign.solving.runner import Runner
     from netdesign.study.cases import list_phases
 
     runner, phases = Runner(), list_phases(site, run, profiles)
-    seconds = _predict(phases, _measure_case(site, run, runner))
+    of_case = _measure_case(site, run, runner)
+    seconds = sum(one.cases * one.cost * of_case + one.seconds for one in phases)
     if as_json:
         plan = {
             "schema": "netdesign.plan/1",
@@ -427,11 +378,6 @@ def _name_phase(phase: Phase) -> Message:
 def _count_further(phases: Sequence[Phase]) -> int:
     """Solves beside the cases of the envelope."""
     return sum(phase.cases for phase in phases[1:])
-
-
-def _predict(phases: Sequence[Phase], of_case: float) -> float:
-    """Seconds of all phases, from those of a steady case in one process."""
-    return sum(one.cases * one.cost * of_case + one.seconds for one in phases)
 
 
 def _measure_case(site: Site, run: CheckRun, runner: Runner) -> float:
