@@ -7,7 +7,7 @@ import math
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -62,7 +62,10 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     ranging = [one.name or "" for one in _list_options()]
     given = {name: asked[name] for name in ranging if asked[name] is not None}
     counted = _require_usable(given)
-    read = read_scene_file(scene_file, "steady")
+    # its settings are those of what confirms
+    read = read_scene_file(
+        scene_file, "transient" if confirm == "transient" else "steady"
+    )
     spans = _build_ranges(given)
     require_valid(read.scene, spans)
     require_places(out, (DOCUMENT, *FIGURES), asked)
@@ -70,7 +73,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
         tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
     with open_phases(_list_phases(given, confirm), asked) as (runner, progress):
-        confirming = _read_confirming(scene_file, confirm)
+        confirming = None if confirm == "none" else read.settings
         task = _build_task(read.scene, confirming, spans, asked["accuracy"])
         record: EnvelopeRecord | None = None
         if counted:
@@ -171,21 +174,6 @@ def _build_task(
         search=SearchSettings(gap=accuracy),
         confirmed_by=refine_settings(settings) if is_mesh else confirming,
     )
-
-
-def _read_confirming(
-    scene_file: Path, confirm: Literal["mesh", "transient", "none"]
-) -> Settings | None:
-    """Settings of the scene file for the other fidelity."""
-    from netdesign.files.scene import read_scene
-
-    if confirm == "none":
-        return None
-    method: Literal["steady", "transient"] = (
-        "transient" if confirm == "transient" else "steady"
-    )
-    _, settings = read_scene(scene_file, method)
-    return settings
 
 
 def _sample(

@@ -96,11 +96,7 @@ def require_places(
 
 
 def write_outputs(
-    folder: Path,
-    contents: Mapping[str, bytes],
-    asked: Mapping[str, Any],
-    *,
-    is_recorded: bool = False,
+    folder: Path, contents: Mapping[str, bytes], asked: Mapping[str, Any]
 ) -> None:
     """Write files by their names, or their places, and tell where they are.
 
@@ -114,7 +110,7 @@ def write_outputs(
     from netdesign.edge.output import write_files
 
     files = {folder / name: content for name, content in contents.items()}
-    write_files(files, overwrite=asked["force"], is_recorded=is_recorded)
+    write_files(files, overwrite=asked["force"])
     report_places(files, asked)
 
 

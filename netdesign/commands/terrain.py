@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from netdesign.terrain.surface import Surface
 
 _SITE = "site.xlsx"
-_GUIDELINE = "swiss-guideline-2007"
 ROWS_FILE = "rows.geojson"
 
 
