@@ -108,20 +108,20 @@ def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     if study.left_out:
         site = site.take_rows([row.id for row in study.rows])
     profile = load_own_profile(study.profile, asked["standard"])
-    show, made = _Shown(), study.provenance
+    made = study.provenance
     hashes = [
-        show.hash(say("verify.site_file"), made.site_sha256, site.sha256),
-        show.hash(say("verify.limit_profile"), study.profile.sha256, profile.sha256),
+        _show_hash(say("verify.site_file"), made.site_sha256, site.sha256),
+        _show_hash(say("verify.limit_profile"), study.profile.sha256, profile.sha256),
     ]
     if not all(hashes):
         tell(say("verify.not_its_inputs"))
         return _FAIL
     arithmetic = rejudge(study, profile, site)
     told = [
-        show.digest(study),
-        show.contradictions(say("verify.its_command"), contradict_command(study)),
-        show.contradictions(say("verify.its_time"), _contradict_time(study)),
-        show.contradictions(say("verify.its_arithmetic"), arithmetic),
+        _show_digest(study),
+        _show_contradictions(say("verify.its_command"), contradict_command(study)),
+        _show_contradictions(say("verify.its_time"), _contradict_time(study)),
+        _show_contradictions(say("verify.its_arithmetic"), arithmetic),
     ]
     solving = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
     with open_run(site, run, solving) as (runner, watch):
@@ -129,8 +129,8 @@ def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     if failed := print_faults(runner.faults):
         return failed
     count, differences = list_differences(study, again)
-    show.comparison(study, again, count, differences)
-    left = show.unverified(study, again)
+    _show_comparison(study, again, count, differences)
+    left = _show_unverified(study, again)
     if differences or not all(told):
         return _FAIL
     return _NOT_PROVEN if left else 0
@@ -148,81 +148,81 @@ def _contradict_time(study: Study) -> Iterator[Message]:
         yield say("verify.in_future", time=started)
 
 
-class _Shown:
-    """Printer of the results on a verified study."""
+def _print(message: Message) -> None:
+    from netdesign.edge.given_files import make_printable
 
-    def tell(self, message: Message) -> None:
-        from netdesign.edge.given_files import make_printable
+    click.echo(make_printable(render(message, speak())))
 
-        click.echo(make_printable(render(message, speak())))
 
-    def hash(self, what: Message, stored: str, now: str) -> bool:
-        """Tell two hashes; True if they are equal."""
-        is_equal = stored == now
-        key = "verify.hash_equal" if is_equal else "verify.hash_differs"
-        self.tell(say(key, what=what))
-        self.tell(say("verify.hashes", stored=stored, now=now))
-        return is_equal
+def _show_hash(what: Message, stored: str, now: str) -> bool:
+    """Tell two hashes; True if they are equal."""
+    is_equal = stored == now
+    key = "verify.hash_equal" if is_equal else "verify.hash_differs"
+    _print(say(key, what=what))
+    _print(say("verify.hashes", stored=stored, now=now))
+    return is_equal
 
-    def digest(self, study: Study) -> bool:
-        """Tell the document's digest; True if it holds, or if there is none."""
-        from netdesign.study.document import compute_digest
 
-        if not study.digest:
-            return True
-        return self.hash(say("verify.document"), study.digest, compute_digest(study))
+def _show_digest(study: Study) -> bool:
+    """Tell the document's digest; True if it holds, or if there is none."""
+    from netdesign.study.document import compute_digest
 
-    def contradictions(self, what: Message, found: Iterable[Message]) -> bool:
-        """Tell the first contradictions; True if there are none."""
-        told = list(found)
-        for one in told[:_SHOWN]:
-            self.tell(say("verify.differs", what=what, reason=one))
-        if not told:
-            self.tell(say("verify.holds", what=what))
-        return not told
+    if not study.digest:
+        return True
+    return _show_hash(say("verify.document"), study.digest, compute_digest(study))
 
-    def comparison(
-        self, study: Study, again: Study, count: int, differences: Sequence[Difference]
-    ) -> None:
-        """Tell which values do not come out; the hash may differ in last digits."""
-        from netdesign.study.document import hash_results, write_document
-        from netdesign.study.values import SAME
 
-        stored, now = hash_results(study), hash_results(again)
-        if stored == now or differences:
-            self.hash(say("verify.results"), stored, now)
-        else:
-            self.tell(say("verify.last_digits"))
-        cases = sum(len(row.cases) for row in again.rows)
-        self.tell(say("verify.compared", cases=cases, values=count))
-        for one in differences[:_SHOWN]:
-            self.tell(say("verify.difference", value=one.message))
-        if differences[_SHOWN:]:
-            self.tell(say("verify.more", count=len(differences) - _SHOWN))
-        if not differences:
-            is_equal = write_document(study) == write_document(again)
-            same = say("verify.same_numbers", share=SAME)
-            self.tell(say("verify.same_bytes") if is_equal else same)
+def _show_contradictions(what: Message, found: Iterable[Message]) -> bool:
+    """Tell the first contradictions; True if there are none."""
+    told = list(found)
+    for one in told[:_SHOWN]:
+        _print(say("verify.differs", what=what, reason=one))
+    if not told:
+        _print(say("verify.holds", what=what))
+    return not told
 
-    def unverified(self, study: Study, again: Study) -> bool:
-        """Tell what a new solve cannot show; True if some of it is avoidable."""
-        from netdesign.study.record_provenance import list_versions
 
-        made = study.provenance
-        old, new = list_versions(study), list_versions(again)
-        others = [name for name in old | new if old.get(name) != new.get(name)]
-        for name in others:
-            then, now = str(old.get(name)), str(new.get(name))
-            self.tell(say("verify.other_version", name=name, then=then, now=now))
-        if not study.digest:
-            self.tell(say("verify.no_digest"))
-        if made.command == NO_COMMAND:
-            self.tell(say("verify.no_command"))
-        self.tell(
-            say("verify.as_stated", time=made.started or say("verify.not_stated"))
-        )
-        unknown = (others, not study.digest, made.command == NO_COMMAND)
-        return any(map(bool, unknown))
+def _show_comparison(
+    study: Study, again: Study, count: int, differences: Sequence[Difference]
+) -> None:
+    """Tell which values do not come out; the hash may differ in last digits."""
+    from netdesign.study.document import hash_results, write_document
+    from netdesign.study.values import SAME
+
+    stored, now = hash_results(study), hash_results(again)
+    if stored == now or differences:
+        _show_hash(say("verify.results"), stored, now)
+    else:
+        _print(say("verify.last_digits"))
+    cases = sum(len(row.cases) for row in again.rows)
+    _print(say("verify.compared", cases=cases, values=count))
+    for one in differences[:_SHOWN]:
+        _print(say("verify.difference", value=one.message))
+    if differences[_SHOWN:]:
+        _print(say("verify.more", count=len(differences) - _SHOWN))
+    if not differences:
+        is_equal = write_document(study) == write_document(again)
+        same = say("verify.same_numbers", share=SAME)
+        _print(say("verify.same_bytes") if is_equal else same)
+
+
+def _show_unverified(study: Study, again: Study) -> bool:
+    """Tell what a new solve cannot show; True if some of it is avoidable."""
+    from netdesign.study.record_provenance import list_versions
+
+    made = study.provenance
+    old, new = list_versions(study), list_versions(again)
+    others = [name for name in old | new if old.get(name) != new.get(name)]
+    for name in others:
+        then, now = str(old.get(name)), str(new.get(name))
+        _print(say("verify.other_version", name=name, then=then, now=now))
+    if not study.digest:
+        _print(say("verify.no_digest"))
+    if made.command == NO_COMMAND:
+        _print(say("verify.no_command"))
+    _print(say("verify.as_stated", time=made.started or say("verify.not_stated")))
+    unknown = (others, not study.digest, made.command == NO_COMMAND)
+    return any(map(bool, unknown))
 
 
 def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:
