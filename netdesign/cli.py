@@ -40,7 +40,7 @@ from netdesign.outcome import (
     SiteDataError,
     describe_fault,
 )
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -243,12 +243,11 @@ def _run() -> NoReturn:
         click.echo(make_printable(shown), nl=False, err=True)
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
-        lines = say("text.lines", lines=(error.message, _count_findings(error)))
-        click.echo(make_printable(render(lines, _speak())), err=True)
+        lines = (error.message, _count_findings(error))
+        tell(say("text.lines", lines=lines), _speak(), err=True)
         sys.exit(error.exit_code)
     except NetDesignError as error:
-        told = render(say("cli.error", reason=error.message), _speak())
-        click.echo(make_printable(told), err=True)
+        tell(say("cli.error", reason=error.message), _speak(), err=True)
         sys.exit(error.exit_code)
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):

@@ -31,7 +31,6 @@ from netdesign.commands.stored_study import (
     read_own_site,
 )
 from netdesign.commands.usage import UsageRefusal, speak, tell
-from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -148,18 +147,12 @@ def _contradict_time(study: Study) -> Iterator[Message]:
         yield say("verify.in_future", time=started)
 
 
-def _print(message: Message) -> None:
-    from netdesign.edge.given_files import make_printable
-
-    click.echo(make_printable(render(message, speak())))
-
-
 def _show_hash(what: Message, stored: str, now: str) -> bool:
     """Tell two hashes; True if they are equal."""
     is_equal = stored == now
     key = "verify.hash_equal" if is_equal else "verify.hash_differs"
-    _print(say(key, what=what))
-    _print(say("verify.hashes", stored=stored, now=now))
+    tell(say(key, what=what))
+    tell(say("verify.hashes", stored=stored, now=now))
     return is_equal
 
 
@@ -176,9 +169,9 @@ def _show_contradictions(what: Message, found: Iterable[Message]) -> bool:
     """Tell the first contradictions; True if there are none."""
     told = list(found)
     for one in told[:_SHOWN]:
-        _print(say("verify.differs", what=what, reason=one))
+        tell(say("verify.differs", what=what, reason=one))
     if not told:
-        _print(say("verify.holds", what=what))
+        tell(say("verify.holds", what=what))
     return not told
 
 
@@ -193,17 +186,17 @@ def _show_comparison(
     if stored == now or differences:
         _show_hash(say("verify.results"), stored, now)
     else:
-        _print(say("verify.last_digits"))
+        tell(say("verify.last_digits"))
     cases = sum(len(row.cases) for row in again.rows)
-    _print(say("verify.compared", cases=cases, values=count))
+    tell(say("verify.compared", cases=cases, values=count))
     for one in differences[:_SHOWN]:
-        _print(say("verify.difference", value=one.message))
+        tell(say("verify.difference", value=one.message))
     if differences[_SHOWN:]:
-        _print(say("verify.more", count=len(differences) - _SHOWN))
+        tell(say("verify.more", count=len(differences) - _SHOWN))
     if not differences:
         is_equal = write_document(study) == write_document(again)
         same = say("verify.same_numbers", share=SAME)
-        _print(say("verify.same_bytes") if is_equal else same)
+        tell(say("verify.same_bytes") if is_equal else same)
 
 
 def _show_unverified(study: Study, again: Study) -> bool:
@@ -215,12 +208,12 @@ def _show_unverified(study: Study, again: Study) -> bool:
     others = [name for name in old | new if old.get(name) != new.get(name)]
     for name in others:
         then, now = str(old.get(name)), str(new.get(name))
-        _print(say("verify.other_version", name=name, then=then, now=now))
+        tell(say("verify.other_version", name=name, then=then, now=now))
     if not study.digest:
-        _print(say("verify.no_digest"))
+        tell(say("verify.no_digest"))
     if made.command == NO_COMMAND:
-        _print(say("verify.no_command"))
-    _print(say("verify.as_stated", time=made.started or say("verify.not_stated")))
+        tell(say("verify.no_command"))
+    tell(say("verify.as_stated", time=made.started or say("verify.not_stated")))
     unknown = (others, not study.digest, made.command == NO_COMMAND)
     return any(map(bool, unknown))
 

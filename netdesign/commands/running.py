@@ -19,13 +19,11 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import print_json
 from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -234,8 +232,7 @@ def _describe_alike(
         lines.append(say("cli.fault_cases", count=len(cases) - _SHOWN))
     if os.environ.get(TRACEBACK):
         lines.append(first.trace)
-    text = "\n".join(render(line, language) for line in lines)
-    click.echo(make_printable(text), err=True)
+    tell(say("text.lines", lines=tuple(lines)), language, err=True)
 
 
 def _name_case(rows: tuple[str, ...], case: str) -> Message:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.site_input import reopen_site, temporary_example
-from netdesign.commands.usage import speak
+from netdesign.commands.usage import speak, tell
 from netdesign.outcome import NetDesignError, StudyError
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
@@ -191,7 +191,5 @@ def _find_profile(
 
 
 def _describe_uncompared(study_file: Path, key: str, reason: Message | str) -> None:
-    from netdesign.edge.given_files import make_printable
-
     told = say("text.at_place", place=str(study_file), text=say(key, reason=reason))
-    click.echo(make_printable(render(told, speak())), err=True)
+    tell(told, err=True)

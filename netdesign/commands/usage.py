@@ -11,6 +11,7 @@ import click
 from click.core import ParameterSource
 
 from netdesign.commands.help_texts import load_help
+from netdesign.edge.given_files import make_printable
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -25,8 +26,11 @@ def speak() -> Language:
 def tell(
     message: Message | str, language: Language | None = None, *, err: bool = False
 ) -> None:
-    """Print a message in the language of the command, unless it is another one."""
-    click.echo(render(message, language or speak()), err=err)
+    """Print a message in the language of the command, unless it is another one.
+
+    Words that somebody gave cannot steer the terminal.
+    """
+    click.echo(make_printable(render(message, language or speak())), err=err)
 
 
 class UsageRefusal(click.UsageError):
