@@ -88,7 +88,7 @@ def _map_study(
     )
     from netdesign.study.document import load_study
     from netdesign.study.record_provenance import load_own_profile
-    from netdesign.terrain.plan import read_text
+    from netdesign.terrain.crs import read_member
 
     out, language = asked["out"], speak()
     if places_file is None or out is None:
@@ -97,9 +97,10 @@ def _map_study(
     study = load_study(study_file)
     require_sound(study, study_file)
     site = read_own_site(study, study_file, None)
-    places, crs = read_places(read_text(places_file), places_file.name)
+    places, document = read_places(places_file)
     profile = load_own_profile(study.profile)
     features = map_verdicts(study, site, profile, places, language)
+    crs = read_member(document)
     contents = write_verdicts(features, out.name, crs, language)
     require_places(out.parent, contents, asked)
     write_outputs(out.parent, contents, asked)

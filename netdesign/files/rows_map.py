@@ -7,10 +7,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from netdesign.outcome import StudyError, TerrainError
 from netdesign.site.model import Site
-from netdesign.terrain.crs import read_member
 from netdesign.terrain.geojson import Feature
 from netdesign.terrain.plan import ZONE, read_text
 from netdesign.words.message import say
@@ -39,24 +39,25 @@ class MeasuredPlace:
     posts: list[tuple[float, float, float]]
 
 
-def read_places(text: str, file: str) -> tuple[dict[str, MeasuredPlace], str]:
-    """Rows of ``rows.geojson`` by name, and their reference system.
+def read_places(path: Path) -> tuple[dict[str, MeasuredPlace], Any]:
+    """Rows of ``rows.geojson`` by name, and the whole document.
 
     Raises
     ------
     TerrainError
         If the file is not one that ``netdesign terrain`` wrote.
     """
+    text = read_text(path)
     try:
         document = json.loads(text)
         rows = document["features"]
         rows = [one for one in rows if one["properties"]["kind"] == "net row"]
         found = {str(one["properties"]["id"]): _read_place(one) for one in rows}
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise TerrainError(say("terrain.no_places", file=file)) from None
+        raise TerrainError(say("terrain.no_places", file=path.name)) from None
     if not found:
-        raise TerrainError(say("terrain.no_places", file=file))
-    return found, read_member(document)
+        raise TerrainError(say("terrain.no_places", file=path.name))
+    return found, document
 
 
 def _read_place(feature: Feature) -> MeasuredPlace:
@@ -104,14 +105,13 @@ def read_rows_map(path: Path) -> RowsMap:
     TerrainError
         If ``netdesign terrain`` did not write it, or its rows come from two grids.
     """
-    text = read_text(path)
-    rows, _ = read_places(text, path.name)
+    rows, document = read_places(path)
     own = [one.feature["properties"] for one in rows.values()]
     grids = {(str(one.get("grid")), str(one.get("grid_sha256"))) for one in own}
     if len(grids) > 1:
         raise TerrainError(say("terrain.two_grids", file=path.name))
     ((grid, sha256),) = grids
-    zones = _read_zones(text, path.name)
+    zones = _read_zones(document, path.name)
     points = [point for place in rows.values() for point in place.posts]
     corners = [point for zone in zones for point in zone]
     if not all(abs(part) < _FAR for point in (*points, *corners) for part in point):
@@ -119,13 +119,12 @@ def read_rows_map(path: Path) -> RowsMap:
     return RowsMap(file=path.name, grid=grid, sha256=sha256, rows=rows, zones=zones)
 
 
-def _read_zones(text: str, file: str) -> tuple[Ring, ...]:
+def _read_zones(document: Any, file: str) -> tuple[Ring, ...]:
     """Outlines of the starting zones; none in a file that has none."""
     try:
-        features = json.loads(text)["features"]
         rings = [
             one["geometry"]["coordinates"][0]
-            for one in features
+            for one in document["features"]
             if one["properties"]["kind"] == ZONE
         ]
         return tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings)

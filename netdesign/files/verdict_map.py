@@ -16,6 +16,7 @@ from netdesign.files.rows_map import MeasuredPlace
 from netdesign.outcome import OutputError, StudyError
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.anchor_distance import Bore
+from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.study.bores import place_anchors, place_end_anchors
 from netdesign.study.records import CheckRecord, RowStudy, Study
@@ -82,9 +83,10 @@ def map_verdicts(
     found = []
     for row in study.rows:
         place, given = places[row.id], by_id[row.id]
+        points = place_row(given, _find_inclination(row))
         found.append(_map_row(row, place, language))
-        found += _map_posts(row, given, place, language)
-        found += _map_anchors(row, given, standard, place, language)
+        found += _map_posts(row, points, place, language)
+        found += _map_anchors(row, given, points, standard, place, language)
     return found
 
 
@@ -101,14 +103,12 @@ def _map_row(row: RowStudy, place: MeasuredPlace, language: Language) -> Feature
 
 
 def _map_posts(
-    row: RowStudy, given: NetRow, place: MeasuredPlace, language: Language
+    row: RowStudy, points: SupportPoints, place: MeasuredPlace, language: Language
 ) -> Iterator[Feature]:
     """Feet of the net and of the posts, with the verdict of each support."""
-    middle = 0.5 * sum(_list_inclinations(row))
-    base = place_row(given, middle).post_base[0]
     for number, post in enumerate(place.posts, 1):
         verdict = _find_worst(_list_checks(row, place, number))
-        for kind, x in (("net_foot", 0.0), ("post", base)):
+        for kind, x in (("net_foot", 0.0), ("post", points.post_base[0])):
             bore = Bore(start=(x, 0.0, 0.0), direction=(0.0, -1.0, 0.0), length=None)
             head, _, _ = turn_to_map(bore, post, place, number)
             yield _point(
@@ -140,13 +140,12 @@ def _find_worst(checks: Sequence[CheckRecord]) -> str:
 def _map_anchors(
     row: RowStudy,
     given: NetRow,
+    points: SupportPoints,
     standard: Standard,
     place: MeasuredPlace,
     language: Language,
 ) -> Iterator[Feature]:
     """Heads of all anchors of a row, with direction and design force."""
-    middle = 0.5 * sum(_list_inclinations(row))
-    points = place_row(given, middle)
     found = list(place_anchors(given, points, row.pulls))
     outer = list(place_end_anchors(given, points, row.pulls))
     last = len(place.posts)
@@ -217,10 +216,10 @@ def _map_anchor(
     )
 
 
-def _list_inclinations(row: RowStudy) -> tuple[float, float]:
-    """Least and largest inclination of the net in the cases [rad]."""
+def _find_inclination(row: RowStudy) -> float:
+    """Inclination of the net in the middle of the cases [rad]."""
     found = [math.radians(one.case.inclination_deg) for one in row.cases]
-    return (min(found), max(found)) if found else (math.radians(30.0),) * 2
+    return 0.5 * (min(found) + max(found)) if found else math.radians(30.0)
 
 
 def turn_to_map(
@@ -306,7 +305,7 @@ def write_verdicts(
     stem, _, end = name.rpartition(".")
     table = {f"{stem}-setting-out.csv": _write_setting_out(features).encode()}
     if end.lower() == "dxf":
-        return {name: draw_verdicts(features, _SHADES, language)} | table
+        return {name: _draw_all(features, language)} | table
     if end.lower() == "gpkg":
         return {name: write_geopackage(features, crs)} | table
     style = {f"{stem}.qml": _write_style().encode()}
@@ -316,23 +315,16 @@ def write_verdicts(
 def _write_setting_out(features: Sequence[Feature]) -> str:
     """Posts and anchor heads, a line each."""
     text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(SETTING_OUT)
+    table = csv.DictWriter(
+        text, SETTING_OUT, extrasaction="ignore", lineterminator="\n"
+    )
+    table.writeheader()
     for one in features:
         properties = one["properties"]
-        if properties["kind"] == "net row":
-            continue
-        places = dict(
-            zip(
-                ("east_m", "north_m", "height_m"),
-                one["geometry"]["coordinates"],
-                strict=True,
-            )
-        )
-        values = {**properties, **places}
-        table.writerow(
-            ["" if values.get(k) is None else values[k] for k in SETTING_OUT]
-        )
+        if properties["kind"] != "net row":
+            east, north, height = one["geometry"]["coordinates"]
+            place = {"east_m": east, "north_m": north, "height_m": height}
+            table.writerow({**properties, **place})
     return text.getvalue()
 
 
@@ -366,24 +358,10 @@ _AWAY = (0.2, 0.2, 0.0)  # of a label from its point [m]
 _NO_NAME = re.compile(r'[<>/\\":;?*|=`,\x00-\x1f]')  # signs that no layer may have
 
 
-def draw_verdicts(
-    features: Iterable[Feature], shades: Mapping[str, str], language: Language
-) -> bytes:
+def _draw_all(features: Iterable[Feature], language: Language) -> bytes:
     """Drawing of rows, posts and anchors; a layer for each part and verdict.
 
-    Parameters
-    ----------
-    features : iterable of dict
-        As ``map_verdicts`` gives them.
-    shades : mapping of str to str
-        Red, green, blue of each verdict.
-    language : str
-        Of layers and labels.
-
-    Returns
-    -------
-    bytes
-        The same each time.
+    It has the same bytes each time.
     """
     from ezdxf._options import options
     from ezdxf.filemanagement import new
@@ -393,19 +371,17 @@ def draw_verdicts(
     try:
         drawing, text = new("R2010", units=_METRES), io.StringIO()
         for one in features:
-            _draw(drawing, one, shades, language)
+            _draw(drawing, one, language)
         drawing.write(text)
         return drawing.encode(text.getvalue())
     finally:
         options.write_fixed_meta_data_for_testing = before
 
 
-def _draw(
-    drawing: Drawing, feature: Feature, shades: Mapping[str, str], language: Language
-) -> None:
+def _draw(drawing: Drawing, feature: Feature, language: Language) -> None:
     """A row with its name; or a point with its label, and the axis of an anchor."""
     properties, places = feature["properties"], feature["geometry"]["coordinates"]
-    layer = _find_layer(drawing, properties, shades, language)
+    layer = _find_layer(drawing, properties, language)
     space, on_layer = drawing.modelspace(), {"layer": layer}
     if feature["geometry"]["type"] == "LineString":
         space.add_polyline3d(places, dxfattribs=on_layer)
@@ -419,10 +395,7 @@ def _draw(
 
 
 def _find_layer(
-    drawing: Drawing,
-    properties: Mapping[str, Any],
-    shades: Mapping[str, str],
-    language: Language,
+    drawing: Drawing, properties: Mapping[str, Any], language: Language
 ) -> str:
     """Layer of a part and its verdict, in plain words."""
     from ezdxf.colors import rgb2int
@@ -432,7 +405,7 @@ def _find_layer(
     word = render(say(f"verdict.{verdict}"), language)
     name = _NO_NAME.sub(" ", f"{part} - {word}")
     if name not in drawing.layers:
-        red, green, blue, _ = map(int, shades[verdict].split(","))
+        red, green, blue, _ = map(int, _SHADES[verdict].split(","))
         layer = drawing.layers.add(name)
         layer.dxf.true_color = rgb2int((red, green, blue))
     return name
