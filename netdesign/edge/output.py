@@ -66,17 +66,17 @@ def _require_files(paths: list[Path]) -> None:
 
 
 def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> None:
-    own = {one for folder in {p.parent for p in paths} for one in _list_own(folder)}
-    taken = tuple(str(path) for path in paths if path.exists() and path not in own)
+    own = {folder: _read_own(folder) for folder in {path.parent for path in paths}}
+    there = [path for path in paths if path.exists()]
+    taken = tuple(str(one) for one in there if one.name not in own[one.parent])
     if taken and not overwrite and may_force:
         raise OutputError(say("output.exists_force", paths=taken))
     if taken and not overwrite:
         raise OutputError(say("output.exists", paths=taken))
-    there = [path for path in paths if path.exists()]
     busy = tuple(str(path) for path in there if is_open_in_program(path))
     if busy:
         raise OutputError(say("output.open_in_program", paths=busy))
-    for folder in {path.parent for path in paths}:
+    for folder in own:
         nearest = next(p for p in (folder, *folder.absolute().parents) if p.exists())
         if not nearest.is_dir():
             raise OutputError(say("output.no_folder", path=str(nearest)))
@@ -84,26 +84,19 @@ def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> Non
             raise OutputError(say("output.not_writable", path=str(nearest)))
 
 
-def _list_own(folder: Path) -> list[Path]:
-    """Files of a folder that an earlier run wrote there and nobody changed since."""
-    return [
-        folder / name
-        for name, digest in _read_record(folder).items()
-        if _hash_file(folder / name) == digest
-    ]
-
-
-def _read_record(folder: Path) -> dict[str, str]:
-    """Hashes of the files that were written to a folder, by their names."""
+def _read_own(folder: Path) -> dict[str, str]:
+    """Hashes of the files that an earlier run wrote there, and nobody changed since."""
     try:
         found = json.loads((folder / RECORD_FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    is_record = isinstance(found, dict) and all(
-        isinstance(name, str) and isinstance(digest, str)
+    if not isinstance(found, dict):
+        return {}
+    return {
+        name: digest
         for name, digest in found.items()
-    )
-    return found if is_record else {}
+        if _hash_file(folder / name) == digest
+    }
 
 
 def _hash_file(path: Path) -> str:
@@ -114,17 +107,12 @@ def _write_records(contents: Mapping[Path, bytes]) -> dict[Path, bytes]:
     """Record of each folder, with these files in the place of older ones."""
     records: dict[Path, bytes] = {}
     for folder in {path.parent for path in contents}:
-        kept = {
-            path.name: digest
-            for path in _list_own(folder)
-            if (digest := _hash_file(path))
-        }
         written = {
             path.name: hashlib.sha256(content).hexdigest()
             for path, content in contents.items()
             if path.parent == folder
         }
-        text = json.dumps(kept | written, indent=1, sort_keys=True)
+        text = json.dumps(_read_own(folder) | written, indent=1, sort_keys=True)
         records[folder / RECORD_FILE] = text.encode()
     return records
 
