@@ -7,8 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from typing import Protocol
+from dataclasses import dataclass
 
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -20,7 +19,7 @@ _SILENCE_S = 5.0  # longest that plain lines keep silent while cases end
 
 @contextmanager
 def show_progress(
-    total: int, what: str, *, quiet: bool, language: Language = "en"
+    total: int, what: str, *, quiet: bool, language: Language
 ) -> Iterator[Callable[[object], None] | None]:
     """Function to call after each of ``total`` pieces; None when quiet.
 
@@ -72,9 +71,7 @@ class Phase:
     cost : float
         Time of one over that of a steady case in one process [-].
     pieces : int
-        Checks, or whatever else of it is counted; 0 where cases are all there is.
-    unit : Message
-        What a piece is called, in the plural.
+        Checks; 0 where cases are all there is.
     seconds : float
         What it takes besides solves [s].
     """
@@ -85,7 +82,6 @@ class Phase:
     most: int = 0
     cost: float = 1.0
     pieces: int = 0
-    unit: Message = field(default_factory=lambda: say("progress.checks"))
     seconds: float = 0.0
 
 
@@ -130,25 +126,14 @@ class Standing:
         """Words beside a bar, the least important last, where they may be cut."""
         return say("progress.bar", parts=(self.count, *self.left, *self.words))
 
-    def __str__(self) -> str:
-        """The line in English."""
-        return str(self.line)
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wave:
+    """Progress of a search of several rows; ``gap`` is the largest left [-]."""
 
-class SearchWave(Protocol):
-    """Progress of a search; ``envelope.search.Wave`` is one."""
-
-    @property
-    def rows_open(self) -> int:
-        """Net rows that are not finished."""
-
-    @property
-    def cases_waiting(self) -> int:
-        """Cases of the next wave."""
-
-    @property
-    def gap(self) -> float:
-        """Largest gap that is left [-]."""
+    rows_open: int
+    cases_waiting: int
+    gap: float
 
 
 class RunProgress:
@@ -213,7 +198,7 @@ class RunProgress:
         self._waiting = 0
         self._tell()
 
-    def report_wave(self, wave: SearchWave) -> None:
+    def report_wave(self, wave: Wave) -> None:
         """A wave of a search is over."""
         later = wave.cases_waiting + _LATER_CASES * wave.rows_open
         self._expected = self._done_here + later
@@ -265,7 +250,9 @@ class RunProgress:
         is_last = self._place == len(self._phases) - 1
         phase, words = self._phase, self._words
         if phase.pieces:
-            words = (*words, _name_pieces(self._pieces, phase))
+            pieces = {"done": self._pieces, "all": phase.pieces}
+            unit = say("progress.checks")
+            words = (*words, say("progress.pieces", **pieces, unit=unit))
         self._show(
             Standing(
                 done=self._done,
@@ -277,19 +264,15 @@ class RunProgress:
         )
 
 
-def _name_gap(wave: SearchWave) -> Message:
+def _name_gap(wave: Wave) -> Message:
     if not math.isfinite(wave.gap):
         return say("progress.no_bound", rows=wave.rows_open)
     return say("progress.gap", gap=100 * float(wave.gap), rows=wave.rows_open)
 
 
-def _name_pieces(done: int, phase: Phase) -> Message:
-    return say("progress.pieces", done=done, all=phase.pieces, unit=phase.unit)
-
-
 @contextmanager
 def show_phases(
-    phases: Sequence[Phase], *, quiet: bool, language: Language = "en"
+    phases: Sequence[Phase], *, quiet: bool, language: Language
 ) -> Iterator[RunProgress]:
     """Progress of a run of several phases, the last of which solves nothing."""
     if quiet:
@@ -301,7 +284,7 @@ def show_phases(
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield RunProgress(phases, _write_lines(language=language))
+        yield RunProgress(phases, _write_lines(language))
         return
     text = Column(no_wrap=True, overflow="ellipsis", ratio=1)
     columns = (
@@ -327,18 +310,16 @@ def show_phases(
         yield RunProgress(phases, show, clear=progress.stop)
 
 
-def _write_lines(
-    clock: Callable[[], float] = time.monotonic, language: Language = "en"
-) -> Callable[[Standing], None]:
+def _write_lines(language: Language) -> Callable[[Standing], None]:
     """One line for each stage, and between them before anybody wonders."""
     last: Message | str = ""
-    told = clock()
+    told = time.monotonic()
 
     def show(standing: Standing) -> None:
         nonlocal last, told
         is_new = standing.stage != last and standing.done > 0
-        if is_new or clock() - told >= _SILENCE_S:
-            last, told = standing.stage, clock()
+        if is_new or time.monotonic() - told >= _SILENCE_S:
+            last, told = standing.stage, time.monotonic()
             sys.stderr.write(f"{render(standing.line, language)}\n")
 
     return show

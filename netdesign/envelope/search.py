@@ -7,9 +7,9 @@ Theory: envelope/THEORY.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 
+from netdesign.edge.progress import Wave
 from netdesign.envelope.cases import Cases, FirstCases
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.lift import bound_lifted
@@ -27,15 +27,6 @@ from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import Batch, Ends
 from netdesign.words.message import say
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wave:
-    """Progress of a search of several rows; ``gap`` is the largest left [-]."""
-
-    rows_open: int
-    cases_waiting: int
-    gap: float
 
 
 class RowSearch:

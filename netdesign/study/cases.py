@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from netdesign.coupling.scene import Scene
-from netdesign.edge.progress import Phase
+from netdesign.edge.progress import Phase, Wave
 from netdesign.envelope.confirm import (
     build_history_settings,
     confirm_envelopes,
@@ -16,7 +16,7 @@ from netdesign.envelope.confirm import (
 from netdesign.envelope.ranges import Case, Ranges, build_cases
 from netdesign.envelope.rows import RowEnvelope, RowGrid, RowTask, refine_settings
 from netdesign.envelope.run import CaseTask, build_task, run_cases
-from netdesign.envelope.search import Wave, search_rows
+from netdesign.envelope.search import search_rows
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
 from netdesign.search.questions import list_first_design

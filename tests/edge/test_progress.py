@@ -5,7 +5,6 @@ import os
 import re
 import subprocess
 import sys
-from dataclasses import dataclass
 from functools import lru_cache
 
 import pytest
@@ -15,19 +14,12 @@ from hypothesis import strategies as st
 from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.edge import progress as progress_module
-from netdesign.edge.progress import Phase, RunProgress, show_phases
+from netdesign.edge.progress import Phase, RunProgress, Wave, show_phases
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
 from tests.short_example import write_short_example
 
 solve_once = lru_cache(maxsize=None)(solve_scene)
-
-
-@dataclass(frozen=True)
-class Wave:
-    rows_open: int
-    cases_waiting: int
-    gap: float
 
 
 class Clock:
@@ -60,7 +52,7 @@ def run_made_up(drawn, clock, show):
                 clock.now += 0.37 * cost
                 progress.count_case()
             if not pieces:
-                progress.report_wave(Wave(1, 0, 0.5))
+                progress.report_wave(Wave(rows_open=1, cases_waiting=0, gap=0.5))
         for _ in range(pieces):
             progress.count_piece()
     progress.enter("reports")
@@ -78,7 +70,7 @@ def test_no_count_is_zero_before_the_last_solve_ends(drawn):
     assert [one.done for one in shown] == sorted(one.done for one in shown)
     for one in before:
         assert one.seconds is None or (math.isfinite(one.seconds) and one.seconds > 0)
-        assert "0 to go" not in re.findall(r"\b\d+ to go", str(one))
+        assert "0 to go" not in re.findall(r"\b\d+ to go", str(one.line))
 
 
 @given(cases=st.integers(3, 60), later=st.integers(1, 60), cost=st.floats(0.5, 150.0))
@@ -121,12 +113,14 @@ def test_a_wave_gives_gap_and_rows_and_corrects_the_count():
         Phase(key="b", words="", cases=40),
     ]
     progress = RunProgress(phases, shown.append, Clock())
-    progress.report_wave(Wave(2, 9, math.inf))
-    assert "no bound yet, 2 rows open" in str(shown[-1])
-    progress.report_wave(Wave(1, 3, 0.0234))
-    assert str(shown[-1]) == "search: 0 solved, about 49 to go; gap 2.3 %, 1 row open"
-    progress.report_wave(Wave(0, 0, 0.0))
-    assert str(shown[-1]) == "search: 0 solved, about 40 to go"
+    progress.report_wave(Wave(rows_open=2, cases_waiting=9, gap=math.inf))
+    assert "no bound yet, 2 rows open" in str(shown[-1].line)
+    progress.report_wave(Wave(rows_open=1, cases_waiting=3, gap=0.0234))
+    assert (
+        str(shown[-1].line) == "search: 0 solved, about 49 to go; gap 2.3 %, 1 row open"
+    )
+    progress.report_wave(Wave(rows_open=0, cases_waiting=0, gap=0.0))
+    assert str(shown[-1].line) == "search: 0 solved, about 40 to go"
 
 
 # --- the program ---------------------------------------------------------------------
@@ -248,6 +242,8 @@ def read_all(handle):
 
 
 def test_nothing_is_shown_quietly(capsys):
-    with show_phases([Phase(key="a", words="a", cases=3)], quiet=True) as progress:
+    with show_phases(
+        [Phase(key="a", words="a", cases=3)], quiet=True, language="en"
+    ) as progress:
         progress.count_case()
     assert capsys.readouterr() == ("", "")
