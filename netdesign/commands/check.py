@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -88,8 +87,13 @@ def check(site_file: Path | None, **asked: Any) -> None:
         from netdesign.files.rows_map import require_rows
 
         require_rows(outputs.style.places, site)
-    bare = asked | {"annotate": None}
-    again = partial(_read_replaced, site_file, bare) if asked["size"] else None
+
+    def read_again(instead: Mapping[str, str]) -> Site:
+        """Site with other texts in some cells."""
+        given = {**asked, "annotate": None, "instead": instead}
+        return choose_rows(read_asked_site(site_file, given), asked["rows"])
+
+    again = read_again if asked["size"] else None
     name = str(site_file or "--example")
     sys.exit(carry_out(site, profiles, run, outputs, again, asked, name))
 
@@ -109,15 +113,6 @@ def _refuse_contradictions(
         raise UsageRefusal(say("what_if.size_or_what_if"))
     if asked["size"] and (asked["dry_run"] or folder is None):
         raise UsageRefusal(say("what_if.size_needs_files"))
-
-
-def _read_replaced(
-    site_file: Path | None, asked: Mapping[str, Any], instead: Mapping[str, str]
-) -> Site:
-    """Site with other texts in some cells."""
-    return choose_rows(
-        read_asked_site(site_file, {**asked, "instead": instead}), asked["rows"]
-    )
 
 
 def _choose_profiles(

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from netdesign.numerics.arrays import Floats
-    from netdesign.study.cost import Prices
     from netdesign.study.layout import GivenZone, Proposed
     from netdesign.study.records import Study
     from netdesign.terrain.grid import Grid
@@ -96,8 +95,9 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
 def _read(grid: Path, zone: Path, asked: Mapping[str, Any]) -> GivenZone:
     from netdesign.checks import load_standard
     from netdesign.checks.geometry import read_reach
+    from netdesign.files.prices import read_prices
     from netdesign.study.layout import GivenZone
-    from netdesign.terrain.constructions import read_catalogue
+    from netdesign.terrain.constructions import list_types, read_catalogue
     from netdesign.terrain.plan import read_zones
 
     spacing = load_standard(asked["spacing_standard"])
@@ -112,20 +112,12 @@ def _read(grid: Path, zone: Path, asked: Mapping[str, Any]) -> GivenZone:
         zones=zones,
         catalogue=read_catalogue(asked["types"]),
         types=asked["types"],
-        prices=_read_prices(asked),
+        prices=asked["prices"]
+        and read_prices(asked["prices"], list_types(asked["types"])),
         standard=load_standard(asked["standard"]),
         find_snow=_choose_snow(ground, asked),
         find_reach=find_reach,
     )
-
-
-def _read_prices(asked: Mapping[str, Any]) -> Prices | None:
-    from netdesign.files.prices import read_prices
-    from netdesign.terrain.constructions import list_types
-
-    if asked["prices"] is None:
-        return None
-    return read_prices(asked["prices"], list_types(asked["types"]))
 
 
 def _choose_snow(ground: Grid, asked: Mapping[str, Any]) -> Callable[[Floats], Floats]:

@@ -24,7 +24,6 @@ from netdesign.words.message import say
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
 DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
-_EXAMPLE, _CLUSTER = "--example", "--executor"
 _TYPED, _SET = ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT
 
 
@@ -200,7 +199,7 @@ def refuse_delimiter(*paths: Path | None) -> None:
 
     if any(path is not None and is_text(path) for path in paths):
         return
-    file = _EXAMPLE if paths[-1] is None else paths[-1].name
+    file = "--example" if paths[-1] is None else paths[-1].name
     _refuse(["delimiter"], "usage.idle_in_workbook", file=file)
 
 
@@ -213,7 +212,7 @@ def refuse_jobs(executor: str) -> None:
         If it was typed.
     """
     if executor:
-        _refuse(["jobs"], "usage.idle_beside", other=_CLUSTER)
+        _refuse(["jobs"], "usage.idle_beside", other="--executor")
 
 
 def _refuse(names: Sequence[str], key: str, **why: Any) -> None:

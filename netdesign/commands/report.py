@@ -79,20 +79,17 @@ def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
         from netdesign.report.document.template import read_template
 
         content = read_template(asked["template"])
+    places: RowsMap | None = None
+    if asked["rows_map"]:
+        from netdesign.files.rows_map import read_rows_map
+
+        places = read_rows_map(asked["rows_map"])
     return ReportStyle(
         language=asked["language"],
         detail=asked["detail"],
         template=content,
-        places=_read_places(asked["rows_map"]),
+        places=places,
     )
-
-
-def _read_places(path: Path | None) -> RowsMap | None:
-    if path is None:
-        return None
-    from netdesign.files.rows_map import read_rows_map
-
-    return read_rows_map(path)
 
 
 @click.command()

@@ -206,9 +206,6 @@ def _write_copy(
     write_outputs(copy.parent, {copy.name: content}, asked)
 
 
-_SUFFIX = ".xlsx"
-
-
 @click.command()
 @click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
 @take_options("init")
@@ -223,7 +220,7 @@ def init(site_file: Path, **asked: Any) -> None:
     from netdesign.edge.output import require_free
     from netdesign.site.template.workbook import write_site_workbook
 
-    if site_file.suffix.lower() != _SUFFIX:
+    if site_file.suffix.lower() != ".xlsx":
         raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
     given = {"example": asked["example"], "language": asked["language"]}
     require_free([site_file], overwrite=asked["force"])
@@ -231,12 +228,16 @@ def init(site_file: Path, **asked: Any) -> None:
     tell(say("cli.wrote", path=str(site_file)), err=True)
 
 
-def _put(question: Question) -> str:
-    """One question on the terminal; an empty answer leaves it open."""
+def _put(question: Question, known: set[tuple[str, str]]) -> str:
+    """One question on the terminal, once; an empty answer leaves it open."""
     from netdesign.site.questions import is_accepted
 
+    asked = (question.sheet, question.asked)
+    if asked in known:
+        return ""
+    known.add(asked)
     hints = "; ".join(render(one, speak()) for one in question.hints if one)
-    place = " › ".join(one for one in (question.sheet, question.asked) if one)
+    place = " › ".join(filter(None, asked))
     click.echo(f"{place}\n  {hints}", err=True)
     while True:
         try:
@@ -248,15 +249,6 @@ def _put(question: Question) -> str:
         if not answer.strip() or is_accepted(question, answer.strip()):
             return answer
         tell(say("map.not_accepted", answer=answer.strip()), err=True)
-
-
-def _put_once(question: Question, known: set[tuple[str, str]]) -> str:
-    """The same, once: a question that was left open is not asked again."""
-    asked = (question.sheet, question.asked)
-    if asked in known:
-        return ""
-    known.add(asked)
-    return _put(question)
 
 
 @click.command(name="map")
@@ -281,7 +273,7 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     place, overwrite = name_map(site_file), asked["force"]
     require_free([place], overwrite=overwrite)
     known: set[tuple[str, str]] = set()
-    put = partial(_put_once, known=known) if asked["ask"] else None
+    put = partial(_put, known=known) if asked["ask"] else None
     before = -1
     while len(known) > before:  # a sheet that is known now has headings to ask for
         before = len(known)

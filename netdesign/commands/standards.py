@@ -56,17 +56,13 @@ def show_profile(name: str, *, language: Language) -> None:
     profile, words = load_standard(name), Words(language)
     title = show_own(words, f"{profile.title}, {profile.edition}")
     tell(say("show.label", label=profile.id, text=title))
-    told = say("standard.version", version=profile.version, sha256=profile.sha256)
-    tell(told)
+    tell(say("standard.version", version=profile.version, sha256=profile.sha256))
     if profile.choice:
         tell(say("standard.choice", choice=profile.choice))
         click.echo(show_own(words, profile.choice_text))
-    floor = f"floor.profile_{profile.floor}"
-    tell(say(floor))
-    route = render(name_of("route", profile.route), language)
-    tell(say("standard.route", route=route))
-    added = render(name_of("shared_sum", profile.shared_sum), language)
-    tell(say("standard.shared_sum", sum=added))
+    tell(say(f"floor.profile_{profile.floor}"))
+    tell(say("standard.route", route=name_of("route", profile.route)))
+    tell(say("standard.shared_sum", sum=name_of("shared_sum", profile.shared_sum)))
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:

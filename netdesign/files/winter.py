@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from netdesign.checks.result import Band
 from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
@@ -325,7 +324,9 @@ def _write_day(
         "density_kg_m3": day.density,
         "foot_kN_per_m": _in_kilonewton(day.pull),
         "head_kN_per_m": _in_kilonewton(day.head.value if day.head else None),
-        "error_kN_per_m": _in_kilonewton(_half(day.foot) if day.foot else None),
+        "error_kN_per_m": _in_kilonewton(
+            (day.foot.high - day.foot.low) / 2.0 if day.foot else None
+        ),
         "members_kN": {
             name: kilonewton_from_newton(band.value)
             for name, band in day.member_forces.items()
@@ -335,10 +336,6 @@ def _write_day(
             for layer in day.layers
         ],
     }
-
-
-def _half(band: Band) -> float:
-    return (band.high - band.low) / 2.0
 
 
 def _in_kilonewton(force: float | None) -> float | None:
