@@ -86,15 +86,14 @@ class LanguageContext(click.Context):
     """Context of a command whose help is in the language of the run."""
 
     def make_formatter(self) -> click.HelpFormatter:
-        """Formatter of the help; that of click for English."""
+        """Formatter of the help."""
         root = self.find_root().command
         if not isinstance(root, click.Group):  # one command by itself, as tests run it
             return super().make_formatter()
-        told = load_help(find_language(root, sys.argv[1:]))
-        if told is None:
-            return super().make_formatter()
         return LanguageFormatter(
-            told, width=self.terminal_width, max_width=self.max_content_width
+            load_help(find_language(root, sys.argv[1:])),
+            width=self.terminal_width,
+            max_width=self.max_content_width,
         )
 
 

@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from netdesign.checks import Standard
-    from netdesign.checks.schema import Floor
     from netdesign.site.model import Site
 
 
@@ -65,7 +64,9 @@ def check(site_file: Path | None, **asked: Any) -> None:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
-    profiles = _choose_profiles(asked["standards"], site, asked["floor"])
+    profiles = _find_profiles(asked["standards"], site)
+    if asked["floor"]:
+        profiles = [one.overrule_floor(asked["floor"]) for one in profiles]
     _describe_other_profile(asked["standards"], site)
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
@@ -113,14 +114,6 @@ def _refuse_contradictions(
         raise UsageRefusal(say("what_if.size_or_what_if"))
     if asked["size"] and (asked["dry_run"] or folder is None):
         raise UsageRefusal(say("what_if.size_needs_files"))
-
-
-def _choose_profiles(
-    names: Sequence[str], site: Site, floor: Floor | None
-) -> list[Standard]:
-    """Profiles, with the floor that was chosen for them, if any was."""
-    profiles = _find_profiles(names, site)
-    return [one.overrule_floor(floor) for one in profiles] if floor else profiles
 
 
 def _describe_other_profile(names: Sequence[str], site: Site) -> None:

@@ -115,7 +115,7 @@ def _describe_in_language(kind: type[ShellComplete]) -> type[ShellComplete]:
             items: list[CompletionItem] = super().get_completions(args, incomplete)
             told = load_help(find_language(self.cli, args))
             for item in items:
-                item.help = told.tell(item.help) if told and item.help else item.help
+                item.help = item.help and told.tell(item.help)
             return items
 
     return Told

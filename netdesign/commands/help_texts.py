@@ -62,8 +62,8 @@ class HelpTexts:
         found = _EXTRAS.fullmatch(text)
         if found is None:
             return self.tell(text)
-        joint = self.extras["; "]
-        extras = joint.join(self._describe_extra(one) for one in found[2].split("; "))
+        told = [self._describe_extra(one) for one in found[2].split("; ")]
+        extras = self.extras.get("; ", "; ").join(told)
         return f"{self.tell(found[1])}  [{extras}]"
 
     def translate_signs(self, text: str) -> str:
@@ -79,10 +79,10 @@ class HelpTexts:
 
 
 @lru_cache
-def load_help(language: Language) -> HelpTexts | None:
-    """Texts of help in a language; None for English, which the commands have."""
+def load_help(language: Language) -> HelpTexts:
+    """Texts of help in a language; none for English, which the commands have."""
     if language == "en":
-        return None
+        return HelpTexts({}, {}, {})
     # every start of the program would pay for them, also where none asks for help
     import tomllib
     from importlib.resources import files

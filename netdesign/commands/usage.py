@@ -87,7 +87,7 @@ def describe_refusal(
         return shown.getvalue()
     reason = render(explain_usage(error, command), language)
     if isinstance(error, click.MissingParameter):
-        reason = _translate_signs(reason, language)
+        reason = load_help(language).translate_signs(reason)
     told = [say("usage.error", reason=reason)]
     context = getattr(error, "ctx", None)
     if context is not None:
@@ -98,18 +98,12 @@ def describe_refusal(
 def _describe_usage(context: click.Context, language: Language) -> list[Message]:
     command = context.command
     pieces = " ".join(command.collect_usage_pieces(context))
-    line = f"{context.command_path} {_translate_signs(pieces, language)}"
+    line = f"{context.command_path} {load_help(language).translate_signs(pieces)}"
     lines = [say("usage.usage", line=line)]
     if command.get_help_option(context) is not None:
         option = context.help_option_names[-1]
         lines.append(say("usage.try", command=context.command_path, option=option))
     return lines
-
-
-def _translate_signs(text: str, language: Language) -> str:
-    """Names of arguments as the help of the language has them."""
-    told = load_help(language)
-    return told.translate_signs(text) if told else text
 
 
 def explain_usage(

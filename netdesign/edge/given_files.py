@@ -19,7 +19,6 @@ _MOST_POINTS = 200
 _MOST_FAULTS = 50
 
 _TOML_PLACE = re.compile(r"\(at line ([0-9]+), column ([0-9]+)\)")
-_AT_END = say("file.at_end")
 
 
 def is_there(path: Path) -> bool:
@@ -89,8 +88,9 @@ def _describe_toml(error: tomllib.TOMLDecodeError) -> Message:
     """Words of ours for what the parser tells in English only."""
     told = str(error)
     found = _TOML_PLACE.search(told)
-    line, column = found.groups() if found else ("", "")
-    place = say("file.at_line", line=line, column=column) if found else _AT_END
+    place = say("file.at_end")
+    if found:
+        place = say("file.at_line", line=found[1], column=found[2])
     is_twice = told.startswith(("Cannot", "Duplicate"))
     return say("file.twice" if is_twice else "file.no_value", place=place)
 

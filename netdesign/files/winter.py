@@ -16,6 +16,7 @@ from netdesign.units import (
     celsius_from_kelvin,
     degree_from_radian,
     kilonewton_from_newton,
+    kilonewton_if_known,
 )
 from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.fit import SeasonFit
@@ -271,12 +272,14 @@ def _write_winter(
         "governing_date": series.day(index).isoformat() if index is not None else None,
         "governing_height_m": packs[index].height if index is not None else None,
         "governing_density_kg_m3": packs[index].density if index is not None else None,
-        "foot_peak_kN_per_m": _in_kilonewton(foot),
-        "head_peak_kN_per_m": _in_kilonewton(_largest_head(season) if season else head),
+        "foot_peak_kN_per_m": kilonewton_if_known(foot),
+        "head_peak_kN_per_m": kilonewton_if_known(
+            _largest_head(season) if season else head
+        ),
         "members_peak_kN": _largest_members(season) if season else {},
-        "uniform_peak_kN_per_m": _in_kilonewton(uniform),
-        "uniform_at_most_kN_per_m": _in_kilonewton(maximum.bound),
-        "foot_at_height_max_kN_per_m": _in_kilonewton(season.highest.pull)
+        "uniform_peak_kN_per_m": kilonewton_if_known(uniform),
+        "uniform_at_most_kN_per_m": kilonewton_if_known(maximum.bound),
+        "foot_at_height_max_kN_per_m": kilonewton_if_known(season.highest.pull)
         if season
         else None,
         "equivalent_density_kg_m3": (
@@ -301,10 +304,10 @@ def _write_maximum(
     day = run.winter.series.day(maximum.index) if maximum.index is not None else None
     return {
         "outcome": maximum.ending.replace(" ", "_"),
-        "uniform_peak_kN_per_m": _in_kilonewton(
+        "uniform_peak_kN_per_m": kilonewton_if_known(
             maximum.foot if maximum.has_pull else None
         ),
-        "uniform_at_most_kN_per_m": _in_kilonewton(maximum.bound),
+        "uniform_at_most_kN_per_m": kilonewton_if_known(maximum.bound),
         "date": day.isoformat() if day else None,
         "density_kg_m3": maximum.density,
         "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
@@ -322,9 +325,9 @@ def _write_day(
         "swe_kg_m2": packs[day.index].mass,
         "thickness_m": day.thickness,
         "density_kg_m3": day.density,
-        "foot_kN_per_m": _in_kilonewton(day.pull),
-        "head_kN_per_m": _in_kilonewton(day.head.value if day.head else None),
-        "error_kN_per_m": _in_kilonewton(
+        "foot_kN_per_m": kilonewton_if_known(day.pull),
+        "head_kN_per_m": kilonewton_if_known(day.head.value if day.head else None),
+        "error_kN_per_m": kilonewton_if_known(
             (day.foot.high - day.foot.low) / 2.0 if day.foot else None
         ),
         "members_kN": {
@@ -336,10 +339,6 @@ def _write_day(
             for layer in day.layers
         ],
     }
-
-
-def _in_kilonewton(force: float | None) -> float | None:
-    return None if force is None else kilonewton_from_newton(force)
 
 
 def _largest_head(season: Season) -> float | None:
@@ -367,7 +366,7 @@ def _write_statistics(
         "distribution": _LIMITED if limit else "Gumbel, by moments",
         "winters": fit.count,
         "winters_below": fit.below if isinstance(fit, LimitedGumbel) else 0,
-        "limit_kN_per_m": _in_kilonewton(limit),
+        "limit_kN_per_m": kilonewton_if_known(limit),
         "mean_kN_per_m": kilonewton_from_newton(fit.mean),
         "variation": fit.variation,
         "gev_shape": other.shape if other else None,
