@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 # Of a study almost nothing is ever thrown away: looking for it took a tenth of a run.
 _OBJECTS = 100_000
-_EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
+_EXIT_USAGE, _EXIT_INTERRUPTED = 2, 130
 
 
 class LanguageFormatter(click.HelpFormatter):

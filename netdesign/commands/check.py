@@ -60,7 +60,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     site = choose_rows(read_asked_site(site_file, asked), asked["rows"])
 
     # behind the reading: a faulty workbook is refused without a solver
-    from netdesign.commands.check_run import carry_out, plan_outputs
+    from netdesign.commands.check_run import announce, carry_out, plan_outputs
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
@@ -77,8 +77,6 @@ def check(site_file: Path | None, **asked: Any) -> None:
         has_reliability=asked["reliability"],
     )
     if asked["dry_run"]:
-        from netdesign.commands.check_run import announce
-
         sys.exit(announce(site, run, len(profiles), as_json=asked["as_json"]))
     if not asked["quiet"]:
         for question in site.questions:

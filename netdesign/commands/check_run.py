@@ -184,12 +184,16 @@ def plan_outputs(
     kinds = list_wanted(asked)
     mark = partial(mark_names, is_what_if=asked["instead"], is_part=asked["rows"])
     names = name_files(folder, profiles, mark([STUDY_FILE, *kinds]))
-    is_compared = folder is not None and "report.html" in kinds and len(profiles) > 1
-    page = mark([PROFILES_FILE])
+    is_compared = "report.html" in kinds and len(profiles) > 1
+    page = mark([PROFILES_FILE]) if is_compared else []
+    what_ifs = [
+        [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in group]
+        for group in names
+    ]
     outputs = Outputs(
         of_studies=names,
-        sized=_mark_paths(names) if asked["size"] else [],
-        together=[folder / name for name in page] if folder and is_compared else [],
+        sized=what_ifs if asked["size"] else [],
+        together=[folder / name for name in page] if folder else [],
         style=choose_style(asked),
     )
     groups = (*outputs.of_studies, *outputs.sized, outputs.together)
@@ -286,14 +290,6 @@ def _write_command(command: str, instead: Mapping[str, str]) -> str:
     for cell, text in instead.items():
         words += ["--what-if", write_replacement(cell, text)]
     return shlex.join(words)
-
-
-def _mark_paths(names: Sequence[Sequence[Path]]) -> list[list[Path]]:
-    """Places of what-if outputs beside those of each study."""
-    return [
-        [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in group]
-        for group in names
-    ]
 
 
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick

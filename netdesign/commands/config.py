@@ -159,21 +159,19 @@ def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
     given = typed.get("config")
     if isinstance(given, str):
         return Path(given)
-    names = [
-        param.name for param in command.params if isinstance(param, click.Argument)
-    ]
     beside = [
         Path(value).parent / CONFIG_NAME
-        for name in names
-        if isinstance(value := typed.get(name or ""), str)
+        for one in command.params
+        if isinstance(one, click.Argument)
+        and isinstance(value := typed.get(one.name or ""), str)
     ]
     return next((one for one in beside if is_there(one) and one.is_file()), None)
 
 
-def read_default(
-    group: click.Group, command: click.Command, words: list[str], name: str
-) -> str | None:
-    """One option's default from the file of a command line; None where there is none.
+def _read_language(
+    group: click.Group, command: click.Command, words: list[str]
+) -> object:
+    """Default of the language in the file of a command line; None where there is none.
 
     What is wrong with the line or its file is told by whoever parses them.
     """
@@ -188,8 +186,7 @@ def read_default(
         table = read_toml(path).get(command.name or "", {}) if path else {}
     except (click.UsageError, OSError, ValueError):
         return None
-    found = table.get(name) if isinstance(table, dict) else None
-    return found if isinstance(found, str) else None
+    return table.get("language") if isinstance(table, dict) else None
 
 
 def _read_defaults(
@@ -302,9 +299,9 @@ def find_language(group: click.Group, words: Sequence[str]) -> Language:
     own = [_name_variable("_".join(path), _OPTION)] if path else []
     variables = [*own, LANGUAGE_VARIABLE]
     told = next(filter(None, map(os.environ.get, variables)), None)
-    found = _find_option(words) or told
+    found: object = _find_option(words) or told
     if not found and command is not None:
-        found = read_default(group, command, list(words[len(path) :]), "language")
+        found = _read_language(group, command, list(words[len(path) :]))
     return next((one for one in LANGUAGES if one == found), LANGUAGES[0])
 
 

@@ -66,6 +66,7 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     design for. Exit code 4 if a winter may be the largest and has no proven maximum,
     or a fit is refused.
     """
+    from netdesign.edge.progress import Phase
     from netdesign.files.winter import write_winter_document
     from netdesign.report.page.winter_page import (
         DOCUMENT_FILE,
@@ -82,8 +83,10 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     chosen = choose_rows(site, asked["rows"])
     if asked["fit"]:
         require_measured_forces(chosen)
-    phases = _list_phases(chosen, is_fitted=asked["fit"])
-    with open_phases(phases, asked) as (runner, progress):
+    count = (_PHASE + SOLVES * asked["fit"]) * len(chosen.rows)
+    words = say("phase.winters")
+    phase = Phase(key="winters", words=words, cases=count, most=4 * count)
+    with open_phases([phase], asked) as (runner, progress):
         progress.enter("winters")
         run = fit_rows(_solve(chosen, station, runner, asked), asked, runner)
     failed = print_faults(runner.faults)
@@ -137,15 +140,6 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     if found is None:
         raise ModelError(say("winter.no_heights"))
     return replace(found, series=smooth(found.series)) if asked["median"] else found
-
-
-def _list_phases(site: Site, *, is_fitted: bool) -> list[Any]:
-    from netdesign.edge.progress import Phase
-
-    count = (_PHASE + SOLVES * is_fitted) * len(site.rows)
-    return [
-        Phase(key="winters", words=say("phase.winters"), cases=count, most=4 * count)
-    ]
 
 
 def _solve(

@@ -7,8 +7,8 @@ import json
 import os
 import re
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterable, Mapping
+from contextlib import ExitStack
 from pathlib import Path
 
 from netdesign.edge.causes import explain_system, explain_with_file
@@ -145,7 +145,9 @@ def write_files(
     try:
         for folder in folders:
             folder.mkdir(parents=True, exist_ok=True)
-        with _alone_in(folders) as is_alone:
+        with ExitStack() as held:
+            # other runs that write there wait, where a lock is to be had
+            is_alone = all([lock_folder(folder, held) for folder in sorted(folders)])
             require_free(list(contents), overwrite=overwrite)
             if is_alone:
                 records = {folder / RECORD_FILE for folder in folders}
@@ -156,13 +158,6 @@ def write_files(
         raise OutputError(
             say("output.cannot_write", cause=explain_with_file(error))
         ) from error
-
-
-@contextmanager
-def _alone_in(folders: Iterable[Path]) -> Iterator[bool]:
-    """Hold back other runs that write there; False where no lock is to be had."""
-    with ExitStack() as held:
-        yield all([lock_folder(folder, held) for folder in sorted(folders)])
 
 
 def _remove_leftovers(paths: Iterable[Path]) -> None:
@@ -184,7 +179,10 @@ def _exchange(contents: Mapping[Path, bytes]) -> None:
         for path, content in contents.items():
             handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
             new[path] = Path(name)
-            _fill(handle, content)
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
             new[path].chmod(_usual_mode())
         for path, temporary in new.items():
             if path.exists():
@@ -209,13 +207,6 @@ def _undo(new: Mapping[Path, Path], old: Mapping[Path, Path]) -> None:
     for path, aside in old.items():
         if aside.exists():  # else it never left
             aside.replace(path)
-
-
-def _fill(handle: int, content: bytes) -> None:
-    with os.fdopen(handle, "wb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
 
 
 def _usual_mode() -> int:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import AfterValidator, Field, ValidationError
 
 from netdesign.cable.net import Net
 from netdesign.coupling.history.settings import (
@@ -56,7 +56,7 @@ from netdesign.units import (
 from netdesign.words.message import Message, say
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
-Pair = Annotated[list[Finite], Field(min_length=2, max_length=2)]
+Pair = Annotated[list[Finite], Field(min_length=2, max_length=2), AfterValidator(tuple)]
 Density = Annotated[float, Field(gt=0, le=DENSEST_SNOW * ICE_DENSITY)]
 Temperature = Annotated[float, Field(ge=-60, le=0)]
 
@@ -277,23 +277,11 @@ def _creep_law(snow: SnowTable) -> CreepLaw:
         given = snow.creep_law
         if given.name in CREEP_LAWS:
             raise ModelError(say("scene_file.shipped_law", name=given.name))
-        return CreepLaw(
-            name=given.name,
-            source=given.source,
-            exponent=snow.creep_exponent,
-            shear_fit=(given.shear_fit[0], given.shear_fit[1]),
-            bulk_fit=(given.bulk_fit[0], given.bulk_fit[1]),
-            branch=given.branch,
-            clamp=given.clamp,
-            calibrated=(given.calibrated[0], given.calibrated[1]),
-        )
+        return CreepLaw(exponent=snow.creep_exponent, **dict(given))
     if snow.creep_law not in CREEP_LAWS:
+        known = tuple(CREEP_LAWS)
         raise ModelError(
-            say(
-                "scene_file.unknown_law",
-                name=snow.creep_law,
-                known=tuple(CREEP_LAWS),
-            )
+            say("scene_file.unknown_law", name=snow.creep_law, known=known)
         )
     return replace(CREEP_LAWS[snow.creep_law], exponent=snow.creep_exponent)
 

@@ -258,7 +258,12 @@ def _write_winter(
     index = governing.index if governing else maximum.index
     uniform = maximum.foot if maximum.has_pull else None
     foot = governing.pull if governing else uniform
+    at_highest = season.highest.pull if season else None
+    curve: Sequence[RowDay] = season.curve if season else ()
+    heads = [day.head.value for day in curve if day.head]
     head = maximum.head if maximum.has_pull else None
+    if season:
+        head = max(heads, default=None)
     return {
         "name": maximum.winter,
         "outcome": maximum.ending.replace(" ", "_"),
@@ -273,24 +278,16 @@ def _write_winter(
         "governing_height_m": packs[index].height if index is not None else None,
         "governing_density_kg_m3": packs[index].density if index is not None else None,
         "foot_peak_kN_per_m": kilonewton_if_known(foot),
-        "head_peak_kN_per_m": kilonewton_if_known(
-            _largest_head(season) if season else head
-        ),
-        "members_peak_kN": _largest_members(season) if season else {},
+        "head_peak_kN_per_m": kilonewton_if_known(head),
+        "members_peak_kN": _largest_members(curve),
         "uniform_peak_kN_per_m": kilonewton_if_known(uniform),
         "uniform_at_most_kN_per_m": kilonewton_if_known(maximum.bound),
-        "foot_at_height_max_kN_per_m": kilonewton_if_known(season.highest.pull)
-        if season
-        else None,
-        "equivalent_density_kg_m3": (
-            season.equivalent_density if season else maximum.equivalent_density
-        ),
+        "foot_at_height_max_kN_per_m": kilonewton_if_known(at_highest),
+        "equivalent_density_kg_m3": (season or maximum).equivalent_density,
         "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
         "days_above_90_percent": season.high_days if season else None,
         "days_without_force": len(season.failed) if season else None,
-        "curve": [_write_day(day, packs, run) for day in season.curve]
-        if season
-        else [],
+        "curve": [_write_day(day, packs, run) for day in curve],
     }
 
 
@@ -341,15 +338,10 @@ def _write_day(
     }
 
 
-def _largest_head(season: Season) -> float | None:
-    pulls = [day.head.value for day in season.curve if day.head]
-    return max(pulls, default=None)
-
-
-def _largest_members(season: Season) -> dict[str, float]:
-    """Largest force of each member over the curve [kN]."""
+def _largest_members(curve: Sequence[RowDay]) -> dict[str, float]:
+    """Largest force of each member over a curve [kN]."""
     found: dict[str, float] = {}
-    for day in season.curve:
+    for day in curve:
         for name, band in day.member_forces.items():
             force = kilonewton_from_newton(band.value)
             found[name] = max(force, found.get(name, 0.0))
