@@ -88,8 +88,6 @@ class LanguageContext(click.Context):
     def make_formatter(self) -> click.HelpFormatter:
         """Formatter of the help."""
         root = self.find_root().command
-        if not isinstance(root, click.Group):  # one command by itself, as tests run it
-            return super().make_formatter()
         return LanguageFormatter(
             load_help(find_language(root, sys.argv[1:])),
             width=self.terminal_width,

@@ -169,7 +169,7 @@ def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
 
 
 def _read_language(
-    group: click.Group, command: click.Command, words: list[str]
+    group: click.Command, command: click.Command, words: list[str]
 ) -> object:
     """Default of the language in the file of a command line; None where there is none.
 
@@ -293,7 +293,7 @@ def _suggest(place: str, word: str, known: list[str]) -> Message:
 _OPTION = "--language"
 
 
-def find_language(group: click.Group, words: Sequence[str]) -> Language:
+def find_language(group: click.Command, words: Sequence[str]) -> Language:
     """Language of a command line; what is no language is refused elsewhere."""
     path, command = find_command(group, words)
     own = [_name_variable("_".join(path), _OPTION)] if path else []
@@ -306,11 +306,11 @@ def find_language(group: click.Group, words: Sequence[str]) -> Language:
 
 
 def find_command(
-    group: click.Group, words: Sequence[str]
+    group: click.Command, words: Sequence[str]
 ) -> tuple[tuple[str, ...], click.Command | None]:
     """Names of the command, as far as they are known, and the command."""
     path: list[str] = []
-    command: click.Command = group
+    command = group
     for word in words:
         if not isinstance(command, click.Group) or word not in command.commands:
             break

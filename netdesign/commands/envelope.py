@@ -75,12 +75,8 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     with open_phases(_list_phases(given, confirm), asked) as (runner, progress):
         confirming = None if confirm == "none" else read.settings
         task = _build_task(read.scene, confirming, spans, asked["accuracy"])
-        record: EnvelopeRecord | None = None
-        if counted:
-            counts = {name: one.count for name, one in given.items()}
-            document = _sample(task, counts, runner, start)
-        else:
-            document, record = _search(task, runner, progress, start)
+        counts = {name: one.count for name, one in given.items()} if counted else {}
+        document, record = _solve(task, counts, runner, progress, start)
         progress.enter("outputs")
     failed = print_faults(runner.faults)
     if out:
@@ -176,28 +172,24 @@ def _build_task(
     )
 
 
-def _sample(
+def _solve(
     task: RowTask,
     counts: dict[str, int | None],
     runner: Runner,
+    progress: RunProgress,
     start: float,
-) -> dict[str, Any]:
-    """Document of a grid."""
-    from netdesign.envelope.search import run_grid
-    from netdesign.files.cases import write_grid_document
+) -> tuple[dict[str, Any], EnvelopeRecord | None]:
+    """Document of a grid with these counts; without any, of a bounded search.
 
-    grid = run_grid(task, counts, runner)
-    elapsed = time.perf_counter() - start
-    return write_grid_document(grid, runner.counts, elapsed, speak())
+    Of a search there is a model to draw, too.
+    """
+    from netdesign.envelope.search import run_grid, search_rows
+    from netdesign.files.cases import write_envelope_document, write_grid_document
 
-
-def _search(
-    task: RowTask, runner: Runner, progress: RunProgress, start: float
-) -> tuple[dict[str, Any], EnvelopeRecord]:
-    """Document of a bounded search, and its model to draw."""
-    from netdesign.envelope.search import search_rows
-    from netdesign.files.cases import write_envelope_document
-
+    if counts:
+        grid = run_grid(task, counts, runner)
+        elapsed = time.perf_counter() - start
+        return write_grid_document(grid, runner.counts, elapsed, speak()), None
     (found,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start
     return write_envelope_document(found, runner.counts, elapsed, speak())

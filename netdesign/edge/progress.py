@@ -175,7 +175,8 @@ class RunProgress:
         keys = [phase.key for phase in self._phases]
         if key not in keys[self._place + 1 :]:
             return
-        self._keep_pace()
+        if self._pace is None:  # those of later phases are known less well
+            self._pace = self._measure_pace()
         self._place, self._waiting = keys.index(key), 0
         self._begin()
         self._named = words or self._phase.words
@@ -217,11 +218,6 @@ class RunProgress:
             return self._pace
         elapsed = self._clock() - self._began
         return elapsed / self._done_here / self._phase.cost
-
-    def _keep_pace(self) -> None:
-        """Keep the first phase's pace: costs of later phases are known less well."""
-        if self._pace is None:
-            self._pace = self._measure_pace()
 
     def _count_left(self) -> int:
         """Solves of this phase that are still expected.
