@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import io
 import sys
 from typing import Any
@@ -63,17 +62,11 @@ class LanguageGroup(click.Group):
         """Find the command; refuse a name that is none."""
         try:
             return super().resolve_command(ctx, args)
-        except click.UsageError as error:
-            if isinstance(error, click.NoSuchOption):
-                raise
-            raise UsageRefusal(_refuse_command(args[0], self), ctx) from None
-
-
-def _refuse_command(word: str, group: click.Group) -> Message:
-    near = difflib.get_close_matches(word, list(group.commands), n=1)
-    if not near:
-        return say("usage.no_command", command=word)
-    return say("usage.no_command_near", command=word, near=near[0])
+        except click.exceptions.NoSuchCommand as error:
+            told = say("usage.no_command", command=args[0])
+            if near := error.possibilities:
+                told = say("usage.no_command_near", command=args[0], near=near[0])
+            raise UsageRefusal(told, ctx) from None
 
 
 def describe_refusal(

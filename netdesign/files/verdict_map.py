@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from netdesign.checks import Standard
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.files.rows_map import MeasuredPlace
-from netdesign.outcome import OutputError, StudyError
+from netdesign.outcome import OutputError, StudyError, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.anchor_distance import Bore
 from netdesign.structure.layout import SupportPoints
@@ -107,7 +107,8 @@ def _map_posts(
 ) -> Iterator[Feature]:
     """Feet of the net and of the posts, with the verdict of each support."""
     for number, post in enumerate(place.posts, 1):
-        verdict = _find_worst(_list_checks(row, place, number))
+        checks = _list_checks(row, place, number)
+        verdict = merge_verdicts(one.verdict for one in checks).value
         for kind, x in (("net_foot", 0.0), ("post", points.post_base[0])):
             bore = Bore(start=(x, 0.0, 0.0), direction=(0.0, -1.0, 0.0), length=None)
             head, _, _ = turn_to_map(bore, post, place, number)
@@ -129,12 +130,6 @@ def _list_checks(row: RowStudy, place: MeasuredPlace, post: int) -> list[CheckRe
     at_end = [one for one in row.checks if one.position == "edge"]
     inside = [one for one in row.checks if one.position == "intermediate"]
     return (at_end or inside) if is_end else inside
-
-
-def _find_worst(checks: Sequence[CheckRecord]) -> str:
-    order = ("fail", "not_proven", "declared", "pass")
-    found = {one.verdict.value for one in checks}
-    return next((one for one in order if one in found), "not_proven")
 
 
 def _map_anchors(
@@ -211,7 +206,7 @@ def _map_anchor(
             "length_m": bore.length,
             "design_kN": None if design is None else round(design, 1),
             "proof_kN": None if proof is None else round(proof, 1),
-            "verdict": _find_worst(checks),
+            "verdict": merge_verdicts(one.verdict for one in checks).value,
         },
     )
 
