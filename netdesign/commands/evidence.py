@@ -214,8 +214,7 @@ def _show_unverified(study: Study, again: Study) -> bool:
     if made.command == NO_COMMAND:
         tell(say("verify.no_command"))
     tell(say("verify.as_stated", time=made.started or say("verify.not_stated")))
-    unknown = (others, not study.digest, made.command == NO_COMMAND)
-    return any(map(bool, unknown))
+    return bool(others) or not study.digest or made.command == NO_COMMAND
 
 
 def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:

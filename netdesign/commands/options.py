@@ -90,8 +90,6 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
         click.BadParameter
             If it is malformed, reversed or empty.
         """
-        if isinstance(value, GivenRange):
-            return value
         text = str(value)
         parts = text.split(":")
         try:

@@ -6,9 +6,11 @@ import errno
 import os
 import sys
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any
+
+from netdesign.edge.given_files import is_there
 
 LOCK_FILE = ".netdesign.lock"
 _TAKEN = (errno.EACCES, errno.EDEADLK)  # what Windows says of a lock in other hands
@@ -60,10 +62,8 @@ def _lock_file(path: Path, held: ExitStack) -> bool:
 
 def _remove(path: Path) -> None:
     """Remove a lock file; Windows keeps it while another run waits for it."""
-    try:
+    with suppress(OSError):
         path.unlink(missing_ok=True)
-    except OSError:
-        return
 
 
 _SHARING = (32, 33)  # how Windows numbers a file, or a part of one, in other hands
@@ -101,14 +101,7 @@ def is_open_in_program(path: Path) -> bool:
 def find_lock(path: Path) -> Path | None:
     """File that Excel, Word or LibreOffice lays beside one that is open."""
     names = (f"~${path.name}", f"~${path.name[2:]}", f".~lock.{path.name}#")
-    for name in names:
-        lock = path.with_name(name)
-        try:
-            if lock.exists():
-                return lock
-        except OSError:  # no file can have that name
-            continue
-    return None
+    return next(filter(is_there, map(path.with_name, names)), None)
 
 
 def _holds_open_files() -> bool:

@@ -47,7 +47,6 @@ def require_free(paths: list[Path], *, overwrite: bool, may_force: bool = True) 
         Naming every path that is in the way, or that no file can have.
     """
     try:
-        _require_files(paths)
         _require_free(paths, overwrite=overwrite, may_force=may_force)
     except OSError as error:
         raise OutputError(
@@ -55,17 +54,11 @@ def require_free(paths: list[Path], *, overwrite: bool, may_force: bool = True) 
         ) from error
 
 
-def _require_files(paths: list[Path]) -> None:
-    """Refuse what stands there and is no file: a folder, a device, a pipe.
-
-    To put a file in its place would take it away from the system.
-    """
+def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> None:
     for path in paths:
+        # to put a file in the place of a folder, a device, a pipe would take it away
         if path.exists() and not path.is_file():
             raise OutputError(say("output.not_a_file", path=str(path)))
-
-
-def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> None:
     own = {folder: _read_own(folder) for folder in {path.parent for path in paths}}
     there = [path for path in paths if path.exists()]
     taken = tuple(str(one) for one in there if one.name not in own[one.parent])
