@@ -13,7 +13,7 @@ import sys
 from collections import UserDict
 from collections.abc import Iterable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 import click
 from click.core import ParameterSource
@@ -42,9 +42,6 @@ from netdesign.outcome import (
 )
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
-
-if TYPE_CHECKING:
-    from netdesign.words.catalogue import Language
 
 # Of a study almost nothing is ever thrown away: looking for it took a tenth of a run.
 _OBJECTS = 100_000

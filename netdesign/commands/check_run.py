@@ -28,8 +28,6 @@ from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from netdesign.checks import Standard
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.report.files import ReportStyle

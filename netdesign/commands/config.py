@@ -76,17 +76,13 @@ def accept_variables(name: str, command: click.Command) -> None:
     """Let every option of a command, and of those below, be a variable of its name."""
     for param in command.params:
         if isinstance(param, click.Option) and param.envvar is None:
-            param.envvar = _name_variables(name, param)
+            names = [one for one in param.opts if one.startswith("--")]
+            of_all = [LANGUAGE_VARIABLE] if "--language" in names else []
+            # the strongest first
+            param.envvar = [*(_name_variable(name, one) for one in names), *of_all]
     if isinstance(command, click.Group):
         for below, one in command.commands.items():
             accept_variables(f"{name}_{below}", one)
-
-
-def _name_variables(path: str, option: click.Option) -> list[str]:
-    """Variables of an option, the strongest first."""
-    names = [one for one in option.opts if one.startswith("--")]
-    of_all = [LANGUAGE_VARIABLE] if "--language" in names else []
-    return [*(_name_variable(path, one) for one in names), *of_all]
 
 
 def require_known_variables(name: str, command: click.Command) -> None:
@@ -169,8 +165,8 @@ def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
 
 
 def _read_language(
-    group: click.Command, command: click.Command, words: list[str]
-) -> object:
+    group: click.Command, command: click.Command | None, words: list[str]
+) -> Any:
     """Default of the language in the file of a command line; None where there is none.
 
     What is wrong with the line or its file is told by whoever parses them.
@@ -299,9 +295,8 @@ def find_language(group: click.Command, words: Sequence[str]) -> Language:
     own = [_name_variable("_".join(path), _OPTION)] if path else []
     variables = [*own, LANGUAGE_VARIABLE]
     told = next(filter(None, map(os.environ.get, variables)), None)
-    found: object = _find_option(words) or told
-    if not found and command is not None:
-        found = _read_language(group, command, list(words[len(path) :]))
+    found = _find_option(words) or told
+    found = found or _read_language(group, command, list(words[len(path) :]))
     return next((one for one in LANGUAGES if one == found), LANGUAGES[0])
 
 

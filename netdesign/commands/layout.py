@@ -73,10 +73,9 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
         from netdesign.terrain.example import write_example
 
         files = write_example(folder, overwrite=asked["force"])
-        asked |= dict(zip(("grid", "zone", "types", "prices"), files, strict=True))
+        grid, zone, asked["types"], asked["prices"] = files
         if asked["snow"] is None and asked["snow_grid"] is None:
             asked["snow"] = _EXAMPLE_SNOW
-        grid, zone = asked["grid"], asked["zone"]
     if grid is None or zone is None or asked["types"] is None:
         raise UsageRefusal(say("layout.no_input"))
     task = _read(grid, zone, asked)

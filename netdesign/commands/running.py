@@ -27,15 +27,12 @@ from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.solving.workers import Job
     from netdesign.study.check_run import CheckRun
     from netdesign.study.records import Study
-    from netdesign.words.catalogue import Language
 
 EXIT_CODES = {
     Verdict.PASS: 0,
@@ -55,8 +52,6 @@ def find_exit_code(studies: Sequence[Study]) -> int:
 
 def own_command() -> str:
     """The command line as it was given."""
-    import shlex
-
     return make_printable(shlex.join(["netdesign", *sys.argv[1:]]))
 
 

@@ -34,7 +34,7 @@ from netdesign.outcome import ModelError, Verdict
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from netdesign.files.winter import WinterRun
     from netdesign.site.model import Site, StationWinter

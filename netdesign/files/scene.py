@@ -288,17 +288,16 @@ def _creep_law(snow: SnowTable) -> CreepLaw:
 
 def _fluidity(snow: SnowTable) -> float | None:
     given, temperature = snow.fluidity_per_MPa3_a, snow.temperature_C
-    if given is not None and temperature is not None:
+    if temperature is None:
+        exponent = snow.creep_exponent
+        return None if given is None else fluidity_from_mpa_year(given, exponent)
+    if given is not None:
         raise ModelError(say("scene_file.fluidity_or_temperature"))
-    if temperature is not None and snow.creep_exponent != FLUIDITY_EXPONENT:
+    if snow.creep_exponent != FLUIDITY_EXPONENT:
         raise ModelError(
             say("scene_file.temperature_exponent", known=FLUIDITY_EXPONENT)
         )
-    if temperature is not None:
-        return compute_fluidity(kelvin_from_celsius(temperature))
-    if given is not None:
-        return fluidity_from_mpa_year(given, snow.creep_exponent)
-    return None
+    return compute_fluidity(kelvin_from_celsius(temperature))
 
 
 def _ground(ground: GroundTable, thickness: float, creep_law: CreepLaw) -> GroundLaw:

@@ -31,8 +31,6 @@ from netdesign.words.names import name_check, name_member
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-    from netdesign.terrain.geojson import Feature
-
     Point = tuple[float, float, float]
 
 SETTING_OUT = (
