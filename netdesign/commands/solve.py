@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.steady.solve import PullBound
-    from netdesign.files.cases import SolvedSupport
     from netdesign.files.scene import GivenScene
     from netdesign.report.page.solution_page import Solved
     from netdesign.solving.solve import Settings
+    from netdesign.study.support_records import PanelRecord
 
 
 @click.command()
@@ -59,13 +59,15 @@ def solve(scene_file: Path, **asked: Any) -> None:
     solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
     bound = None if failed else _bound_refused(scene, settings, solution)
-    support = _resolve_support(solution, given)
+    support, panel = _resolve_support(solution, given)
     document = write_solution_document(
         solution, settings, elapsed, bound, asked["language"], support
     )
     if out is not None:
-        files = _render(solution, document, scene_file.name, support)
-        write_outputs(out, files, asked)
+        from netdesign.report.page.solution_page import render_solution
+
+        shown = (solution, document, scene_file.name, speak(), panel)
+        write_outputs(out, render_solution(*shown), asked)
     if asked["as_json"]:
         print_document(document)
     elif document["outcome"] == "converged":
@@ -91,16 +93,24 @@ def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     return failed, print_faults({solution: ()})
 
 
-def _resolve_support(solution: Solved, given: GivenScene) -> SolvedSupport | None:
-    """Support of a net that was solved; None without a solution or a support."""
+def _resolve_support(
+    solution: Solved, given: GivenScene
+) -> tuple[dict[str, Any] | None, PanelRecord | None]:
+    """Support of a net for the document, and its panel to be drawn.
+
+    Both are None without a solution or a support.
+    """
     if given.support is None:
-        return None
+        return None, None
     from netdesign.coupling.solution import Solution
-    from netdesign.files.cases import resolve_support
+    from netdesign.files.cases import resolve_support, write_support
+    from netdesign.study.record_support import record_solved_panel
 
     if not isinstance(solution, Solution):
-        return None
-    return resolve_support(solution, given.settings, given.support)
+        return None, None
+    result = resolve_support(solution, given.settings, given.support)
+    panel = record_solved_panel(result)
+    return write_support(result, given.support, speak()), panel
 
 
 def _bound_refused(
@@ -231,17 +241,3 @@ def _list_names(given: GivenScene) -> list[str]:
         is_wall=isinstance(given.scene.net, Wall),
         has_panel=given.support is not None and given.support.panel is not None,
     )
-
-
-def _render(
-    solution: Solved,
-    document: dict[str, Any],
-    scene_file: str,
-    support: SolvedSupport | None,
-) -> dict[str, bytes]:
-    """Page, drawings, tables and document."""
-    from netdesign.report.page.solution_page import render_solution
-    from netdesign.study.record_support import record_solved_panel
-
-    panel = None if support is None else record_solved_panel(support.result)
-    return render_solution(solution, document, scene_file, speak(), panel)

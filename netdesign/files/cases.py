@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from typing import Any
 
 from netdesign import __version__
@@ -213,29 +213,10 @@ def _per_metre(values: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SolvedSupport:
-    """A scene's support under the net's pulls.
-
-    Attributes
-    ----------
-    given : GivenSupport
-        What it is.
-    result : CaseResult
-        Its forces by the section and by the panel, or why there are none.
-    end : EndForces or None
-        Of the row's end; None without a panel.
-    """
-
-    given: GivenSupport
-    result: CaseResult
-    end: EndForces | None
-
-
 def resolve_support(
     solution: Solution, settings: Settings, given: GivenSupport
-) -> SolvedSupport:
-    """Forces of a support of the net that was solved."""
+) -> CaseResult:
+    """Forces of a support of the net that was solved, by the section and the panel."""
     task = CaseTask(
         case=build_case(solution.scene, {}),
         job=Job(scene=solution.scene, settings=settings),
@@ -243,8 +224,7 @@ def resolve_support(
         layout=given.layout,
         panels=(given.panel,) if given.panel else (),
     )
-    result = resolve_case(task, keep_state(solution))
-    return SolvedSupport(given=given, result=result, end=_find_end(given, result))
+    return resolve_case(task, keep_state(solution))
 
 
 def _find_end(given: GivenSupport, result: CaseResult) -> EndForces | None:
@@ -255,9 +235,10 @@ def _find_end(given: GivenSupport, result: CaseResult) -> EndForces | None:
     return end if isinstance(end, EndForces) else None
 
 
-def write_support(solved: SolvedSupport, language: Language = "en") -> dict[str, Any]:
+def write_support(
+    result: CaseResult, given: GivenSupport, language: Language = "en"
+) -> dict[str, Any]:
     """Part ``support`` of the solution document: kN on one support."""
-    result = solved.result
     written: dict[str, Any] = {"plain": None, "panel": None, "row_end": None}
     if lack := result.lack:
         written["reason"] = render(lack, language)
@@ -266,9 +247,9 @@ def write_support(solved: SolvedSupport, language: Language = "en") -> dict[str,
     written["plain"] = _write_forces(result, result.anchors, SOLVED_MEMBERS)
     if isinstance(result.panel, PanelForces):
         written["panel"] = _write_panel(result, result.panel)
-    if solved.end is not None:
-        has_guy = solved.given.end_guy_angle is not None
-        written["row_end"] = _write_end(solved.end, has_guy=has_guy)
+    if end := _find_end(given, result):
+        has_guy = given.end_guy_angle is not None
+        written["row_end"] = _write_end(end, has_guy=has_guy)
     return written
 
 

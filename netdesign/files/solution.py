@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,7 +35,6 @@ from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.coupling.steady.solve import PullBound
-    from netdesign.files.cases import SolvedSupport
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
 _NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
@@ -46,12 +46,12 @@ def write_solution_document(
     wall_s: float,
     bound: PullBound | None = None,
     language: Language = "en",
-    support: SolvedSupport | None = None,
+    support: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Solution as plain values in the form ``netdesign.solution/1``.
 
-    ``bound`` is that of a failed solution, ``support`` of a net's, where there is one;
-    reasons and remarks are in ``language``.
+    ``bound`` is that of a failed solution, ``support`` what `cases.write_support` says
+    of a net's, where there is one; reasons and remarks are in ``language``.
     """
     if isinstance(solution, FailedSolution):
         return {
@@ -70,7 +70,7 @@ def write_solution_document(
         "outcome": solution.outcome.value,
         "method": solution.method if isinstance(solution, Solution) else "steady",
         **held,
-        **_write_support(support, language),
+        **({} if support is None else {"support": support}),
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
         **_write_history(solution, language),
@@ -85,14 +85,6 @@ def write_solution_document(
             "settings": _write_settings(settings),
         },
     }
-
-
-def _write_support(support: SolvedSupport | None, language: Language) -> dict[str, Any]:
-    if support is None:
-        return {}
-    from netdesign.files.cases import write_support
-
-    return {"support": write_support(support, language)}
 
 
 def _write_bound(bound: PullBound) -> dict[str, float]:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.files.cases import resolve_support
+from netdesign.files.cases import resolve_support, write_support
 from netdesign.files.solution import write_solution_document
 from netdesign.files.support_tables import GivenSupport
 from netdesign.panel.inputs import Panel, Rope
@@ -53,7 +53,7 @@ def write(section, language="en", **given):
     support = GivenSupport(layout=LAYOUT, **given)
     solved = resolve_support(section, SETTINGS, support)
     document = write_solution_document(
-        section, SETTINGS, 0.1, None, language, support=solved
+        section, SETTINGS, 0.1, support=write_support(solved, support, language)
     )
     return document["support"], solved
 
@@ -126,7 +126,7 @@ def test_a_panel_that_fails_leaves_its_reason(section, language):
     shown_part = show_support(written, Words(language))
     assert written["reason"] in list_sentences(shown_part)[0]
     assert len(list_tables(shown_part)) == 2
-    assert record_solved_panel(solved.result) is None
+    assert record_solved_panel(solved) is None
 
 
 def test_a_staggered_history_has_no_panel(section):
@@ -149,6 +149,6 @@ def test_page_has_every_force_and_a_drawing(section, language):
         written["panel"]["upper_rope"]["T_kN"],
     ):
         assert Words(language).write(write_force(force)) in shown
-    drawn = draw_panel(record_solved_panel(solved.result), Words(language))
+    drawn = draw_panel(record_solved_panel(solved), Words(language))
     size = written["row_end"]["foot_kN"]["size"]
     assert Words(language).write(write_force(size)) in drawn
