@@ -82,27 +82,22 @@ def write_part(value: object) -> JsonPart:
 
 def join_items(parts: Sequence[JsonPart]) -> JsonPart:
     """List of parts."""
-    return _join("[", [(one.text, one.values) for one in parts], "]")
+    return _join("[", parts, "]")
 
 
 def join_members(parts: Mapping[str, JsonPart]) -> JsonPart:
     """Object with parts by their keys."""
-    pairs = [
-        tuple(
-            f"{json.dumps(key, ensure_ascii=False)}: {one}"
-            for one in (part.text, part.values)
-        )
-        for key, part in parts.items()
-    ]
-    return _join("{", pairs, "}")
+    named = []
+    for key, part in parts.items():
+        name = json.dumps(key, ensure_ascii=False)
+        named.append(JsonPart(f"{name}: {part.text}", f"{name}: {part.values}"))
+    return _join("{", named, "}")
 
 
-def _join(opening: str, pairs: Sequence[tuple[str, ...]], closing: str) -> JsonPart:
-    texts, values = zip(*pairs, strict=True) if pairs else ((), ())
-    return JsonPart(
-        f"{opening}{_NEXT.join(texts)}{closing}",
-        f"{opening}{', '.join(values)}{closing}",
-    )
+def _join(opening: str, parts: Sequence[JsonPart], closing: str) -> JsonPart:
+    text = _NEXT.join(one.text for one in parts)
+    values = ", ".join(one.values for one in parts)
+    return JsonPart(f"{opening}{text}{closing}", f"{opening}{values}{closing}")
 
 
 def list_fields(value: Any) -> dict[str, Any]:
