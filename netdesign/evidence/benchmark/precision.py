@@ -43,11 +43,14 @@ from netdesign.evidence.runner import (
 )
 from netdesign.evidence.table import show_document, show_rows
 from netdesign.outcome import SolveError
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, bounds_of
-from netdesign.report.drawing.style import (
+from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
     INK,
+    WIDTH,
+    Chart,
+    Frame,
+    bounds_of,
 )
 from netdesign.report.words import ENGLISH, Words
 

@@ -18,8 +18,16 @@ from netdesign.evidence.verification.compaction import (
 from netdesign.evidence.verification.pack import name_kind
 from netdesign.report.drawing.charts import SHADES
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame
-from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    PALE,
+    TEXT_PT,
+    WIDTH,
+    Chart,
+    Frame,
+)
 from netdesign.report.words import ENGLISH, Words, show_member, show_own
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.catalogue import load_texts

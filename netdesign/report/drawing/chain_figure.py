@@ -13,8 +13,15 @@ from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame
-from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    TEXT_PT,
+    WIDTH,
+    Chart,
+    Frame,
+)
 from netdesign.report.words import Words, show_member, show_verdict
 from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.records import CheckRecord, RowStudy

@@ -9,13 +9,18 @@ from datetime import datetime, time, timedelta
 
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    PALE,
+    SOFT,
+    TEXT_PT,
     WIDTH,
     Chart,
     Frame,
     bounds_of,
     drop_straight,
 )
-from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, SOFT, TEXT_PT
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.records import MonitoringRecord
 from netdesign.words.catalogue import Language

@@ -12,7 +12,12 @@ from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.letters import measure_words, wrap_words
 from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    PALE,
     SHADES,
+    TEXT_PT,
     WIDTH,
     Chart,
     Frame,
@@ -21,7 +26,6 @@ from netdesign.report.drawing.plain_svg import (
     list_ticks,
     shade,
 )
-from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.words import (
     ENGLISH,
     Words,

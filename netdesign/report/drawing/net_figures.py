@@ -12,7 +12,11 @@ from netdesign.coupling.solution import Solution, WallSolution
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
     SHADES,
+    TEXT_PT,
     WIDTH,
     Chart,
     Frame,
@@ -20,7 +24,6 @@ from netdesign.report.drawing.plain_svg import (
     shade,
     show_place,
 )
-from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.words import ENGLISH, Words
 
 _FORCES_PT, _SLIP_PT = 208.0, 136.0  # heights of the drawings [pt]

@@ -17,8 +17,15 @@ from netdesign.report.drawing.label_board import (
     write_label,
 )
 from netdesign.report.drawing.letters import wrap_words
-from netdesign.report.drawing.plain_svg import Chart, Point
-from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    PALE,
+    TEXT_PT,
+    Chart,
+    Point,
+)
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord, RopeRecord
 

@@ -12,12 +12,18 @@ from html import escape
 from itertools import pairwise
 
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT, WIDTH_IN
 from netdesign.words.catalogue import Language, set_marks
 
 Point = tuple[float, float]
 
-WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
+INK = "#1b1e22"
+GREY = "#7d838b"  # of lines; words of that grey are too pale to read
+SOFT = "#596069"
+PALE = "#d3d7dc"
+SNOW = "#f3f5f7"
+ACCENT = "#b23a1e"  # forces and what governs; nothing else
+TEXT_PT = 8.0  # not less on paper, where a drawing is 180 mm wide
+WIDTH = 72.0 * 6.9  # of every chart: the print area of A4 [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
 _SHORTEST = 0.4  # of loose lines [pt]
 _HEAD_LENGTH, _HEAD_HALF = 6.5, 2.3  # of an arrow [pt]

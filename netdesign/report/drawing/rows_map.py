@@ -10,8 +10,16 @@ from netdesign.files.rows_map import MeasuredPlace, RowsMap
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.label_board import LINE_PT, Label, LabelBoard
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, Point
-from netdesign.report.drawing.style import ACCENT, GREY, INK, TEXT_PT
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    TEXT_PT,
+    WIDTH,
+    Chart,
+    Frame,
+    Point,
+)
 from netdesign.report.words import VERDICTS, Words
 
 _MARGIN = 8.0  # of ground around rows and zones [m]

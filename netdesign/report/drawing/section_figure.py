@@ -8,19 +8,29 @@ from itertools import pairwise
 from netdesign.numerics.curve import trace_curve
 from netdesign.report.drawing.label_board import Box, Label, LabelBoard
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, drop_straight
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    PALE,
+    SNOW,
+    TEXT_PT,
+    WIDTH,
+    Chart,
+    Frame,
+    Point,
+    drop_straight,
+)
 from netdesign.report.drawing.section_measures import (
     LONGEST_ARROW,
     ROD,
     Paper,
-    Point,
     Section,
     describe_measures,
     draw_measures,
     fit_paper,
     move,
 )
-from netdesign.report.drawing.style import ACCENT, GREY, INK, PALE, SNOW, TEXT_PT
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.support_records import Arrow, Drawing
 

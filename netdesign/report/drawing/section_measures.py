@@ -8,12 +8,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from netdesign.report.drawing.label_board import Label, LabelBoard, write_label
-from netdesign.report.drawing.plain_svg import WIDTH, Chart
-from netdesign.report.drawing.style import GREY
+from netdesign.report.drawing.plain_svg import GREY, WIDTH, Chart, Point
 from netdesign.report.words import Words
 from netdesign.study.support_records import Drawing
-
-Point = tuple[float, float]
 
 # Symbols are measured in heights of the net's head, room for labels in points.
 MEASURES = 0.2  # room that heights take beside the snow

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import WIDTH, Chart
-from netdesign.report.drawing.style import ACCENT, TEXT_PT
+from netdesign.report.drawing.plain_svg import ACCENT, TEXT_PT, WIDTH, Chart
 from netdesign.report.words import Words
 
 _LINE, _BAR = 11.0, 7.0  # from bar to bar, height of a bar [pt]

@@ -11,8 +11,15 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.report.drawing.label_board import LabelBoard, write_label
-from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, show_place
-from netdesign.report.drawing.style import GREY, INK, TEXT_PT
+from netdesign.report.drawing.plain_svg import (
+    GREY,
+    INK,
+    TEXT_PT,
+    WIDTH,
+    Chart,
+    Frame,
+    show_place,
+)
 from netdesign.report.words import Words
 from netdesign.terrain.coverage import Coverage
 from netdesign.terrain.measure import MeasuredRow

@@ -6,14 +6,13 @@ import pytest
 from PIL import Image
 
 from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import Chart
+from netdesign.report.drawing.plain_svg import TEXT_PT, Chart
 from netdesign.report.drawing.raster import (
     DOTS_PER_INCH,
     read_size,
     read_title,
     render_png,
 )
-from netdesign.report.drawing.style import TEXT_PT
 
 
 def draw(sketch):

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from netdesign.report.drawing.style import ACCENT
+from netdesign.report.drawing.plain_svg import ACCENT
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.words import Words
 from tests.report.drawing.drawn import build_winter
