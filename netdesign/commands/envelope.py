@@ -207,7 +207,7 @@ def _render(
     from netdesign.report.words import Words
 
     draws, words = (draw_maps, draw_lines, draw_drivers), Words(speak())
-    pictures = [draw(record, words) if record else "" for draw in draws]
+    pictures = [draw(record.bounds, words) if record else "" for draw in draws]
     texts = [f"{json.dumps(document, indent=1, allow_nan=False)}\n", *pictures]
     names = (DOCUMENT, *FIGURES)
     return {name: one.encode() for name, one in zip(names, texts, strict=True)}

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
-from netdesign.outcome import Outcome
 from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.letters import measure_words, wrap_words
@@ -35,7 +33,6 @@ from netdesign.study.case_records import (
     BoundRecord,
     CasePoint,
     DriverRecord,
-    EnvelopeRecord,
     ExtremeRecord,
     LineRecord,
     MapRecord,
@@ -48,24 +45,12 @@ _MOST_MAPS = 3  # side by side
 _MAPPED = 3  # first quantities of a case: density, friction, inclination
 
 
-def record_grid(row: RowStudy) -> EnvelopeRecord:
+def bound_grid(row: RowStudy) -> list[BoundRecord]:
     """Maps of every member over the cases of a row; nothing bounds the force between.
 
     The force of a case without a result is NaN.
     """
-    return EnvelopeRecord(
-        axes=[],
-        is_per_metre=False,
-        is_closed=False,
-        gap_asked_percent=0.0,
-        certainty=0.0,
-        resolved_share=0.0,
-        cases=len(row.cases),
-        skipped=0,
-        skips_tested=0,
-        failed=sum(one.outcome is not Outcome.CONVERGED for one in row.cases),
-        bounds=[_record_member(row, one) for one in row.extremes],
-    )
+    return [_record_member(row, one) for one in row.extremes]
 
 
 def _record_member(row: RowStudy, extreme: ExtremeRecord) -> BoundRecord:
@@ -121,26 +106,21 @@ _FAILED = "×"  # at a case without a result
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
 
 
-def split_members(record: EnvelopeRecord) -> list[EnvelopeRecord]:
-    """One record for each member with a force: drawings that a page may part."""
-    return [replace(record, bounds=[bound]) for bound in _list_loaded(record)]
-
-
 def draw_maps(
-    record: EnvelopeRecord, words: Words = ENGLISH, width: float = WIDTH
+    every: Sequence[BoundRecord], words: Words = ENGLISH, width: float = WIDTH
 ) -> str:
     """SVG of force over density and friction, a column for each inclination.
 
     Returns "" where density or friction does not range. The ring marks the governing
     case, in the map of the inclination nearest to it.
     """
-    bounds = [bound for bound in _list_loaded(record) if bound.maps]
+    bounds = [bound for bound in _list_loaded(every) if bound.maps]
     if not bounds:
         return ""
     chart = Chart(language=words.language)
     for place, bound in enumerate(bounds):
         top = place * (_HEAD + _PANEL + _FOOT)
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, words), bold=True)
         nearest = min(
             range(len(bound.maps)),
             key=lambda k: abs(
@@ -166,31 +146,29 @@ def draw_maps(
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, (width, top + _HEAD), low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    values = [
-        _show_forces(_list_known(bound), bound, record, words) for bound in bounds
-    ]
-    return chart.write(height, _title("drawing.maps", record, values, words), width)
+    values = [_show_forces(_list_known(bound), bound, words) for bound in bounds]
+    return chart.write(height, _title("drawing.maps", every, values, words), width)
 
 
 def draw_lines(
-    record: EnvelopeRecord, words: Words = ENGLISH, width: float = WIDTH
+    every: Sequence[BoundRecord], words: Words = ENGLISH, width: float = WIDTH
 ) -> str:
     """SVG of force along each quantity through the governing case, with its bound."""
-    bounds = [bound for bound in _list_loaded(record) if bound.lines]
+    bounds = [bound for bound in _list_loaded(every) if bound.lines]
     if not bounds:
         return ""
     chart, top = Chart(language=words.language), 0.0
     for bound in bounds:
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, words), bold=True)
         across = round(width / _LINE_WIDTH)
         for start in range(0, len(bound.lines), across):
             some = bound.lines[start : start + across]
             top += _paint_lines(chart, some, bound, (top, width), words)
     values = [
-        _show_forces([one.force_kN for one in bound.lines], bound, record, words)
+        _show_forces([one.force_kN for one in bound.lines], bound, words)
         for bound in bounds
     ]
-    return chart.write(top, _title("drawing.lines", record, values, words), width)
+    return chart.write(top, _title("drawing.lines", every, values, words), width)
 
 
 def _paint_lines(
@@ -217,18 +195,18 @@ def _paint_lines(
     return _HEAD + _PANEL + _FOOT + (names - 1) * LINE_PT
 
 
-def draw_drivers(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
+def draw_drivers(every: Sequence[BoundRecord], words: Words = ENGLISH) -> str:
     """SVG of what drives each force: tornado about the governing case."""
-    bounds = [bound for bound in _list_loaded(record) if bound.drivers]
+    bounds = [bound for bound in _list_loaded(every) if bound.drivers]
     if not bounds:
         return ""
     chart, top = Chart(language=words.language), 0.0
     for bound in bounds:
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, words), bold=True)
         top += 14.0
         top += _paint_tornado(chart, bound, top, words)
     values = [_show_driver(one, words) for bound in bounds for one in bound.drivers]
-    return chart.write(top, _title("drawing.drivers", record, values, words))
+    return chart.write(top, _title("drawing.drivers", every, values, words))
 
 
 def _list_cells(
@@ -405,25 +383,27 @@ def _list_known(bound: BoundRecord) -> list[list[float]]:
     return [known for row in rows if (known := [x for x in row if not math.isnan(x)])]
 
 
-def _list_loaded(record: EnvelopeRecord) -> list[BoundRecord]:
-    largest = max((bound.max_kN for bound in record.bounds), default=0.0)
-    return [bound for bound in record.bounds if bound.max_kN > _SMALLEST * largest]
+def _list_loaded(bounds: Sequence[BoundRecord]) -> list[BoundRecord]:
+    largest = max((bound.max_kN for bound in bounds), default=0.0)
+    return [bound for bound in bounds if bound.max_kN > _SMALLEST * largest]
 
 
-def _name(bound: BoundRecord, record: EnvelopeRecord, words: Words) -> str:
-    if record.is_per_metre:
-        end = words.show(name("end", bound.quantity))
-        return words("drawing.net_tension", end=end)
-    return name_heading(words, f"{bound.quantity}_kN")
+def _name(bound: BoundRecord, words: Words) -> str:
+    """Force of a member; tension of a net alone, which is per metre."""
+    key = f"{bound.quantity}_kN"
+    if key in QUANTITIES:
+        return name_heading(words, key)
+    end = words.show(name("end", bound.quantity))
+    return words("drawing.net_tension", end=end)
 
 
 def _title(
-    what: str, record: EnvelopeRecord, values: Sequence[str], words: Words
+    what: str, every: Sequence[BoundRecord], values: Sequence[str], words: Words
 ) -> str:
     """Name and numbers of a drawing for those who cannot see it."""
     named = words(what)
-    if len(record.bounds) == 1:
-        member = _name(record.bounds[0], record, words)
+    if len(every) == 1:
+        member = _name(every[0], words)
         named = words("drawing.of_member", member=member, what=named)
     return words("drawing.with_values", what=named, values=tuple(values))
 
@@ -431,18 +411,14 @@ def _title(
 def _show_forces(
     forces: Sequence[Sequence[float]],
     bound: BoundRecord,
-    record: EnvelopeRecord,
     words: Words,
 ) -> str:
     """Least and largest of the drawn forces, and where the largest of all is."""
     low, high = bounds_of(forces)
-    at = ", ".join(
-        f"{QUANTITIES[key].symbol} {words.show_with_unit(key, value)}"
-        for key, value in bound.case.items()
-    )
+    at = ", ".join(words.name_values(bound.case.items()))
     return words(
         "drawing.forces_in_words",
-        member=_name(bound, record, words),
+        member=_name(bound, words),
         forces=words.show_band("max_kN", low, high),
         largest=words.show_number("max_kN", bound.max_kN),
         case=at,
@@ -459,13 +435,10 @@ def draw_envelope(row: RowStudy, words: Words) -> str:
 
     Of another member where that has no force.
     """
-    members = [
-        one
-        for one in split_members(row.envelope or record_grid(row))
-        if one.bounds[0].maps or one.bounds[0].lines
-    ]
+    bounds = row.envelope.bounds if row.envelope else bound_grid(row)
+    members = [one for one in _list_loaded(bounds) if one.maps or one.lines]
     if not members:
         return ""
     first = find_shown_member(row.checks)
-    shown = min(members, key=lambda one: one.bounds[0].quantity != first)
+    shown = [min(members, key=lambda one: one.quantity != first)]
     return draw_maps(shown, words, _BESIDE) or draw_lines(shown, words, _BESIDE)

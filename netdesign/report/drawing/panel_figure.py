@@ -27,7 +27,7 @@ from netdesign.report.drawing.plain_svg import (
     Point,
 )
 from netdesign.report.words import ENGLISH, Words
-from netdesign.study.support_records import PanelDrawing, PanelRecord, RopeRecord
+from netdesign.study.support_records import PanelDrawing, PanelRecord
 
 SPAN, LEFT = 56.0, 42.0  # of a panel on paper, room at its left [pt]
 LONGEST = 22.0  # arrow [pt]
@@ -104,7 +104,7 @@ def _describe(panel: PanelRecord, drawn: PanelDrawing, words: Words) -> str:
     values = [
         words(
             "show.force_of",
-            member=name_rope(rope, words),
+            member=words(_ROPE_NAMES[rope.rope]),
             force=words.show_with_unit("size_kN", max(tensions[rope.rope])),
         )
         for rope in panel.ropes
@@ -204,9 +204,3 @@ def _draw_forces(
             labels.append(write_label(name, start, side, ACCENT))
     for label in labels:
         board.draw(sketch, label)
-
-
-def name_rope(rope: RopeRecord, words: Words) -> str:
-    """Name of a rope; what it is called in the record where that is no rope of ours."""
-    key = _ROPE_NAMES.get(rope.rope)
-    return words(key) if key else rope.rope

@@ -12,10 +12,10 @@ from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.charts import draw_monitoring
 from netdesign.report.drawing.envelope_maps import (
+    bound_grid,
     draw_drivers,
     draw_lines,
     draw_maps,
-    record_grid,
 )
 from netdesign.report.drawing.net_figures import draw_node_forces, draw_stick_slip
 from netdesign.report.drawing.panel_figure import draw_panel
@@ -58,7 +58,10 @@ def draw_all(rng: random.Random, words) -> list[str]:
     envelope = build_envelope(rng)
     return [
         draw_section(build_section(rng), "s", words),
-        *(draw(envelope, words) for draw in (draw_maps, draw_lines, draw_drivers)),
+        *(
+            draw(envelope.bounds, words)
+            for draw in (draw_maps, draw_lines, draw_drivers)
+        ),
         draw_panel(build_panel(rng), words),
         draw_chains(build_chains(rng), words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
@@ -71,7 +74,7 @@ def draw_slow(rng: random.Random, words) -> list[str]:
     face = build_face(rng)
     row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
     return [
-        draw_maps(record_grid(row), words),
+        draw_maps(bound_grid(row), words),
         draw_node_forces(face, words),
         draw_stick_slip(face, words),
     ]

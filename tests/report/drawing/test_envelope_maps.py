@@ -6,17 +6,15 @@ from dataclasses import replace
 import pytest
 
 from netdesign.report.drawing.envelope_maps import (
+    bound_grid,
     draw_drivers,
     draw_lines,
     draw_maps,
-    record_grid,
 )
 from netdesign.report.drawing.plain_svg import Chart, Frame, list_ticks, shade
 from netdesign.study.case_records import (
-    AxisRecord,
     BoundRecord,
     DriverRecord,
-    EnvelopeRecord,
     LineRecord,
     MapRecord,
 )
@@ -60,19 +58,7 @@ def build_bound(quantity, *, size=100.0):
     )  # fmt: skip
 
 
-RECORD = EnvelopeRecord(
-    axes=[AxisRecord(key="density_kg_m3", low=250.0, high=450.0)],
-    is_per_metre=False,
-    is_closed=True,
-    gap_asked_percent=1.0,
-    certainty=3.0,
-    resolved_share=0.6,
-    cases=40,
-    skipped=2,
-    skips_tested=2,
-    failed=0,
-    bounds=[build_bound("foot_anchor"), build_bound("downhill_guy", size=0.0)],
-)
+BOUNDS = [build_bound("foot_anchor"), build_bound("downhill_guy", size=0.0)]
 DRAWINGS = [draw_maps, draw_lines, draw_drivers]
 
 
@@ -82,22 +68,22 @@ def shapes(svg, tag):
 
 @pytest.mark.parametrize("draw", DRAWINGS)
 def test_drawings_are_sound_xml_with_the_same_bytes_each_time(draw):
-    svg = draw(RECORD)
+    svg = draw(BOUNDS)
     assert ET.fromstring(svg).tag == f"{NS}svg"
-    assert draw(RECORD) == svg
+    assert draw(BOUNDS) == svg
     assert "Foot anchor [kN]" in svg
     assert "Downhill guy" not in svg  # carries nothing anywhere
 
 
 @pytest.mark.parametrize("draw", DRAWINGS)
 def test_nothing_to_draw_gives_nothing(draw):
-    assert draw(replace(RECORD, bounds=[])) == ""
+    assert draw([]) == ""
 
 
 def test_the_ring_stands_at_the_governing_case_in_the_map_of_its_inclination():
     """Governing: the densest snow, least friction, at 35 degrees: the right map."""
-    (ring,) = shapes(draw_maps(RECORD), "circle")
-    labels = {one.text: one for one in shapes(draw_maps(RECORD), "text")}
+    (ring,) = shapes(draw_maps(BOUNDS), "circle")
+    labels = {one.text: one for one in shapes(draw_maps(BOUNDS), "text")}
     right_end = float(labels["θ = 35°"].attrib["x"])  # set to the panel's right end
     assert float(ring.attrib["cx"]) == pytest.approx(right_end, abs=0.02)
     assert float(ring.attrib["cx"]) > float(labels["θ = 25°"].attrib["x"])
@@ -110,7 +96,7 @@ def test_darker_is_larger():
 
 
 def test_the_bound_is_drawn_above_the_force():
-    between = shapes(draw_lines(RECORD), "polygon")[0].attrib["points"].split()
+    between = shapes(draw_lines(BOUNDS), "polygon")[0].attrib["points"].split()
     heights = [float(pair.split(",")[1]) for pair in between]
     half = len(heights) // 2
     force, bound = heights[:half], heights[: -half - 1 : -1]
@@ -145,20 +131,19 @@ def test_words_on_a_chart_are_escaped():
 @pytest.mark.parametrize("samples", [2, 3])
 def test_a_grid_has_the_same_maps_with_a_cross_where_a_case_has_no_result(samples):
     row = build_row("A", samples, scale=0.72, failed_case=True)
-    svg = draw_maps(record_grid(row))
+    svg = draw_maps(bound_grid(row))
     shown = [one.text for one in shapes(svg, "text")]
     for extreme in row.extremes:
         assert write_force(extreme.max_kN) in svg
     assert len(shapes(svg, "circle")) == len(row.extremes)
     assert f"θ = {row.extremes[0].case.inclination_deg:.0f}°" in shown
     assert {"×", "× no result"} <= set(shown)
-    assert draw_maps(record_grid(row)) == svg
+    assert draw_maps(bound_grid(row)) == svg
 
 
 def test_a_grid_shows_the_force_of_each_of_its_cases():
     row = build_row("A", 3, scale=0.72)
-    record = record_grid(row)
-    for bound in record.bounds:
+    for bound in bound_grid(row):
         forces = {
             force for one in bound.maps for line in one.force_kN for force in line
         }
@@ -170,16 +155,16 @@ def test_a_grid_of_one_density_is_one_column():
     row = build_row("A", 3, scale=0.72)
     densest = row.extremes[0].case.density_kg_m3
     cases = [one for one in row.cases if one.case.density_kg_m3 == densest]
-    (one, *_) = record_grid(replace(row, cases=cases)).bounds
+    (one, *_) = bound_grid(replace(row, cases=cases))
     assert [map_.density_kg_m3 for map_ in one.maps] == [[densest]] * 3
-    svg = draw_maps(record_grid(replace(row, cases=cases)))
+    svg = draw_maps(bound_grid(replace(row, cases=cases)))
     assert "nan" not in svg
     assert f"{densest:g}" in [one.text for one in shapes(svg, "text")]
 
 
 def test_a_fine_grid_shows_three_inclinations_with_the_governing_one():
     row = build_row("A", 7, scale=0.72, failed_case=True)
-    for bound in record_grid(row).bounds:
+    for bound in bound_grid(row):
         angles = [one.inclination_deg for one in bound.maps]
         assert len(angles) <= 3
         assert bound.case["inclination_deg"] in angles
@@ -191,7 +176,7 @@ def test_slack_members_of_a_grid_are_left_out():
         replace(one, max_kN=0.0) if one.quantity == "downhill_guy" else one
         for one in row.extremes
     ]
-    shown = draw_maps(record_grid(replace(row, extremes=extremes)))
+    shown = draw_maps(bound_grid(replace(row, extremes=extremes)))
     assert "Downhill guy [kN]" not in shown
     assert "Post [kN]" in shown
 
@@ -199,4 +184,4 @@ def test_slack_members_of_a_grid_are_left_out():
 def test_a_grid_of_failed_cases_only_has_no_drawing():
     row = build_row("A", 3, scale=0.72, failed_case=True)
     failed = next(case for case in row.cases if case.foot_anchor_kN is None)
-    assert draw_maps(record_grid(replace(row, cases=[failed], extremes=[]))) == ""
+    assert draw_maps(bound_grid(replace(row, cases=[failed], extremes=[]))) == ""
