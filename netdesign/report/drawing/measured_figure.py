@@ -46,14 +46,9 @@ def draw_measured(
     )
     x, band = [at for at, _ in value], [[y for _, y in one] for one in (low, high)]
     member = show_member(words, entry["member"])
-    computed, measured, swing = (
-        words(key)
-        for key in (
-            "winter_measured.computed",
-            "winter_measured.measured",
-            "winter_measured.band",
-        )
-    )
+    swing = words("winter_measured.band")
+    computed = words("winter_measured.computed")
+    measured = words("winter_measured.measured")
     readings = _cut(_list_readings(entry), span)
     lines = [
         Line(label=swing, x=x, y=(), low=band[0], high=band[1]),
@@ -147,17 +142,15 @@ def _noon(day: str) -> datetime:
 
 
 def draw_residuals(residuals: Sequence[Mapping[str, Any]], words: Words) -> str:
-    """SVG of the residuals of a fit; "" without any.
+    """SVG of the residuals of a fit.
 
     Parameters
     ----------
     residuals : sequence of mapping
-        Entries of ``residuals`` of the winter document.
+        Entries of ``residuals`` of the winter document, at least one.
     words : Words
         Language.
     """
-    if not residuals:
-        return ""
     moments = [_noon(one["date"]) for one in residuals]
     span = min(moments) - 2 * _DAY, max(moments) + 2 * _DAY
     shares: dict[str, Points] = {}

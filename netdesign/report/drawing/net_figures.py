@@ -74,13 +74,13 @@ def draw_stick_slip(face: Face, words: Words = ENGLISH) -> str:
     _name_across(sketch, frame, words("net_drawing.height_normal"))
     ends = [(frame.left, frame.y(1.0)), (frame.left + frame.width, frame.y(1.0))]
     sketch.line(ends, stroke=GREY, width=0.6, dash="1 2")
-    sketch.line(_trace(frame, heights, used), stroke=GREY, width=0.6)
+    sketch.line(frame.place(zip(heights, used, strict=True)), stroke=GREY, width=0.6)
     looks = (
         (~slides, INK, INK, "net_drawing.sticks"),
         (slides, "#fff", ACCENT, "net_drawing.slips"),
     )
     for place, (mask, fill, rim, key) in enumerate(looks):
-        for at in _trace(frame, heights[mask], used[mask]):
+        for at in frame.place(zip(heights[mask], used[mask], strict=True)):
             sketch.dot(at, 2.1, fill=fill, stroke=rim)
         at = (0.72 * WIDTH, _TOP + 12.0 + 14.0 * place)
         sketch.dot(at, 2.1, fill=fill, stroke=rim)
@@ -211,7 +211,7 @@ def _draw_tractions(sketch: Chart, face: Face, words: Words) -> None:
         (pressure, INK, "", "net_drawing.pressure"),
         (shear, "#555b63", "4 1.5", "net_drawing.shear"),
     ):
-        points = _trace(frame, heights, part)
+        points = frame.place(zip(heights, part, strict=True))
         sketch.line(points, stroke=stroke, width=1.1, dash=dash)
         for at in points:
             sketch.dot(at, 0.9, fill=stroke, stroke=stroke)
@@ -240,12 +240,6 @@ def _draw_frame(
     )
     sketch.axes(frame)
     return frame
-
-
-def _trace(frame: Frame, across: Floats, up: Floats) -> list[Point]:
-    """Points of a line in its frame."""
-    pairs = zip(across, up, strict=True)
-    return [(frame.x(float(x)), frame.y(float(y))) for x, y in pairs]
 
 
 def _name_across(sketch: Chart, frame: Frame, text: str) -> None:

@@ -65,6 +65,10 @@ class Frame:
         share = (value - self.y_low) / span if span else 0.5
         return self.top + (1.0 - share) * self.height
 
+    def place(self, points: Iterable[Sequence[float]]) -> list[Point]:
+        """Places of points, whatever else is known of them [pt]."""
+        return [(self.x(float(one[0])), self.y(float(one[1]))) for one in points]
+
 
 @dataclass(slots=True, kw_only=True)
 class Chart:

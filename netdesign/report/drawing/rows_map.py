@@ -72,7 +72,7 @@ def draw_rows_map(
     below = frame.top + frame.height
     board = LabelBoard(width=WIDTH, height=below)
     for zone in places.zones:
-        chart.line(_place(frame, zone), stroke=GREY, width=0.8, dash="2 2")
+        chart.line(frame.place(zone), stroke=GREY, width=0.8, dash="2 2")
     shown = {name: rows.get(name, MappedRow()) for name in places.rows}
     for name, place in places.rows.items():
         _draw_row(chart, board, frame, place, shown[name].verdict)
@@ -125,10 +125,6 @@ def _frame(places: RowsMap) -> Frame:
     )
 
 
-def _place(frame: Frame, points: Sequence[Sequence[float]]) -> list[Point]:
-    return [(frame.x(one[0]), frame.y(one[1])) for one in points]
-
-
 def _draw_row(
     chart: Chart,
     board: LabelBoard,
@@ -137,7 +133,7 @@ def _draw_row(
     verdict: Verdict | None,
 ) -> None:
     """Line of a row, with a tick down the slope at each post."""
-    path = _place(frame, place.posts)
+    path = frame.place(place.posts)
     down = (math.sin(place.aspect), -math.cos(place.aspect))
     tips = [(x + _TICK * down[0], y + _TICK * down[1]) for x, y in path]
     chart.segments(zip(path, tips, strict=True), stroke=GREY, width=0.7)
@@ -158,7 +154,7 @@ def _draw_line(chart: Chart, path: Sequence[Point], verdict: Verdict | None) -> 
 
 def _label(frame: Frame, name: str, place: MeasuredPlace, row: MappedRow) -> Label:
     """Name of a row above its middle, with the sign of its verdict."""
-    path = _place(frame, place.posts)
+    path = frame.place(place.posts)
     sign = "" if row.verdict is None else VERDICTS[row.verdict].symbol
     text = " ".join(one for one in (name, sign, row.used) if one)
     colour = ACCENT if row.verdict is Verdict.FAIL else INK

@@ -106,7 +106,7 @@ def draw_pressure(
         y_high=max(drawing.head_m[1], known[-1][1]),
     )
     sketch.axes(frame)
-    points = [(frame.x(pressure), frame.y(y)) for pressure, y in known]
+    points = frame.place(known)
     edge = [(frame.x(0.0), points[0][1]), *points, (frame.x(0.0), points[-1][1])]
     sketch.area(edge, "#f1dfda")
     sketch.line(points, stroke=ACCENT, width=1.2)

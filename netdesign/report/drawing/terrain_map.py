@@ -101,12 +101,12 @@ def draw_map(
     step = _draw_contours(chart, extract)
     for zone in plan.zones:
         ring = np.vstack((zone, zone[:1]))
-        chart.line(_place(extract.frame, ring), width=1.2, dash="6 3")
+        chart.line(extract.frame.place(ring), width=1.2, dash="6 3")
     for row in rows:
         for post, end in enumerate(row.ends):
             lengths = row.above.lengths[:, post]
             path = row.above.points[lengths <= end.length.value, post]
-            chart.line(_place(extract.frame, path), stroke=GREY, width=0.4)
+            chart.line(extract.frame.place(path), stroke=GREY, width=0.4)
     _draw_rows(chart, extract.frame, rows)
     below = _draw_scale(chart, extract.frame)
     told = words("terrain_page.contours", step=step)
@@ -160,9 +160,9 @@ def draw_profile(row: MeasuredRow, words: Words) -> str:
     )
     chart = Chart(language=words.language)
     chart.axes(frame)
-    chart.line([(frame.x(a), frame.y(b)) for a, b in zip(out, heights, strict=True)])
+    chart.line(frame.place(zip(out, heights, strict=True)))
     net = [(0.0, float(heights[0])), (-head[0], head[1])]
-    chart.line([(frame.x(a), frame.y(b)) for a, b in net], width=2.0)
+    chart.line(frame.place(net), width=2.0)
     at = float(np.interp(end, above.lengths[keep, post], out))
     top = frame.y(float(np.interp(at, out, heights)))
     chart.line([(frame.x(at), top - 12.0), (frame.x(at), top)], dash="2 2")
@@ -281,7 +281,7 @@ def list_contour(
 def _draw_rows(chart: Chart, frame: Frame, rows: Sequence[MeasuredRow]) -> None:
     """Rows, each with its name above its middle where that is free."""
     board = LabelBoard(width=WIDTH, height=frame.top + frame.height)
-    paths = [_place(frame, row.posts) for row in rows]
+    paths = [frame.place(row.posts) for row in rows]
     for path in paths:
         chart.line(path, width=2.4)
         board.avoid(path)
@@ -305,7 +305,3 @@ def _draw_scale(chart: Chart, frame: Frame) -> float:
     chart.line(tip, width=1.2)
     chart.text(left + 9.0, below + TEXT_PT / 3, "N")
     return below + 20.0
-
-
-def _place(frame: Frame, points: Floats) -> list[tuple[float, float]]:
-    return [(frame.x(float(one[0])), frame.y(float(one[1]))) for one in points]
