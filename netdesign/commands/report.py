@@ -26,6 +26,14 @@ if TYPE_CHECKING:
     from netdesign.report.files import ReportStyle
 
 DEFAULT_FOLDER = "netdesign-out"
+# Reports by the options that ask for them.
+_REPORTS = {
+    "html": "report.html",
+    "pdf": "report.pdf",
+    "docx": "report.docx",
+    "excel": "report.xlsx",
+    "csv": "cases.csv",
+}
 _TURNED = 1
 
 
@@ -47,9 +55,7 @@ def list_wanted(asked: Mapping[str, Any]) -> list[str]:
     NetDesignError
         If one of them cannot be written on this machine.
     """
-    from netdesign.report.files import list_reports
-
-    wanted = {one: asked[one] for one in ("html", "excel", "csv", "pdf", "docx")}
+    wanted = {one: asked[one] for one in _REPORTS}
     wanted["docx"] = wanted["docx"] or asked["template"] is not None
     if wanted["pdf"]:
         from netdesign.report.files import require_pdf
@@ -59,7 +65,7 @@ def list_wanted(asked: Mapping[str, Any]) -> list[str]:
         from netdesign.report.document.template import require_docx
 
         require_docx()
-    return list_reports(**wanted)
+    return [name for one, name in _REPORTS.items() if wanted[one]]
 
 
 def choose_style(asked: Mapping[str, Any]) -> ReportStyle:

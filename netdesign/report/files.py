@@ -35,20 +35,6 @@ class ReportStyle:
     places: RowsMap | None = None  # of the map of the rows
 
 
-def list_reports(
-    *, html: bool, excel: bool, csv: bool, pdf: bool = False, docx: bool = False
-) -> list[str]:
-    """Names of the wanted reports."""
-    wanted = {
-        "report.html": html,
-        "report.pdf": pdf,
-        "report.docx": docx,
-        "report.xlsx": excel,
-        "cases.csv": csv,
-    }
-    return [name for name, is_wanted in wanted.items() if is_wanted]
-
-
 def name_files(
     folder: Path | None, profiles: Sequence[str], names: Sequence[str]
 ) -> list[list[Path]]:
