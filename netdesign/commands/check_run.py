@@ -122,14 +122,15 @@ def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
 def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
     """Print what ``--size`` found for each profile, and what its study says."""
     from netdesign.report.terminal import open_console, print_lines
-    from netdesign.report.what_if import describe_overall, list_sized
+    from netdesign.report.what_if import describe_overall, describe_sized
     from netdesign.report.words import Words
 
     words = Words(speak())
     lines: list[str] = []
     for (cells, what_if), study in zip(sized, studies, strict=False):  # none unasked
         lines.append(words("what_if.sized_for", profile=study.profile.id))
-        lines += list_sized(cells, words) or [words("what_if.nothing")]
+        told = [describe_sized(cell, words) for cell in cells]
+        lines += told or [words("what_if.nothing")]
         if what_if is not None:
             lines.append(describe_overall(what_if, words))
         elif cells:

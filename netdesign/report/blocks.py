@@ -175,11 +175,6 @@ def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:
     return Cell(text=words.show_fixed(value, decimals), number=value)
 
 
-def share_cell(words: Words, value: float | None) -> Cell:
-    """Pure number of any size, three significant digits."""
-    return Cell(text=words.show_share(value), number=value)
-
-
 def given_cell(words: Words, value: float | str) -> Cell:
     """Number that somebody chose or counted: no decimals are added."""
     if isinstance(value, str):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from netdesign.edge.output import PART_MARK, STUDY_FILE, WHAT_IF_MARK
@@ -37,12 +36,14 @@ def mark_verdict(study: Study, words: Words) -> VerdictWords:
         )
     if not study.what_if:
         return plain
+    cells = words.join(
+        show_text(f"{one.cell}: {one.was or MISSING} → {one.now}")
+        for one in study.what_if
+    )
     return replace(
         plain,
         word=words("what_if.verdict", verdict=plain.word),
-        meaning=words(
-            "what_if.meaning", meaning=plain.meaning, cells=words.join(_list(study))
-        ),
+        meaning=words("what_if.meaning", meaning=plain.meaning, cells=cells),
     )
 
 
@@ -59,17 +60,6 @@ def mark_title(study: Study, title: str, words: Words) -> str:
     return " · ".join(one for one in (*marks, title) if one)
 
 
-def _list(study: Study) -> list[str]:
-    return [
-        _describe_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if
-    ]
-
-
-def _describe_cell(cell: str, was: str, now: str) -> str:
-    """Cell with what it has and what is read instead."""
-    return show_text(f"{cell}: {was} → {now}")
-
-
 def build_what_if(study: Study, words: Words) -> Table:
     """Cells that are read otherwise than the workbook has them; empty of most sites."""
     keys = ("what_if.cell", "what_if.was", "what_if.now")
@@ -78,23 +68,15 @@ def build_what_if(study: Study, words: Words) -> Table:
         caption=words("what_if.caption"),
         columns=name_columns(headings, numbers=()),
         rows=tuple(
-            (
-                text_cell(one.cell),
-                text_cell(one.was or MISSING),
-                text_cell(one.now),
-            )
+            (text_cell(one.cell), text_cell(one.was), text_cell(one.now))
             for one in study.what_if
         ),
         empty=words("show.none"),
     )
 
 
-def list_sized(sized: Iterable[SizedCell], words: Words) -> Sequence[str]:
-    """Lines on the smallest types that were found, or that none was."""
-    return [_print_sizes(one, words) for one in sized]
-
-
-def _print_sizes(one: SizedCell, words: Words) -> str:
+def describe_sized(one: SizedCell, words: Words) -> str:
+    """Line on the smallest type that was found, or that none was."""
     place = {"row": show_text(one.row_id), "member": show_member(words, one.column)}
     if not one.cell:
         return words("what_if.no_cell", **place)

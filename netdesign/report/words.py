@@ -244,12 +244,8 @@ def find_choice(echo: InputEcho) -> Message | None:
     """Word of a column that an input was understood as; None where it is none."""
     if isinstance(echo.value, float) or not isinstance(echo.label, Message):
         return None
-    return name_choice(echo.label.key.rpartition(".")[2], echo.value)
-
-
-def name_choice(column: str, word: str) -> Message | None:
-    """Word of a column by its name in every language; None where it has none."""
-    key = f"choice.{column}.{normalise(word)}"
+    column = echo.label.key.rpartition(".")[2]
+    key = f"choice.{column}.{normalise(echo.value)}"
     return say(key) if key in load_texts("en") else None
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.report.what_if import list_sized
+from netdesign.report.what_if import describe_sized
 from netdesign.report.words import Words
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
@@ -125,7 +125,7 @@ def test_a_type_is_found_for_the_ground_of_the_row_alone(
 def test_types_of_another_ground_are_told_as_not_tried(example, language):
     _, cells, _ = size(example, **{A40: "", A57: ""})
     of_foot = [one for one in cells if one.column == "foot_anchor"]
-    (line,) = list_sized(of_foot, Words(language))
+    (line,) = (describe_sized(one, Words(language)) for one in of_foot)
     ends = {"en": "not tried: 2", "fr": "écartés\u00a0: 2", "de": "untersucht: 2"}
     assert line.endswith(ends[language])
 

@@ -17,20 +17,12 @@ from netdesign.report.blocks import (
     number_cell,
     number_column,
     section,
-    share_cell,
     text_cell,
     text_column,
 )
 from netdesign.report.words import Words, show_member
 from netdesign.structure.members import SOLVED_MEMBERS, Member
 
-_KEYS: Mapping[str, str] = {
-    Member.FOOT_ANCHOR: "foot_anchor_kN",
-    Member.UPHILL_GUY: "uphill_guy_kN",
-    Member.DOWNHILL_GUY: "downhill_guy_kN",
-    Member.POST: "post_kN",
-    Member.POST_FOOT: "post_foot_kN",
-}
 _PARTS: Mapping[str, str] = {
     "x": "support_view.x",
     "y": "support_view.y",
@@ -72,7 +64,7 @@ def list_shown(support: Mapping[str, Any]) -> list[str]:
 
 def find_force(forces: Mapping[str, Any] | None, member: str) -> float | None:
     """Force of a member within one of the two sets [kN]; None without it."""
-    value: float | None = forces.get(_KEYS[member]) if forces else None
+    value: float | None = forces.get(f"{member}_kN") if forces else None
     return value
 
 
@@ -106,7 +98,7 @@ def _list_forces(
         number_cell(words, "max_kN", errors[0]),
         number_cell(words, "max_kN", panel),
         number_cell(words, "max_kN", errors[1]),
-        share_cell(words, ratio),
+        Cell(text=words.show_share(ratio), number=ratio),
     )
 
 
