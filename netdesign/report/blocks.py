@@ -150,6 +150,16 @@ def name_columns(
     return tuple(Column(heading=h, is_number=h in numbers) for h in headings)
 
 
+def key_columns(
+    words: Words, prefix: str, keys: Sequence[str], *, numbers: Sequence[str] = ()
+) -> tuple[Column, ...]:
+    """Columns by the keys of their headings; those in ``numbers`` to the right."""
+    return tuple(
+        Column(heading=words(f"{prefix}{key}"), is_number=key in numbers)
+        for key in keys
+    )
+
+
 def text_cell(text: str) -> Cell:
     """Text on one line, never empty."""
     return Cell(text=show_text(text))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from netdesign.edge.output import PART_MARK, STUDY_FILE, WHAT_IF_MARK
-from netdesign.report.blocks import Table, name_columns, text_cell
+from netdesign.report.blocks import Table, key_columns, text_cell
 from netdesign.report.words import (
     MISSING,
     VerdictWords,
@@ -63,10 +63,9 @@ def mark_title(study: Study, title: str, words: Words) -> str:
 def build_what_if(study: Study, words: Words) -> Table:
     """Cells that are read otherwise than the workbook has them; empty of most sites."""
     keys = ("what_if.cell", "what_if.was", "what_if.now")
-    headings = [words(key) for key in keys]
     return Table(
         caption=words("what_if.caption"),
-        columns=name_columns(headings, numbers=()),
+        columns=key_columns(words, "", keys),
         rows=tuple(
             (text_cell(one.cell), text_cell(one.was), text_cell(one.now))
             for one in study.what_if

@@ -29,8 +29,8 @@ from netdesign.report.blocks import (
     Part,
     Piece,
     Table,
+    key_columns,
     masthead,
-    name_columns,
     notes,
     number_cell,
     number_column,
@@ -379,9 +379,7 @@ def _tabulate_quality(document: dict[str, Any], words: Words) -> Table:
     )
     return Table(
         caption=words("solved.quality_caption"),
-        columns=name_columns(
-            (words("solved.quantity"), words("solved.value")), numbers=()
-        ),
+        columns=key_columns(words, "", ("solved.quantity", "solved.value")),
         rows=rows,
     )
 

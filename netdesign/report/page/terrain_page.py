@@ -11,8 +11,8 @@ from netdesign.report.blocks import (
     Part,
     Table,
     fixed_cell,
+    key_columns,
     masthead,
-    name_columns,
     notes,
     section,
     text_cell,
@@ -163,10 +163,9 @@ def _tabulate(rows: Sequence[MeasuredRow], words: Words) -> Table:
                 text_cell(", ".join(map(str, row.kinks)) or "-"),
             )
         )
-    named = {one: words(f"terrain_page.column_{one}") for one in _COLUMNS}
-    numbers = [named[one] for one in _COLUMNS if one not in _TEXTS]
+    numbers = [one for one in _COLUMNS if one not in _TEXTS]
     return Table(
         caption=words("terrain_page.rows_caption"),
-        columns=name_columns(tuple(named.values()), numbers=numbers),
+        columns=key_columns(words, "terrain_page.column_", _COLUMNS, numbers=numbers),
         rows=tuple(lines),
     )

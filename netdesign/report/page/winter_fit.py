@@ -14,6 +14,7 @@ from netdesign.report.blocks import (
     Table,
     fixed_cell,
     force_cell,
+    key_columns,
     name_columns,
     notes,
     text_cell,
@@ -81,12 +82,12 @@ def _describe_fit(fit: Mapping[str, Any], words: Words) -> list[str]:
 
 
 def _tabulate_forces(forces: Sequence[Mapping[str, Any]], words: Words) -> Table:
-    keys = ("before", "deviation_before", "after", "deviation_after")
-    headings = [words(f"fit_page.{key}") for key in keys]
-    columns = [words("fit_page.case"), words("fit_page.member"), *headings]
+    numbers = ("before", "deviation_before", "after", "deviation_after")
     return Table(
         caption=words("fit_page.forces_caption"),
-        columns=name_columns(columns, numbers=headings),
+        columns=key_columns(
+            words, "fit_page.", ("case", "member", *numbers), numbers=numbers
+        ),
         rows=tuple(
             (
                 text_cell(words(f"fit_case.{one['case']}")),
@@ -103,10 +104,9 @@ def _tabulate_forces(forces: Sequence[Mapping[str, Any]], words: Words) -> Table
 
 def _tabulate_parameters(fit: Mapping[str, Any], words: Words) -> Table:
     keys = ("parameter", "unit", "prior", "posterior", "told")
-    headings = [words(f"fit_page.{key}") for key in keys]
     return Table(
         caption=words("fit_page.parameters_caption"),
-        columns=name_columns(headings, numbers=headings[2:4]),
+        columns=key_columns(words, "fit_page.", keys, numbers=("prior", "posterior")),
         rows=tuple(
             (
                 text_cell(words(f"fit_parameter.{one['name']}")),
@@ -165,12 +165,12 @@ def _unsigned(value: float) -> float:
 
 def _tabulate_residuals(fit: Mapping[str, Any], words: Words) -> Table:
     computed = "computed" if fit["outcome"] == "fitted" else "computed_refused"
-    keys = ("measured", computed, "residual", "deviation")
-    headings = [words(f"fit_page.{key}") for key in keys]
-    columns = [words("fit_page.date"), words("fit_page.member"), *headings]
+    numbers = ("measured", computed, "residual", "deviation")
     return Table(
         caption=words("fit_page.residuals_caption"),
-        columns=name_columns(columns, numbers=headings),
+        columns=key_columns(
+            words, "fit_page.", ("date", "member", *numbers), numbers=numbers
+        ),
         rows=tuple(
             (
                 text_cell(one["date"].replace("-", "\u2011")),

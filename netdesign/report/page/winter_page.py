@@ -12,7 +12,6 @@ from typing import Any
 from netdesign.report.blocks import (
     Block,
     Cell,
-    Column,
     Figure,
     Heading,
     Paragraph,
@@ -20,6 +19,7 @@ from netdesign.report.blocks import (
     Table,
     fixed_cell,
     force_cell,
+    key_columns,
     masthead,
     name_columns,
     notes,
@@ -206,15 +206,15 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
         *("winter", "height_max", "on", "swe_max", "foot", "head", "governing"),
         *("at_height_max", "uniform", "equivalent", "days_90", "outcome"),
     )
-    headings = [words(f"winter_column.{key}") for key in keys]
-    numbers = [headings[k] for k in (1, 3, 4, 5, 7, 8, 9, 10)]
+    numbers = [keys[k] for k in (1, 3, 4, 5, 7, 8, 9, 10)]
     rows = tuple(
         (
             _unbroken(one["name"]),
             fixed_cell(words, one["height_max_m"], 2),
             _unbroken(one["height_max_date"]),
             fixed_cell(words, one["swe_max_kg_m2"], 0),
-            *_show_peaks(one, words),
+            # none where no day has a force, though snow pulls
+            *(force_cell(words, one[f"{x}_peak_kN_per_m"]) for x in ("foot", "head")),
             _unbroken(one["governing_date"] or MISSING),
             force_cell(words, one["foot_at_height_max_kN_per_m"]),
             _show_uniform(one, words),
@@ -226,15 +226,9 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
     )
     return Table(
         caption=words("winter_page.summary_caption"),
-        columns=name_columns(headings, numbers=numbers),
+        columns=key_columns(words, "winter_column.", keys, numbers=numbers),
         rows=rows,
     )
-
-
-def _show_peaks(winter: Mapping[str, Any], words: Words) -> list[Cell]:
-    """Foot and head; nothing where no day has a force, though snow pulls."""
-    peaks = [winter[f"{end}_peak_kN_per_m"] for end in ("foot", "head")]
-    return [force_cell(words, one) for one in peaks]
 
 
 def _show_uniform(winter: Mapping[str, Any], words: Words) -> Cell:
@@ -311,7 +305,6 @@ def _show_statistics(row: Mapping[str, Any], words: Words) -> Iterator[Block]:
 
 def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
     keys = ("period", "return_value", "interval", "error", "gev", "interval")
-    headings = [words(f"winter_column.{key}") for key in keys]
     is_limited = statistics["limit_kN_per_m"] is not None
     moments, limited = "winter_page.statistics_caption", "winter_page.limited_caption"
     return Table(
@@ -321,7 +314,7 @@ def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
             mean=statistics["mean_kN_per_m"],
             variation=statistics["variation"],
         ),
-        columns=tuple(Column(heading=one, is_number=True) for one in headings),
+        columns=key_columns(words, "winter_column.", keys, numbers=keys),
         rows=tuple(
             (
                 fixed_cell(words, one["period_a"], 0),

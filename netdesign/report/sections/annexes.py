@@ -13,7 +13,7 @@ from netdesign.report.blocks import (
     Part,
     Table,
     given_cell,
-    name_columns,
+    key_columns,
     section,
     text_cell,
     text_column,
@@ -104,9 +104,7 @@ def _build_formulas(words: Words) -> Table:
     """Formulas of statics and guideline, once for all rows."""
     return Table(
         caption=words("caption.formulas"),
-        columns=tuple(
-            text_column(words(f"heading.{key}")) for key in ("gives", "formula")
-        ),
+        columns=key_columns(words, "heading.", ("gives", "formula")),
         rows=tuple(
             (
                 text_cell(words(f"formula.{key}")),
@@ -195,10 +193,7 @@ def build_provenance(study: Study, words: Words) -> Table:
     )
     return Table(
         caption=words("caption.provenance"),
-        columns=(
-            text_column(words("heading.item")),
-            text_column(words("heading.value")),
-        ),
+        columns=key_columns(words, "heading.", ("item", "value")),
         rows=tuple(
             (text_cell(one), text_cell(text)) for one, text in named.items() if text
         ),
@@ -215,10 +210,9 @@ def _show_setting(key: str, text: str, words: Words) -> str:
 def _build_checklist(study: Study, words: Words) -> Table:
     """Questions of a reviewer, each with what this document says to it."""
     keys = ("no", "question", "what_study_says", "see", "done")
-    headings = [words(f"heading.{key}") for key in keys]
     return Table(
         caption=words("caption.checklist"),
-        columns=name_columns(headings, numbers=headings[:1]),
+        columns=key_columns(words, "heading.", keys, numbers=("no",)),
         rows=tuple(
             (
                 given_cell(words, float(number)),

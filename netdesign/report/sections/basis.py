@@ -17,6 +17,7 @@ from netdesign.report.blocks import (
     Part,
     Table,
     given_cell,
+    key_columns,
     name_columns,
     section,
     symbols,
@@ -44,10 +45,9 @@ _BY_DEFAULT, _DERIVED = "*", "‡"
 def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Table:
     """List inputs as typed and as understood, each with its cell."""
     keys = ("input", "typed", "understood_as", "unit", "cell")
-    headings = [words(f"heading.{key}") for key in keys]
     return Table(
         caption=caption,
-        columns=name_columns(headings, numbers=(words("heading.understood_as"),)),
+        columns=key_columns(words, "heading.", keys, numbers=("understood_as",)),
         rows=tuple(
             (
                 text_cell(words.show(echo.label)),
@@ -157,10 +157,9 @@ def show_profile(study: Study, words: Words) -> Part:
 def build_profile(study: Study, words: Words) -> Table:
     """Values of the limit profile."""
     keys = ("clause", "value_of", "value", "unit", "status", "source")
-    headings = [words(f"heading.{key}") for key in keys]
     return Table(
         caption=words("caption.every_value"),
-        columns=name_columns(headings, numbers=(words("heading.value"),)),
+        columns=key_columns(words, "heading.", keys, numbers=("value",)),
         rows=tuple(
             (
                 text_cell(value.clause),
@@ -259,10 +258,9 @@ def _list(sentences: Sequence[str], words: Words) -> Block:
 
 def _tabulate_scope(study: Study, words: Words) -> Table:
     """Topics that the study does not treat, those that its profile leaves out first."""
-    headings = [words(f"heading.{key}") for key in ("not_treated", "who_checks")]
     return Table(
         caption=words("scope.decision"),
-        columns=name_columns(headings, numbers=()),
+        columns=key_columns(words, "heading.", ("not_treated", "who_checks")),
         rows=tuple(
             (text_cell(words(f"scope.{key}")), text_cell(words(f"scope.{key}_by")))
             for key in (*study.profile.not_checked, *_SCOPE)
@@ -281,10 +279,8 @@ def _list_profile(study: Study, words: Words) -> Iterator[Block]:
         "profile_choice": show_own(words, profile.choice_text or profile.choice),
         "unconfirmed": words("show.assumed_counted", assumed=assumed, count=count),
         "floor": describe_floor(study, words),
+        "accepted_law": describe_accepted_law(study, words),
     }
-    law = describe_accepted_law(study, words)
-    if law:
-        told["accepted_law"] = law
     pairs = tuple(
         Pair(name=words(f"heading.{key}"), text=show_text(text))
         for key, text in told.items()

@@ -20,6 +20,7 @@ from netdesign.report.blocks import (
     Part,
     Piece,
     Table,
+    key_columns,
     masthead,
     name_columns,
     rich_cell,
@@ -130,14 +131,13 @@ def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
 
 
 def _tabulate_rows(study: Study, words: Words, *, has_rows: bool) -> Block:
-    t = words
     if not study.rows:
-        return Paragraph(text=t("heading.no_rows"), look="none")
+        return Paragraph(text=words("heading.no_rows"), look="none")
     keys = ("net_row", "verdict", "governing_check", "utilisation", "reason")
     anchors = anchor_rows(study)
     return Table(
-        caption=t("caption.decision"),
-        columns=name_columns([t(f"heading.{key}") for key in keys], numbers=()),
+        caption=words("caption.decision"),
+        columns=key_columns(words, "heading.", keys),
         rows=tuple(
             _list_row(row, anchors[row.id] if has_rows else "", words)
             for row in study.rows
@@ -331,10 +331,10 @@ def _sign(study: Study, words: Words) -> Part:
         "checked": project.checker,
         "approved": "",
     }
-    headings = [words(f"heading.{x}") for x in ("role", "name", "date", "signature")]
+    keys = ("role", "name", "date", "signature")
     table = Table(
         caption=words("heading.signatures"),
-        columns=name_columns(headings, numbers=()),
+        columns=key_columns(words, "heading.", keys),
         rows=tuple(
             (
                 Cell(text=words(f"heading.{role}")),

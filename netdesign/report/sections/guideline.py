@@ -10,7 +10,7 @@ from netdesign.report.blocks import (
     Part,
     Table,
     fixed_cell,
-    name_columns,
+    key_columns,
     number_cell,
     section,
     text_cell,
@@ -68,12 +68,11 @@ def _find_largest(record: GuidelineRecord) -> float | None:
 def _tabulate(rows: list[RowStudy], words: Words) -> Table:
     """Foot anchor of each row: coupled, by the guideline, by its law in equal snow."""
     keys = ("coupled", "guideline", "ratio", "same_snow", "model")
-    headings = [words(f"why_more.{key}") for key in keys]
     return Table(
         caption=words("why_more.table"),
         columns=(
             text_column(words("heading.net_row")),
-            *name_columns(headings, numbers=headings),
+            *key_columns(words, "why_more.", keys, numbers=keys),
         ),
         rows=tuple(_show(row, words) for row in rows),
     )

@@ -15,6 +15,7 @@ from netdesign.report.blocks import (
     Table,
     fixed_cell,
     given_cell,
+    key_columns,
     name_columns,
     number_cell,
     number_column,
@@ -62,8 +63,8 @@ def show_quality(study: Study, words: Words) -> Part:
         if text
     )
     rows: tuple[Table, ...] = (
-        _stack(words("caption.bounds"), study, build_bounds, words),
-        _stack(words("caption.driver_table"), study, _build_drivers, words),
+        stack_rows(words("caption.bounds"), study, build_bounds, words),
+        stack_rows(words("caption.driver_table"), study, _build_drivers, words),
         _build_spreads(study, words),
     )
     return section(
@@ -82,13 +83,13 @@ def show_quality(study: Study, words: Words) -> Part:
 
 def _build_quality(study: Study, words: Words) -> Table:
     """Worst numerical quality of each row."""
-    counts = (words("heading.cases"), words("heading.without_result"))
+    counts = ("cases", "without_result")
     error = add_unit(words("heading.largest_error"), "%")
     return Table(
         caption=words("caption.quality"),
         columns=(
             text_column(words("heading.net_row")),
-            *name_columns(counts, numbers=counts),
+            *key_columns(words, "heading.", counts, numbers=counts),
             number_column("balance_residual", words("heading.largest_residual")),
             number_column("error_percent", error),
             text_column(words("heading.independent_checks")),
@@ -130,13 +131,11 @@ def _find_worst(
 
 def _build_failed(study: Study, words: Words) -> Table:
     """Cases without a result, by name."""
-    headings = [
-        words(f"heading.{one}") for one in ("net_row", "case", "outcome", "reason")
-    ]
+    keys = ("net_row", "case", "outcome", "reason")
     has_cases = any(row.cases for row in study.rows)
     return Table(
         caption=words("caption.failed"),
-        columns=name_columns(headings, numbers=()),
+        columns=key_columns(words, "heading.", keys),
         rows=tuple(
             (
                 text_cell(row.id),
@@ -338,11 +337,10 @@ def _show_driver(driver: DriverRecord, words: Words) -> str:
 def _build_spreads(study: Study, words: Words) -> Table:
     """Uncertainty of the check that is shown of each row, part by part."""
     keys = ("net_row", "check", "in_the_verdict", "for_comparison")
-    headings = [words(f"heading.{key}") for key in keys]
     shown = [(row, check) for row in study.rows if (check := find_shown(row.checks))]
     return Table(
         caption=words("caption.spreads"),
-        columns=name_columns(headings, numbers=()),
+        columns=key_columns(words, "heading.", keys),
         rows=tuple(
             (
                 text_cell(row.id),
@@ -419,11 +417,8 @@ def build_opinions(study: Study, words: Words) -> Table:
 def _opinion_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
     guideline, slab = row.guideline, row.slab
     coupled = guideline.solved_foot_anchor_kN if guideline else None
-    by_case = (
-        {one.name: one.foot_anchor_kN for one in guideline.cases if guideline}
-        if guideline
-        else {}
-    )
+    cases = guideline.cases if guideline else []
+    by_case = {one.name: one.foot_anchor_kN for one in cases}
     forces = [one.foot_anchor_kN for one in slab.cases] if slab else []
     known = [one for one in forces if one is not None]
     return (
@@ -477,13 +472,12 @@ def _list_notes(study: Study, words: Words) -> Iterator[Block]:
 def _tabulate_notes(study: Study, words: Words) -> Table:
     """Density by a model code, loaded net and snow on guys, a line for each row."""
     keys = ("code_density", "loaded_net", "of_net", "of_snow", "pressure", "guys")
-    headings = [words(f"beside.{key}") for key in keys]
     lines = [(row.id, _read_notes(row, words)) for row in study.rows]
     return Table(
         caption=words("beside.caption"),
         columns=(
             text_column(words("heading.net_row")),
-            *name_columns(headings, numbers=headings[:5]),
+            *key_columns(words, "beside.", keys, numbers=keys[:5]),
         ),
         rows=tuple(
             (text_cell(row_id), *cells)
@@ -520,12 +514,13 @@ def _show_share(
     return fixed_cell(words, number, decimals)
 
 
-def _stack(
+def stack_rows(
     caption: str,
     study: Study,
     build: Callable[[RowStudy, Words], Table],
     words: Words,
 ) -> Table:
+    """One table out of those of the net rows."""
     return stack_tables(caption, [(x.id, build(x, words)) for x in study.rows], words)
 
 

@@ -12,14 +12,13 @@ from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import (
     Block,
     Cell,
-    Column,
     Figure,
     Items,
     Paragraph,
     Part,
     Table,
     fixed_cell,
-    name_columns,
+    key_columns,
     section,
     text_cell,
     text_column,
@@ -115,7 +114,6 @@ def _show_index(record: ReliabilityRecord, words: Words) -> str:
 def tabulate_indices(study: Study, words: Words) -> Table:
     """Index of each row beside those of the model code, with its implied factors."""
     names = ("index", "by_form", "over_full", "action", "resistance", "solved")
-    headings = [words(f"reliability.{name}") for name in names]
     rows = [_list_row(row, one, words) for row, one in list_records(study)]
     rows += [
         (
@@ -128,9 +126,9 @@ def tabulate_indices(study: Study, words: Words) -> Table:
     ]
     return Table(
         caption=words("reliability.caption"),
-        columns=name_columns(
-            [words("heading.net_row"), words("heading.governing_check"), *headings],
-            numbers=headings,
+        columns=(
+            *key_columns(words, "heading.", ("net_row", "governing_check")),
+            *key_columns(words, "reliability.", names, numbers=names),
         ),
         rows=tuple(rows),
         look="extremes",
@@ -204,12 +202,11 @@ def _name(variable: VariableRecord, words: Words) -> str:
 def tabulate_shares(study: Study, words: Words) -> Table:
     """Shares of the variables in each index, for a sheet that draws their bars."""
     names = ("share", "at_point")
-    headings = [words(f"reliability.{name}") for name in names]
     return Table(
         caption=words("reliability.all_shares"),
-        columns=name_columns(
-            [words("heading.net_row"), words("heading.quantity"), *headings],
-            numbers=headings,
+        columns=(
+            *key_columns(words, "heading.", ("net_row", "quantity")),
+            *key_columns(words, "reliability.", names, numbers=names),
         ),
         rows=tuple(
             (
@@ -227,8 +224,7 @@ def tabulate_shares(study: Study, words: Words) -> Table:
 
 def tabulate_variables(study: Study, words: Words) -> Table:
     """Distributions of all rows, with what each is from; equal lines are one."""
-    columns = ("distribution", "mean", "variation")
-    headings = [words(f"reliability.{name}") for name in columns]
+    names = ("distribution", "mean", "variation")
     lines: dict[tuple[str, ...], list[str]] = {}
     known = [
         (one, show_text(row.id))
@@ -242,10 +238,8 @@ def tabulate_variables(study: Study, words: Words) -> Table:
         caption=words("reliability.variables"),
         columns=(
             text_column(words("heading.quantity")),
-            Column(heading=headings[0]),
-            *name_columns(headings[1:], numbers=headings[1:]),
-            text_column(words("heading.source")),
-            text_column(words("heading.net_rows")),
+            *key_columns(words, "reliability.", names, numbers=names[1:]),
+            *key_columns(words, "heading.", ("source", "net_rows")),
         ),
         rows=tuple(
             (*map(text_cell, texts), text_cell(", ".join(rows)))

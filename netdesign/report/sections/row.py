@@ -19,6 +19,7 @@ from netdesign.report.blocks import (
     Piece,
     Table,
     keep_units,
+    key_columns,
     name_columns,
     number_cell,
     rich_cell,
@@ -45,6 +46,7 @@ from netdesign.report.sections.checks import (
     show_changes,
     show_used,
 )
+from netdesign.report.sections.schedule import find_largest
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import (
     MISSING,
@@ -86,11 +88,8 @@ def _list_types(
         if check.tests is not None:
             checks.setdefault(check.resistance_type, []).append(check)
     for first, *others in checks.values():
-        forces = [one.read_band("E_d")[1] for one in (first, *others)]
-        known = [one for one in forces if one is not None]
-        force = max(known) if len(known) == len(forces) else None
         if first.tests is not None:
-            yield first, first.tests, force
+            yield first, first.tests, find_largest([first, *others], "E_d")
 
 
 def _tabulate_routes(tested: _Tested, words: Words) -> Table:
@@ -129,7 +128,6 @@ def _list_remarks(tests: TestsRecord, words: Words) -> Iterator[str]:
 
 def _tabulate_singles(tested: _Tested, words: Words) -> Table:
     keys = ("load", "proof", "displacement", "outcome", "wanted", "accepted")
-    headings = [words(f"tested.{key}") for key in keys]
     rows = tuple(
         _show_single(check, one, tests.proof_factor, force, words)
         for check, tests, force in tested
@@ -137,9 +135,9 @@ def _tabulate_singles(tested: _Tested, words: Words) -> Table:
     )
     return Table(
         caption=words("tests.acceptance"),
-        columns=name_columns(
-            [words("heading.type"), words("tests.cell"), *headings],
-            numbers=[headings[0], headings[1], headings[2], headings[4]],
+        columns=(
+            *key_columns(words, "", ("heading.type", "tests.cell")),
+            *key_columns(words, "tested.", keys, numbers=(*keys[:3], "wanted")),
         ),
         rows=rows,
         symbols="headings",

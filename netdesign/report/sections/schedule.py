@@ -11,6 +11,7 @@ from netdesign.report.blocks import (
     Part,
     Table,
     fixed_cell,
+    key_columns,
     name_columns,
     number_cell,
     section,
@@ -56,7 +57,7 @@ def build_schedule(study: Study, words: Words) -> Table:
         caption=words("caption.schedule"),
         columns=(
             text_column(words("heading.net_row")),
-            *name_columns([words(f"heading.{one}") for one in headings], numbers=()),
+            *key_columns(words, "heading.", headings),
             *name_columns(numbers, numbers=numbers),
             Column(heading=add_unit(words("heading.schedule_needed"), "kN")),
         ),
@@ -244,17 +245,15 @@ def build_quantities(study: Study, words: Words, *, has_prices: bool = False) ->
 
     ``has_prices`` adds empty columns for prices and amounts.
     """
-    prices = [words(f"quantities.{one}") for one in PRICES] if has_prices else []
-    headings = [words(f"quantities.{one}") for one in ("part", "type", "rows")]
+    prices = PRICES if has_prices else ()
+    counts = ("count", "each", "total")
     return Table(
         caption=words("quantities.caption"),
         columns=(
-            *name_columns(headings, numbers=()),
+            *key_columns(words, "quantities.", ("part", "type", "rows")),
             Column(heading="E_d [kN]", is_number=True),
-            Column(heading=words("quantities.count"), is_number=True),
-            Column(heading=words("quantities.each"), is_number=True),
-            Column(heading=words("quantities.total"), is_number=True),
-            *name_columns(prices, numbers=prices),
+            *key_columns(words, "quantities.", counts, numbers=counts),
+            *key_columns(words, "quantities.", prices, numbers=prices),
             Column(heading=words("quantities.needed")),
         ),
         rows=tuple(

@@ -18,7 +18,7 @@ from netdesign.report.blocks import (
     Part,
     Piece,
     Table,
-    name_columns,
+    key_columns,
     rich_cell,
     section,
     strong,
@@ -48,11 +48,10 @@ _OfRow = tuple[str, CheckRecord]  # id of the net row, and a check of it
 
 def work_out(check: CheckRecord, words: Words) -> Table:
     """The calculation of a check: formula, numbers, result, a line each."""
-    headings = [words(f"heading.{one}") for one in ("symbols", "numbers", "result")]
     title = {"check": show_check(words, check), "case": name_case(check, words)}
     return Table(
         caption=words("show.row_at_case", **title),
-        columns=name_columns(headings, numbers=()),
+        columns=key_columns(words, "heading.", ("symbols", "numbers", "result")),
         rows=tuple(_list_steps(check, words)),
         look="worked",
     )
@@ -121,7 +120,7 @@ def show_all(study: Study, words: Words) -> Part:
     shared = _find_shared(groups)
     table = Table(
         caption=words.join(_describe_step(one, words) for one in shared),
-        columns=name_columns([words("heading.calculation")], numbers=()),
+        columns=key_columns(words, "heading.", ("calculation",)),
         rows=tuple(_list_groups(groups, shared, words)),
         empty=words("heading.no_utilisation"),
         look="worked-out",

@@ -24,6 +24,7 @@ from netdesign.report.sections.checks import list_changes
 from netdesign.report.sections.quality import (
     build_cases,
     build_extremes,
+    stack_rows,
     stack_tables,
 )
 from netdesign.report.sections.reliability import (
@@ -170,11 +171,9 @@ def list_inputs(study: Study, words: Words) -> list[tuple[str, Table]]:
 def _add_cases(book: Book, study: Study) -> None:
     """Sheet of all cases, and of the largest force of each member."""
     words = book.words
-    cases = [(row.id, build_cases(row, words)) for row in study.rows]
-    extremes = [(row.id, build_extremes(row, words)) for row in study.rows]
     shown = [
-        stack_tables(words("caption.cases"), cases, words),
-        stack_tables(words("caption.extremes"), extremes, words),
+        stack_rows(words("caption.cases"), study, build_cases, words),
+        stack_rows(words("caption.extremes"), study, build_extremes, words),
     ]
     book.add_table_sheet("cases", words("heading.all_cases"), shown)
 
