@@ -189,44 +189,23 @@ def _write_line(
 ) -> str:
     spans = len(cells) == 1 < len(widths)
     taken = [sum(widths)] if spans else widths
-    inside = "".join(
-        _write_cell(
-            cell,
-            width,
-            style,
-            len(widths) if spans else 1,
-            is_number,
-            is_head,
-            is_tight,
+    spanned = f'<w:gridSpan w:val="{len(widths)}"/>' if spans else ""
+    inside = ""
+    for cell, width, is_number in zip(cells, taken, grid.numbers, strict=False):
+        runs = cell
+        if is_head or is_tight:
+            runs = tuple(
+                Run(one.text, one.is_bold or is_head, is_tight, one.has_symbols)
+                for one in cell
+            )
+        look = "<w:keepNext/>" if is_head else ""
+        look += '<w:jc w:val="right"/>' if is_number and not spans else ""
+        inside += (
+            f'<w:tc><w:tcPr><w:tcW w:w="{width}" w:type="dxa"/>{spanned}</w:tcPr>'
+            f"{write_paragraph(write_runs(runs), style, look)}</w:tc>"
         )
-        for cell, width, is_number in zip(cells, taken, grid.numbers, strict=False)
-    )
     repeated = "<w:tblHeader/>" if is_head else ""
     return f"<w:tr><w:trPr><w:cantSplit/>{repeated}</w:trPr>{inside}</w:tr>"
-
-
-def _write_cell(
-    content: Runs,
-    width: int,
-    style: str,
-    span: int,
-    is_number: bool,
-    is_head: bool,
-    is_tight: bool,
-) -> str:
-    if is_head or is_tight:
-        content = tuple(
-            Run(one.text, one.is_bold or is_head, is_tight, one.has_symbols)
-            for one in content
-        )
-    spanned = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
-    look = "<w:keepNext/>" if is_head else ""
-    look += '<w:jc w:val="right"/>' if is_number and span == 1 else ""
-    paragraph = write_paragraph(write_runs(content), style, look)
-    return (
-        f'<w:tc><w:tcPr><w:tcW w:w="{width}" w:type="dxa"/>{spanned}</w:tcPr>'
-        f"{paragraph}</w:tc>"
-    )
 
 
 def _measure_columns(
