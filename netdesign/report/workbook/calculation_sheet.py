@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 from netdesign.calculation.formula import (
@@ -88,22 +89,25 @@ class GivenCells:
             GivenCell("profile", line, cells[2])
             for line, cells in enumerate(profile.rows, _FIRST_LINE)
         ]
-        self._profile = list(zip(study.profile.values, of_profile, strict=True))
-        self._of_profile: dict[tuple[str, str], list[GivenCell]] = {}
+        values = list(zip(study.profile.values, of_profile, strict=True))
+        # a value by its id, and all that stand in a table by the table's
+        self._profile: dict[tuple[str, str], list[GivenCell]] = {}
+        for value, cell in values:
+            for source in {value.id, value.id.partition("[")[0]}:
+                self._profile.setdefault((source, value.unit), []).append(cell)
         tables = [table for _, table in parts]
         inputs = _list_inputs(above, tables)
         self._cells = [*of_profile, *inputs]
-        ends = [len(tables[0].rows)]
-        for table in tables[1:]:
-            ends.append(ends[-1] + len(table.rows))
+        of_rows = iter(inputs[len(tables[0].rows) :])
         self._inputs: list[dict[tuple[str, str], list[GivenCell]]] = []
-        for row, first, last in zip(study.rows, ends, ends[1:], strict=False):
+        for row in study.rows:
             places: dict[tuple[str, str], list[GivenCell]] = {}
-            for echo, cell in zip(row.inputs, inputs[first:last], strict=True):
+            own = islice(of_rows, len(row.inputs))
+            for echo, cell in zip(row.inputs, own, strict=True):
                 places.setdefault((echo.cell, echo.unit), []).append(cell)
             self._inputs.append(places)
         # directions of pulls follow the load along the row wherever a profile has one
-        share = [("k", x) for value, x in self._profile if value.id == LATERAL_SHARE]
+        share = [("k", x) for value, x in values if value.id == LATERAL_SHARE]
         self._by_symbol = [
             {**dict(share), **self._find_all(number, _list_leaves(row))}
             for number, row in enumerate(study.rows)
@@ -113,26 +117,10 @@ class GivenCells:
         """Cell that a step of a net row, by its place, is read from."""
         if step.value is None or step.symbol in _BY_RULE:
             return None
-        if step.kind is Kind.GIVEN:
-            found = self._inputs[row].get((step.source, step.unit), [])
-        elif step.kind is Kind.PROFILE:
-            found = self._find_in_profile(step.source, step.unit)
-        else:
-            return None
+        cells = {Kind.GIVEN: self._inputs[row], Kind.PROFILE: self._profile}
+        found = cells.get(step.kind, {}).get((step.source, step.unit), [])
         same = [one for one in found if _is_near(one.shown.number, step.value)]
         return same[0] if len(same) == 1 else None
-
-    def _find_in_profile(self, source: str, unit: str) -> list[GivenCell]:
-        """Cells of a value of the profile, or of all that stand in a table."""
-        key = source, unit
-        if key not in self._of_profile:
-            self._of_profile[key] = [
-                cell
-                for one, cell in self._profile
-                if one.unit == unit
-                and (one.id == source or one.id.startswith(f"{source}["))
-            ]
-        return self._of_profile[key]
 
     def refer(self, cell: GivenCell) -> str:
         """Reference to a cell from another sheet."""
@@ -264,14 +252,15 @@ class Calculations:
         self._book = book
         self._cells = cells
         self._typed: dict[tuple[int, Step], int] = {}
-        self._blocks: dict[tuple[int, int], dict[str, Line]] = {}
+        # lines of each check by symbol, by the places of net row and check
+        self.blocks: dict[tuple[int, int], dict[str, Line]] = {}
         self._actions: dict[tuple[int, tuple[Step, ...]], dict[str, Line]] = {}
         self.titles: dict[tuple[int, int], int] = {}  # lines of them
         line = _HEAD_ROW + 2
         for place, check in _list_checks(study):
             self.titles[place] = line
-            self._blocks[place] = self._place_steps(place[0], line + 1, check)
-            line += sum(one.number > line for one in self._blocks[place].values()) + 2
+            self.blocks[place] = self._place_steps(place[0], line + 1, check)
+            line += sum(one.number > line for one in self.blocks[place].values()) + 2
 
     def _place_steps(self, row: int, first: int, check: CheckRecord) -> dict[str, Line]:
         """Lines of a check by symbol; those to its design force may be another's."""
@@ -306,13 +295,9 @@ class Calculations:
         first = self._typed.setdefault((whose, step), number)
         return Line(number, step, "", first, ends)
 
-    def list_blocks(self) -> Iterator[tuple[tuple[int, int], Mapping[str, Line]]]:
-        """Lines of each check by symbol, by the places of net row and check."""
-        yield from self._blocks.items()
-
     def refer(self, place: tuple[int, int], symbol: str, end: int = 0) -> str:
         """Reference to a step of a check from another sheet; "" where it has none."""
-        line = self._blocks.get(place, {}).get(symbol)
+        line = self.blocks.get(place, {}).get(symbol)
         if line is None:
             return ""
         cell = line.find(end)
@@ -321,7 +306,7 @@ class Calculations:
     def list_followed(self, place: tuple[int, int]) -> Iterator[str]:
         """Conditions: what stands here and the solved forces rest on is the study's."""
         for symbol in IN_FORCES:
-            line = self._blocks.get(place, {}).get(symbol)
+            line = self.blocks.get(place, {}).get(symbol)
             if line is not None and not line.link and line.step.value is not None:
                 yield write_same(self.refer(place, symbol), line.step.value)
 
@@ -384,7 +369,7 @@ def add_calculation_sheet(book: Book, study: Study, calculations: Calculations) 
     book.write_head(sheet, _HEAD_ROW, _list_columns(words), _WIDTHS)
     for index, width in enumerate(_WIDTHS):
         sheet.set_column(index, index, width)
-    for (row, check), block in calculations.list_blocks():
+    for (row, check), block in calculations.blocks.items():
         shown = study.rows[row]
         title = f"{show_text(shown.id)}: {show_check(words, shown.checks[check])}"
         top = calculations.titles[row, check] - 1

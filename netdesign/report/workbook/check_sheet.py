@@ -282,7 +282,7 @@ class _LineWriter:
         formula = write_verdict(
             [self._find(place, name) for name in _RATIOS],
             check.verdict if is_set else None,
-            {verdict: self.book.word(verdict) for verdict in Verdict},
+            self.book.verdicts,
             follows=not (_is_withheld(check.reason) or is_set_for_good),
         )
         none = quote(words(f"verdict.{Verdict.NOT_PROVEN}"))

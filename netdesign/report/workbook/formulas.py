@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from netdesign.outcome import Verdict
-from netdesign.report.words import MISSING
+from netdesign.report.words import MISSING, VerdictWords
 
 _ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
 _SAME = 1e-9  # relative
@@ -46,7 +46,7 @@ def write_link(cell: str, bounds: Sequence[str] = ()) -> str:
 def write_verdict(
     ends: Sequence[str],
     given: Verdict | None,
-    words: Mapping[Verdict, str],
+    words: Mapping[Verdict, VerdictWords],
     *,
     follows: bool,
 ) -> str:
@@ -58,14 +58,15 @@ def write_verdict(
     low, value, high = ends
     ordered = f"{low}<={value}*{_ORDER},{value}<={high}*{_ORDER}"
     passes, fails, open_ = (
-        quote(words[one]) for one in (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
+        quote(words[one].word)
+        for one in (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
     )
     by_ratio = f"IF({high}<=1+{_ROUNDING:.0E},{passes},IF({low}>1,{fails},{open_}))"
     known = f"COUNT({','.join(ends)})={len(ends)}"
     live = f"IF({known},IF(AND({ordered}),{by_ratio},{open_}),{open_})"
     if given is None:
         return live
-    told = quote(words[given])
+    told = quote(words[given].word)
     if not follows or given is Verdict.FAIL:
         return told
     return f"IF({live}={fails},{fails},{told})"
@@ -81,11 +82,14 @@ def decide_by_ratio(low: float | None, high: float | None) -> Verdict:
 
 
 def write_merged(
-    counts: Mapping[Verdict, str], total: int, held: str, words: Mapping[Verdict, str]
+    counts: Mapping[Verdict, str],
+    total: int,
+    held: str,
+    words: Mapping[Verdict, VerdictWords],
 ) -> str:
     """``outcome.merge_verdicts``: a pass only where all ``total`` parts are one."""
     passes, fails, open_, declared = (
-        quote(words[one])
+        quote(words[one].word)
         for one in (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED)
     )
     passed, told = counts[Verdict.PASS], counts[Verdict.DECLARED]

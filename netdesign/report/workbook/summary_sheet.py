@@ -128,26 +128,22 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
         counts,
         total=len(study.rows),
         held=f'"{word if held else MISSING}"',
-        words=_list_words(book),
+        words=book.verdicts,
     )
     small = book.text(bold=True, font_size=12, shrink=True)
     sheet.write_formula(2, 2, formula, small, word)
-    meanings = {book.word(v): book.verdicts[v].meaning for v in Verdict}
-    meaning = f'"{meanings[book.word(Verdict.NOT_PROVEN)]}"'
+    meaning = f'"{book.verdicts[Verdict.NOT_PROVEN].meaning}"'
     for one in (Verdict.DECLARED, Verdict.FAIL, Verdict.PASS):
-        verdict = book.word(one)
-        meaning = f'IF(C3="{verdict}","{meanings[verdict]}",{meaning})'
-    sheet.write_formula(2, 3, f"={meaning}", book.text(), meanings[word])
+        shown = book.verdicts[one]
+        meaning = f'IF(C3="{shown.word}","{shown.meaning}",{meaning})'
+    told = book.verdicts[study.verdict].meaning
+    sheet.write_formula(2, 3, f"={meaning}", book.text(), told)
     names = {
         "overall_verdict": "$C$3",
         "row_verdicts": f"$C${_HEAD_ROW + 2}:$C${last + 1}",
     }
     for name, area in names.items():
         book.workbook.define_name(name, f"={book.refer('decision', area)}")
-
-
-def _list_words(book: Book) -> dict[Verdict, str]:
-    return {verdict: book.word(verdict) for verdict in Verdict}
 
 
 def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
@@ -159,7 +155,7 @@ def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
         {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEFG", strict=True)},
         total=len(row.checks),
         held=f"{chr(ord('A') + _HELD)}{line}",
-        words=_list_words(book),
+        words=book.verdicts,
     )
     bold = book.text(bold=True, text_wrap=True)
     sheet.write_formula(index, 2, formula, bold, book.word(row.verdict))
