@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import zipfile
 import zlib
-from datetime import UTC, datetime
+from datetime import datetime
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -127,20 +127,19 @@ def _drop_text(document: Document) -> None:
             del document.part.rels[name]
 
 
-_NO_TIME = datetime(1980, 1, 1)
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 _MOST_SIGNS = 255  # of a property of a document
 
 
 def set_properties(
-    document: Document, *, title: str, subject: str, author: str, started: str
+    document: Document, *, title: str, subject: str, author: str, created: datetime
 ) -> None:
     """Properties of a document; those of its template are replaced."""
     known = document.core_properties
     known.title, known.subject = title[:_MOST_SIGNS], subject[:_MOST_SIGNS]
     known.author = known.last_modified_by = author[:_MOST_SIGNS]
     known.comments = known.keywords = known.category = ""
-    known.created = known.modified = _read_time(started)
+    known.created = known.modified = created
     known.revision = 1
 
 
@@ -157,11 +156,3 @@ def pack(document: Document) -> bytes:
             part.compress_type = zipfile.ZIP_DEFLATED
             target.writestr(part, source.read(name))
     return buffer.getvalue()
-
-
-def _read_time(started: str) -> datetime:
-    """Start of the study in UTC without a zone, as documents store it."""
-    if not started:
-        return _NO_TIME
-    time = datetime.fromisoformat(started)
-    return time.astimezone(UTC).replace(tzinfo=None) if time.tzinfo else time

@@ -42,8 +42,8 @@ from netdesign.report.document.markup import (
 )
 from netdesign.report.document.template import open_document, pack, set_properties
 from netdesign.report.drawing.raster import read_size, read_title, render_png
-from netdesign.report.sections.whole import Detail, build_report, title_pages
-from netdesign.report.words import VERDICTS, Words, show_text
+from netdesign.report.sections.whole import Detail, build_report, list_properties
+from netdesign.report.words import VERDICTS, Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
@@ -385,19 +385,13 @@ def render_document(
         If the study contradicts its own numbers.
     """
     words = Words(language)
-    running = title_pages(study, words)
+    properties = list_properties(study, words)
     document = open_document(template)
     styles.set_language(document, language)
     to = Writer(document=document, words=words)
-    _write_footer(to, running)
+    _write_footer(to, properties["subject"])
     to.write(build_report(study, words, detail, places))
-    set_properties(
-        document,
-        title=words("heading.anchor_check"),
-        subject=running,
-        author=show_text(study.project.author),
-        started=study.provenance.started,
-    )
+    set_properties(document, **properties)
     return pack(document)
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Literal
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any, Literal
 
 from netdesign.report.blocks import Block, Content, Contents, Piece, link, section
 from netdesign.report.gate import require_consistent
@@ -130,6 +131,19 @@ def _list_links(links: Iterable[tuple[str, str]]) -> Content:
     return tuple(
         piece for anchor, text in links for piece in (*link(anchor, text), Piece(" "))
     )
+
+
+def list_properties(study: Study, words: Words) -> dict[str, Any]:
+    """Properties of a file of the study; its start is in UTC without a zone."""
+    time = datetime(1980, 1, 1)  # of a study that does not say
+    if study.provenance.started:
+        time = datetime.fromisoformat(study.provenance.started)
+    return {
+        "title": words("heading.anchor_check"),
+        "subject": title_pages(study, words),
+        "author": show_text(study.project.author),
+        "created": time.astimezone(UTC).replace(tzinfo=None) if time.tzinfo else time,
+    }
 
 
 def title_pages(study: Study, words: Words) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from dataclasses import replace
-from datetime import UTC, datetime
 
 from netdesign.outcome import NetDesignError
 from netdesign.report.blocks import Table, text_cell, text_column
@@ -34,7 +33,7 @@ from netdesign.report.sections.reliability import (
     tabulate_variables,
 )
 from netdesign.report.sections.schedule import build_quantities, build_schedule
-from netdesign.report.sections.whole import title_pages
+from netdesign.report.sections.whole import list_properties
 from netdesign.report.what_if import build_what_if
 from netdesign.report.words import Words, show_text
 from netdesign.report.workbook.calculation_sheet import (
@@ -50,7 +49,6 @@ from netdesign.words.catalogue import Language
 
 _FIRST_LINE = 4  # of a table below its caption and headings, zero-based
 _BETWEEN = 3  # lines from one table of a sheet to the next
-_NO_TIME = datetime(1980, 1, 1)
 SHEETS = (
     "decision",
     "schedule",
@@ -85,7 +83,6 @@ def render_workbook(study: Study, language: Language = "en") -> bytes:
 
     require_consistent(study)
     words = Words(language)
-    running = title_pages(study, words)
     buffer = io.BytesIO()
     options = {
         "in_memory": True,
@@ -95,17 +92,11 @@ def render_workbook(study: Study, language: Language = "en") -> bytes:
         "default_format_properties": dict(DEFAULT_FONT),  # it is altered there
     }
     with xlsxwriter.Workbook(buffer, options) as workbook:
-        workbook.set_properties(
-            {
-                "title": words("heading.anchor_check"),
-                "subject": running,
-                "author": show_text(study.project.author),
-                "created": _read_time(study.provenance.started),
-            }
-        )
+        properties = list_properties(study, words)
+        workbook.set_properties(properties)
         workbook.set_size(2400, 1400)
         workbook.set_calc_mode("auto")
-        book = Book(workbook, running, words)
+        book = Book(workbook, properties["subject"], words)
         _add_sheets(book, study)
         names = tuple(sheet.get_name() for sheet in workbook.worksheets())
         further = (_RELIABILITY,) if list_records(study) else ()
@@ -215,11 +206,3 @@ def _list_notes(book: Book, study: Study) -> Iterator[Table]:
             rows=tuple((text_cell(sentence),) for sentence in sentences),
             empty=words("show.none"),
         )
-
-
-def _read_time(started: str) -> datetime:
-    """Start of the study in UTC without a zone, as workbooks store it."""
-    if not started:
-        return _NO_TIME
-    time = datetime.fromisoformat(started)
-    return time.astimezone(UTC).replace(tzinfo=None) if time.tzinfo else time
