@@ -80,7 +80,7 @@ def keep_units(case: str) -> str:
     return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
 
 
-# Where a block is shown: everywhere, or in a page and not in a document.
+# Where a text is shown: everywhere, or in a page and not in a document.
 Medium = Literal["all", "page"]
 
 
@@ -118,7 +118,6 @@ class Table:
     rows: tuple[tuple[Cell, ...], ...]
     empty: str = MISSING
     look: str = ""
-    on: Medium = "all"
     symbols: Literal["", "headings", "cells"] = ""
 
     def shown(
@@ -217,7 +216,6 @@ class Items:
 
     items: tuple[Text, ...]
     look: str = ""
-    on: Medium = "all"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -236,7 +234,6 @@ class Pairs:
 
     pairs: tuple[Pair, ...]
     look: str = ""
-    on: Medium = "all"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -247,7 +244,6 @@ class Figure:
     caption: Text = ""
     id: str = ""
     look: str = ""
-    on: Medium = "all"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -270,7 +266,6 @@ class Part:
     look: str = ""
     kind: Literal["section", "article", "header", "div"] = "section"
     fold: str = ""
-    on: Medium = "all"
 
 
 Block = Heading | Paragraph | Items | Pairs | Table | Figure | Contents | Part
@@ -282,11 +277,10 @@ def section(
     *blocks: Block,
     level: int = 2,
     look: str = "",
-    on: Medium = "all",
 ) -> Part:
     """Part of a page below a heading."""
     title = Heading(text=heading, level=level)
-    return Part(id=anchor, look=look, on=on, blocks=(title, *blocks))
+    return Part(id=anchor, look=look, blocks=(title, *blocks))
 
 
 def masthead(kind: str, title: str, *more: Block) -> Part:

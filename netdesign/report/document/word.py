@@ -156,7 +156,7 @@ class Writer:
         self._fill_contents()
 
     def _write_block(self, block: Block) -> None:
-        if not isinstance(block, Contents) and block.on == "page":
+        if isinstance(block, Heading | Paragraph) and block.on == "page":
             return
         writers: dict[type, Callable[[Any], None]] = {
             Heading: self._write_heading,
