@@ -21,7 +21,6 @@ from netdesign.report.sections.basis import name_profile
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,
-    VERDICTS,
     Words,
     show_check,
     show_member,
@@ -163,12 +162,10 @@ def _show_checks(checks: Sequence[CheckRecord], words: Words) -> Cell:
     governing = find_governing(checks)
     if governing is None:
         return text_cell(words("compare.not_checked"))
+    verdict = show_verdict(governing.verdict, words)
     used = words.show_number("utilisation", governing.used)
-    parts = [f"{VERDICTS[governing.verdict].symbol} {used}"]
-    if used == MISSING:
-        parts = [show_verdict(governing.verdict, words).word]
-        parts[0] = f"{VERDICTS[governing.verdict].symbol} {parts[0]}"
-    parts.append(show_check(words, governing))
+    told = verdict.word if used == MISSING else used
+    parts = [f"{verdict.symbol} {told}", show_check(words, governing)]
     if governing.clause and governing.clause != MISSING:
         parts.append(governing.clause)
     return text_cell(words.join(parts))

@@ -41,7 +41,7 @@ _OVER, _BELOW = "#b23a1e", "#7d838b"  # of a bar: beyond utilisation 1, and belo
 _BAR_UNIT = 100.0  # length of a bar at utilisation 1
 _BAR_BEYOND = 50.0  # length that is left for all above 1
 _FEW = 4  # checks that share a reason and are named
-_PLAIN = "check.passes"  # what the numbers say already
+_PLAIN = ("check.passes", "check.slack")  # what the numbers say already
 # Key of a gap: the row lacks more inputs than a check names.
 MANY_UNSAID = "check.unsaid_many"
 
@@ -244,7 +244,7 @@ class CheckLine:
         told = {
             one.position == "edge": _tell_beside(one, words)
             for one in self.checks
-            if not _is_plain(one.reason) and not _fails_by_numbers(one)
+            if _find_key(one.reason) not in (*_PLAIN, "check.fails")
         }
         shown = list(dict.fromkeys(told.values()))
         if len(shown) > 1 or len(told) < len(self.checks):
@@ -286,7 +286,7 @@ def part_lines(
     alone: list[CheckLine] = []
     beside: dict[str, list[CheckLine]] = {}
     for line in lines:
-        is_plain = all(_is_plain(one.reason) for one in line.checks)
+        is_plain = all(_find_key(one.reason) in _PLAIN for one in line.checks)
         if id(line) in leading or line.verdict is not Verdict.PASS or not is_plain:
             alone.append(line)
         else:
@@ -310,16 +310,10 @@ def _name_resistance(check: CheckRecord) -> tuple[object, ...]:
     )
 
 
-def _is_plain(reason: object) -> bool:
-    """True of a pass about which its numbers say everything."""
+def _find_key(reason: object) -> str:
+    """Key of a reason, without the load that it is told of."""
     told = _strip_load(reason)
-    return told is not None and told.key in (_PLAIN, "check.slack")
-
-
-def _fails_by_numbers(check: CheckRecord) -> bool:
-    """True of a failure about which sign and numbers say everything."""
-    told = _strip_load(check.reason)
-    return told is not None and told.key == "check.fails"
+    return told.key if told else ""
 
 
 def _tell_beside(check: CheckRecord, words: Words) -> str:
@@ -377,16 +371,18 @@ def _list_row_changes(row: RowStudy, words: Words) -> Iterator[str]:
 def _list_room(row: RowStudy, words: Words) -> Iterator[str]:
     """Limits of single values beyond which the check that is shown turns."""
     check = find_shown(row.checks)
-    limits = list_limits(check, words) if check else ()
-    if check and limits:
+    if check and (limits := list_limits(check, words)):
         label = show_check(words, check)
         yield words("show.label", label=label, text=words.join(limits))
 
 
-def list_flips(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
-    """Changes that turn one check, in short; none where no change alone does."""
-    changes = check.changes if check else []
-    return tuple(describe_flip(one, words) for one in changes if is_useful(one))
+def list_flips(check: CheckRecord, words: Words) -> tuple[str, ...]:
+    """Changes that turn one check, in short; none where no change alone does.
+
+    ``post spacing at most 1.42 m, now 4 m (as far as the calculated cases show)``
+    """
+    useful = filter(is_useful, check.changes)
+    return tuple(_add_note(_compare_now(one, words), one, words) for one in useful)
 
 
 def is_useful(change: ChangeRecord) -> bool:
@@ -401,20 +397,13 @@ def is_useful(change: ChangeRecord) -> bool:
     return 1.0 / _FAR <= change.bound / change.now <= _FAR
 
 
-def describe_flip(change: ChangeRecord, words: Words) -> str:
-    """One change, today's value and what else it needs.
-
-    ``post spacing at most 1.42 m, now 4 m (as far as the calculated cases show)``
-    """
-    return _add_note(_compare_now(change, words), change, words)
-
-
 def _compare_now(change: ChangeRecord, words: Words) -> str:
     text = describe_change(change, words)
     if change.now is None:
         return text
     now = round(change.now, 3) if change.unit == "m" else change.now  # cos of a slope
-    return words("show.change_now", change=text, now=_show(now, change.unit, words))
+    shown = words.show_quantity(now, change.unit)
+    return words("show.change_now", change=text, now=shown)
 
 
 def _add_note(text: str, change: ChangeRecord, words: Words) -> str:
@@ -428,15 +417,10 @@ def describe_change(change: ChangeRecord, words: Words) -> str:
     quantity = words.show(change.quantity)
     if change.bound is None:
         return words("show.change_none", quantity=quantity)
-    bound = _show(change.bound, change.unit, words)
+    bound = words.show_quantity(change.bound, change.unit)  # rounded by the search
     if change.unit == "kN" and change.sense == "at least":
         bound = append_unit(words.show_minimum(change.bound), "kN")
     return words(_SENSES[change.sense], quantity=quantity, bound=bound)
-
-
-def _show(value: float | None, unit: str, words: Words) -> str:
-    """Value with its unit; the search has rounded bounds to the side that passes."""
-    return MISSING if value is None else words.show_quantity(value, unit)
 
 
 def explain_change(change: ChangeRecord, words: Words) -> str:
@@ -476,13 +460,11 @@ def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[
     return [words("show.no_change" if is_far else "show.no_change_alone")]
 
 
-def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
+def list_limits(check: CheckRecord, words: Words) -> tuple[str, ...]:
     """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``.
 
     One sentence, or none.
     """
-    if check is None:
-        return ()
     limits = [
         words(
             "show.limit_now",

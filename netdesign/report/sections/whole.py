@@ -76,7 +76,12 @@ def build_report(
         schedule.show_schedule(study, words),
         *_list_rows(study, words),
         basis.show_inputs(study, words),
-        *_list_annexes(study, words),
+        worked.show_all(study, words),
+        annexes.show_model(study, words),
+        basis.show_profile(study, words),
+        quality.show_quality(study, words),
+        annexes.show_verification(study, words),
+        *reliability.show_reliability(study, words),
     )
 
 
@@ -87,15 +92,6 @@ def _list_rows(study: Study, words: Words) -> Iterator[Block]:
     for anchor in dict.fromkeys(anchors.values()):
         ids = [name for name, one in anchors.items() if one == anchor]
         yield RowSections(rows[anchor], ids, anchor, words, told).build()
-
-
-def _list_annexes(study: Study, words: Words) -> Iterator[Block]:
-    yield worked.show_all(study, words)
-    yield annexes.show_model(study, words)
-    yield basis.show_profile(study, words)
-    yield quality.show_quality(study, words)
-    yield annexes.show_verification(study, words)
-    yield from reliability.show_reliability(study, words)
 
 
 def _map_rows(
