@@ -42,8 +42,6 @@ def draw_winter(
 
     every = [(place(day["date"]), day) for day in winter["curve"]]
     days = [(at, day) for at, day in every if 0 <= at <= count]
-    panels = [*_list_forces(days, words)]
-    told = _describe(winter["name"], panels, words)
     marks = [
         Mark(
             x=place(winter[key]),
@@ -56,7 +54,8 @@ def draw_winter(
         )
         if winter[key]
     ]
-    panels[0] = _list_forces(days, words, marks)[0]
+    panels = _list_forces(days, words, marks)
+    told = _describe(winter["name"], panels, words)
     panels.append(_show_snow(days, count, words))
     warmth = [(place(day), degrees) for day, degrees in sorted(air.items())]
     if warm := [one for one in warmth if 0 <= one[0] <= count]:
@@ -69,7 +68,7 @@ def draw_winter(
     return draw_panels(panels, told, span=ends, language=words.language)
 
 
-def _list_forces(days: Days, words: Words, marks: Sequence[Mark] = ()) -> list[Panel]:
+def _list_forces(days: Days, words: Words, marks: Sequence[Mark]) -> list[Panel]:
     """Panel of the net's pulls, and of the members where their forces are known."""
     pulls = {
         words(f"winter_column.{end}"): [day[f"{end}_kN_per_m"] for _, day in days]

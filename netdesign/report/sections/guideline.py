@@ -22,6 +22,7 @@ from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.records import RowStudy, Study, find_input
 
 _LOAD_CASES = ("load_case_1", "load_case_2")
+_Compared = tuple[RowStudy, GuidelineRecord, float]  # and the ratio of both forces
 
 
 def show_difference(study: Study, words: Words) -> Part | None:
@@ -29,12 +30,15 @@ def show_difference(study: Study, words: Words) -> Part | None:
 
     None where no net row has both.
     """
-    compared = [row for row in study.rows if _compare(row)]
+    compared = [
+        (row, row.guideline, ratio)
+        for row in study.rows
+        if row.guideline and (ratio := _compare(row.guideline))
+    ]
     if not compared:
         return None
-    worst = max(compared, key=lambda row: _compare(row) or 0.0)
-    record = worst.guideline
-    ratios = [one for row in compared if (one := _compare(row))]
+    worst, record, _ = max(compared, key=lambda one: one[2])
+    ratios = [ratio for _, _, ratio in compared]
     lead = words(
         "why_more.lead",
         low=words.show_fixed(min(ratios), 2),
@@ -42,22 +46,19 @@ def show_difference(study: Study, words: Words) -> Part | None:
     )
     blocks: list[Block] = [Paragraph(text=lead), _tabulate(compared, words)]
     height = find_input(worst, "net_height")
-    svg = draw_loads(record, height, words) if record and height else ""
-    if record and svg:
+    svg = draw_loads(record, height, words) if height else ""
+    if svg:
         caption = words("why_more.caption", row=worst.id)
         blocks.append(Figure(svg=svg, caption=caption))
-    if record:
-        label, text = worst.id, words.show(record.sentence)
-        blocks.append(Paragraph(text=words("show.label", label=label, text=text)))
+    text = words("show.label", label=worst.id, text=words.show(record.sentence))
+    blocks.append(Paragraph(text=text))
     return section("why-more", words("why_more.heading"), *blocks)
 
 
-def _compare(row: RowStudy) -> float | None:
+def _compare(record: GuidelineRecord) -> float | None:
     """Coupled force of the foot anchor over the largest of the guideline's cases."""
-    least = _find_largest(row.guideline) if row.guideline else None
-    if row.guideline is None or not least:
-        return None
-    return row.guideline.solved_foot_anchor_kN / least
+    least = _find_largest(record)
+    return record.solved_foot_anchor_kN / least if least else None
 
 
 def _find_largest(record: GuidelineRecord) -> float | None:
@@ -65,7 +66,7 @@ def _find_largest(record: GuidelineRecord) -> float | None:
     return max((one for one in forces if one is not None), default=None)
 
 
-def _tabulate(rows: list[RowStudy], words: Words) -> Table:
+def _tabulate(compared: list[_Compared], words: Words) -> Table:
     """Foot anchor of each row: coupled, by the guideline, by its law in equal snow."""
     keys = ("coupled", "guideline", "ratio", "same_snow", "model")
     return Table(
@@ -74,21 +75,21 @@ def _tabulate(rows: list[RowStudy], words: Words) -> Table:
             text_column(words("heading.net_row")),
             *key_columns(words, "why_more.", keys, numbers=keys),
         ),
-        rows=tuple(_show(row, words) for row in rows),
+        rows=tuple(_show(*one, words) for one in compared),
     )
 
 
-def _show(row: RowStudy, words: Words) -> tuple[Cell, ...]:
-    record = row.guideline
-    coupled = record.solved_foot_anchor_kN if record else None
-    least = _find_largest(record) if record else None
-    cases = record.cases if record else []
-    same = next((one.foot_anchor_kN for one in cases if one.name == "same_snow"), None)
+def _show(
+    row: RowStudy, record: GuidelineRecord, ratio: float, words: Words
+) -> tuple[Cell, ...]:
+    coupled = record.solved_foot_anchor_kN
+    forces = {one.name: one.foot_anchor_kN for one in record.cases}
+    same = forces.get("same_snow")
     return (
         text_cell(row.id),
         number_cell(words, "foot_anchor_kN", coupled),
-        number_cell(words, "foot_anchor_kN", least),
-        fixed_cell(words, _compare(row), 2),
+        number_cell(words, "foot_anchor_kN", _find_largest(record)),
+        fixed_cell(words, ratio, 2),
         number_cell(words, "foot_anchor_kN", same),
-        fixed_cell(words, coupled / same if coupled and same else None, 2),
+        fixed_cell(words, coupled / same if same else None, 2),
     )
