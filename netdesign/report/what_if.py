@@ -61,7 +61,7 @@ def mark_title(study: Study, title: str, words: Words) -> str:
 
 
 def build_what_if(study: Study, words: Words) -> Table:
-    """Cells that are read otherwise than the workbook has them; empty of most sites."""
+    """Cells that are read otherwise than the workbook has them."""
     keys = ("what_if.cell", "what_if.was", "what_if.now")
     return Table(
         caption=words("what_if.caption"),
@@ -70,7 +70,6 @@ def build_what_if(study: Study, words: Words) -> Table:
             (text_cell(one.cell), text_cell(one.was), text_cell(one.now))
             for one in study.what_if
         ),
-        empty=words("show.none"),
     )
 
 

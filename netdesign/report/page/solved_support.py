@@ -82,7 +82,6 @@ def _build_forces(support: Mapping[str, Any], words: Words) -> Table:
             number_column("", words("panel_view.ratio")),
         ),
         rows=tuple(_list_forces(sets, one, words) for one in list_shown(support)),
-        empty=words("show.none"),
     )
 
 
@@ -142,7 +141,6 @@ def _build_ropes(panel: Mapping[str, Any], words: Words) -> Table:
             )
             for name in ("lower", "upper")
         ),
-        empty=words("show.none"),
     )
 
 

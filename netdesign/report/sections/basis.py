@@ -8,7 +8,6 @@ from dataclasses import replace
 from netdesign.report.blocks import (
     Block,
     Cell,
-    Column,
     Heading,
     Items,
     Pair,
@@ -18,10 +17,10 @@ from netdesign.report.blocks import (
     Table,
     given_cell,
     key_columns,
-    name_columns,
     section,
     symbols,
     text_cell,
+    text_column,
 )
 from netdesign.report.words import (
     MISSING,
@@ -86,16 +85,12 @@ def _build_inputs(rows: Sequence[RowStudy], words: Words) -> Table:
         for echo in row.inputs:
             place = (words.show(echo.label), echo.unit)
             lines.setdefault(place, {})[row.id] = echo
-    columns: tuple[Column, ...] = name_columns(
-        [
-            *(words(f"heading.{key}") for key in ("input", "column_of", "unit")),
-            *(show_text(row.id) for row in rows),
-        ],
-        numbers=(),
-    )
     return Table(
         caption=words("caption.site_inputs"),
-        columns=columns,
+        columns=(
+            *key_columns(words, "heading.", ("input", "column_of", "unit")),
+            *(text_column(show_text(row.id)) for row in rows),
+        ),
         rows=tuple(
             (
                 text_cell(label),

@@ -100,14 +100,12 @@ def _build_quality(study: Study, words: Words) -> Table:
 
 
 def _quality_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
-    residual = _find_worst(row, lambda case: case.balance_residual)
-    error = _find_worst(row, lambda case: case.error_percent)
     return (
         text_cell(row.id),
         given_cell(words, len(row.cases)),
         given_cell(words, len(list_failed(row))),
-        number_cell(words, "balance_residual", residual),
-        number_cell(words, "error_percent", error),
+        number_cell(words, "balance_residual", _find_worst(row, "balance_residual")),
+        number_cell(words, "error_percent", _find_worst(row, "error_percent")),
         text_cell(_count_laws(row, words)),
     )
 
@@ -121,11 +119,10 @@ def _count_laws(row: RowStudy, words: Words) -> str:
     return words("show.laws_counted", met=count, count=count) if count else MISSING
 
 
-def _find_worst(
-    row: RowStudy, read: Callable[[CaseRecord], float | None]
-) -> float | None:
+def _find_worst(row: RowStudy, key: str) -> float | None:
+    """Largest error of some kind of the cases with a result."""
     solved = (one for one in row.cases if one.outcome is Outcome.CONVERGED)
-    known = (read(case) for case in solved)
+    known = (getattr(case, key) for case in solved)
     return max((one for one in known if one is not None), default=None)
 
 

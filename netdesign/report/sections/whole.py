@@ -27,7 +27,6 @@ if TYPE_CHECKING:  # it brings numpy, which a report without a map does without
     from netdesign.files.rows_map import RowsMap
 
 Detail = Literal["summary", "full"]  # two pages for the client, and everything
-_PARTS = ("basis", "schedule")
 _ANNEXES = (
     *("annex-checks", "annex-model", "annex-profile", "annex-quality"),
     "annex-verify",
@@ -106,7 +105,7 @@ def _map_rows(
 
 def _list_contents(study: Study, words: Words, *, has_map: bool) -> Contents:
     """Links to all parts, and to the rows."""
-    parts = ("basis", "map", "schedule") if has_map else _PARTS
+    parts = ("basis", *(("map",) if has_map else ()), "schedule")
     named = {name: words(f"heading.{name}") for name in parts}
     named["inputs"] = words("heading.inputs_of_rows")
     further = ("annex-reliability",) if reliability.list_records(study) else ()
