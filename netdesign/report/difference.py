@@ -161,23 +161,31 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
     ids = list(dict.fromkeys((*rows_old, *rows_new)))
     pairs = [(name, rows_old.get(name), rows_new.get(name)) for name in ids]
     both = [(name, one, other) for name, one, other in pairs if one and other]
+
+    def compare(area: str, describe: Callable[[Study], Named]) -> Iterator[Change]:
+        return _compare(area, "", describe(old), describe(new))
+
+    def compare_rows(
+        area: str, describe: Callable[[RowStudy], Named]
+    ) -> Iterator[Change]:
+        for row, one, other in both:
+            yield from _compare(area, row, describe(one), describe(other))
+
     verdicts = [
-        *_compare("verdict", "", _name_verdict(old), _name_verdict(new)),
+        *compare("verdict", _name_verdict),
         *(change for pair in pairs for change in _compare_verdicts(*pair)),
     ]
     return [
-        *_compare("settings", "", _list_replaced(old), _list_replaced(new)),
+        *compare("settings", _list_replaced),
         *sorted(verdicts, key=_rank),
-        *_compare("quantity", "", _list_quantities(old), _list_quantities(new)),
-        *_compare_rows("governing", both, _list_governing),
-        *_compare_rows("check", both, _list_checks),
-        *_compare("project", "", _list_project(old), _list_project(new)),
-        *_compare("profile", "", _list_profile(old), _list_profile(new)),
-        *_compare(
-            "range", "", _list_inputs(old.range_inputs), _list_inputs(new.range_inputs)
-        ),
-        *_compare_rows("input", both, lambda row: _list_inputs(row.inputs)),
-        *_compare("settings", "", _list_settings(old), _list_settings(new)),
+        *compare("quantity", _list_quantities),
+        *compare_rows("governing", _list_governing),
+        *compare_rows("check", _list_checks),
+        *compare("project", _list_project),
+        *compare("profile", _list_profile),
+        *compare("range", lambda study: _list_inputs(study.range_inputs)),
+        *compare_rows("input", lambda row: _list_inputs(row.inputs)),
+        *compare("settings", _list_settings),
         *_compare_rest("", _keep_rest(old), _keep_rest(new)),
         *(
             change
@@ -258,15 +266,6 @@ def _compare_verdicts(
         {say("diff.net_row"): _tell(row.verdict)} if row else {} for row in (old, new)
     ]
     yield from _compare("verdict", name, ends[0], ends[1])
-
-
-def _compare_rows(
-    area: str,
-    pairs: Sequence[tuple[str, RowStudy, RowStudy]],
-    describe: Callable[[RowStudy], Named],
-) -> Iterator[Change]:
-    for row, old, new in pairs:
-        yield from _compare(area, row, describe(old), describe(new))
 
 
 def _compare(area: str, row: str, old: Named, new: Named) -> Iterator[Change]:
