@@ -85,14 +85,14 @@ def list_runs(text: Text, *, has_symbols: bool = False) -> Runs:
     return tuple(runs)
 
 
-def write_runs(runs: Runs, small_pt: float = SMALLEST_PT) -> str:
+def write_runs(runs: Runs) -> str:
     """Runs as WordprocessingML."""
-    return "".join(_write_looks(one, small_pt) for one in runs)
+    return "".join(map(_write_looks, runs))
 
 
-def _write_looks(piece: Run, small_pt: float) -> str:
+def _write_looks(piece: Run) -> str:
     look = "<w:b/>" if piece.is_bold else ""
-    look += f'<w:sz w:val="{round(2 * small_pt)}"/>' if piece.is_small else ""
+    look += f'<w:sz w:val="{round(2 * SMALLEST_PT)}"/>' if piece.is_small else ""
     parts = _SUBSCRIPT.split(piece.text) if piece.has_symbols else [piece.text]
     lowered = look + '<w:vertAlign w:val="subscript"/>'
     return "".join(

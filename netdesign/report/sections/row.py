@@ -128,18 +128,17 @@ def _list_remarks(tests: TestsRecord, words: Words) -> Iterator[str]:
 
 def _tabulate_singles(tested: _Tested, words: Words) -> Table:
     keys = ("load", "proof", "displacement", "outcome", "wanted", "accepted")
-    rows = tuple(
-        _show_single(check, one, tests.proof_factor, force, words)
-        for check, tests, force in tested
-        for one in tests.singles
-    )
     return Table(
         caption=words("tests.acceptance"),
         columns=(
             *key_columns(words, "", ("heading.type", "tests.cell")),
             *key_columns(words, "tested.", keys, numbers=(*keys[:3], "wanted")),
         ),
-        rows=rows,
+        rows=tuple(
+            _show_single(check, one, tests.proof_factor, force, words)
+            for check, tests, force in tested
+            for one in tests.singles
+        ),
         symbols="headings",
     )
 

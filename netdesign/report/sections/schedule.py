@@ -161,9 +161,14 @@ def _show_forces(checks: Sequence[CheckRecord], words: Words) -> Iterator[Cell]:
 
 def find_largest(checks: Sequence[CheckRecord], symbol: str) -> float | None:
     """Largest upper end of a force of some checks [kN]; None unless all are known."""
-    found = [one.read_band(symbol)[1] for one in checks]
-    known = [one for one in found if one is not None]
-    return max(known) if known and len(known) == len(found) else None
+    return _find_most(one.read_band(symbol)[1] for one in checks)
+
+
+def _find_most(values: Iterable[float | None]) -> float | None:
+    """Largest of some values; None unless all are known."""
+    every = list(values)
+    known = [one for one in every if one is not None]
+    return max(known) if known and len(known) == len(every) else None
 
 
 def describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
@@ -171,16 +176,11 @@ def describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
 
     One number where all modes need the same.
     """
-    needed: dict[str, float] = {}
+    shown: dict[str, str] = {}
     for mode in dict.fromkeys(check.mode for check in checks):
-        found = [_find_needed(check) for check in checks if check.mode == mode]
-        known = [one for one in found if one is not None]
-        if known and len(known) == len(found):
-            needed[mode] = max(known)
-    shown = {
-        words.show(name_mode(mode)): words.show_minimum(value)
-        for mode, value in needed.items()
-    }
+        most = _find_most(_find_needed(check) for check in checks if check.mode == mode)
+        if most is not None:
+            shown[words.show(name_mode(mode))] = words.show_minimum(most)
     if len(set(shown.values())) == 1:
         return next(iter(shown.values()))
     return words.join(f"{mode} {number}" for mode, number in shown.items())
