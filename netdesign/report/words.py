@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -149,6 +149,11 @@ class Words:
             return MISSING
         ends = {"low": self.show_number(key, low), "high": self.show_number(key, high)}
         return self("show.band", **ends)
+
+    def show_range(self, values: Collection[float]) -> str:
+        """Least and largest of pure numbers: ``0.12 to 3.4``."""
+        low, high = self.show_share(min(values)), self.show_share(max(values))
+        return self("show.band", low=low, high=high)
 
     def name_case(self, case: CasePoint | None) -> str:
         """Name of a case: ``350 kg/m³, φ 30°, θ 25°``, and what else ranges."""

@@ -410,11 +410,7 @@ def _describe(panels: Sequence[Panel], words: Words) -> str:
         words(
             "show.label",
             label=words("drawing.of_member", member=panel.title, what=line.label),
-            text=words(
-                "show.band",
-                low=words.show_share(min(line.y)),
-                high=words.show_share(max(line.y)),
-            ),
+            text=words.show_range(line.y),
         )
         for panel in panels
         for line in panel.lines

@@ -128,11 +128,7 @@ def draw_meshes(pictures: Sequence[MeshPicture], words: Words = ENGLISH) -> str:
 
 def _show_range(key: str, values: Floats, words: Words) -> str:
     """Least and largest of some values under their name."""
-    low, high = (
-        words.show_share(float(values.min())),
-        words.show_share(float(values.max())),
-    )
-    text = words("show.band", low=low, high=high)
+    text = words.show_range(values.tolist())
     return words("show.label", label=words(key), text=text)
 
 

@@ -118,9 +118,8 @@ def describe_pressure(drawing: Drawing, words: Words) -> list[str]:
     known = [pressure for pressure, _ in list_pressures(drawing)]
     if len(known) < 2:
         return []
-    low, high = words.show_share(min(known)), words.show_share(max(known))
-    band = words("show.band", low=low, high=high)
-    return [words("show.label", label=words("drawing.pressure"), text=band)]
+    label, text = words("drawing.pressure"), words.show_range(known)
+    return [words("show.label", label=label, text=text)]
 
 
 _SHORTEST_ARROW = 0.14  # heights of the head

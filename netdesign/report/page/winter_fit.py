@@ -188,10 +188,8 @@ def _tabulate_residuals(fit: Mapping[str, Any], words: Words) -> Table:
 def _band_cell(band: Mapping[str, float] | None, words: Words) -> Cell:
     if band is None:
         return text_cell(MISSING)
-    low, value, high = (
-        words.show_number("max_kN", band[key]) for key in ("low", "value", "high")
-    )
-    ends = words("show.band", low=low, high=high)
+    value = words.show_number("max_kN", band["value"])
+    ends = words.show_band("max_kN", band["low"], band["high"])
     return Cell(text=f"{value} ({ends})", number=band["value"])
 
 

@@ -331,10 +331,7 @@ def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
 
 def _show_interval(value: Mapping[str, Any], of: str, words: Words) -> Cell:
     ends = [value.get(f"{of}{end}_kN_per_m") for end in ("low", "high")]
-    if None in ends:
-        return text_cell(MISSING)
-    low, high = (words.show_number("max_kN", end) for end in ends)
-    return text_cell(words("show.band", low=low, high=high))
+    return text_cell(words.show_band("max_kN", *ends))
 
 
 def _compare_tails(statistics: Mapping[str, Any], words: Words) -> Iterator[Block]:
