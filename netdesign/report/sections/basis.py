@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from netdesign.report.blocks import (
@@ -331,13 +331,9 @@ def show_ranges(study: Study, words: Words) -> Table:
 
 def list_notes(study: Study, words: Words) -> list[str]:
     """Notes on the whole study, and those that several rows share."""
-    shared = share_notes(study, words)
     return [
         *(words.show(note) for note in study.notes),
-        *(
-            words("show.label", label=name_rows(ids, study, words), text=note)
-            for note, ids in shared.items()
-        ),
+        *label_rows(share_notes(study, words), study, words),
     ]
 
 
@@ -455,6 +451,16 @@ def _leave_out_name(row: RowStudy) -> RowStudy:
     """The row as if it stood in no line of a workbook."""
     inputs = [replace(one, cell="") for one in row.inputs if one.label != _NAME]
     return replace(row, id="", inputs=inputs)
+
+
+def label_rows(
+    rows: Mapping[str, Sequence[str]], study: Study, words: Words
+) -> list[str]:
+    """Sentences, each behind the net rows of which it holds."""
+    return [
+        words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
+        for one, ids in rows.items()
+    ]
 
 
 def name_rows(names: Sequence[str], study: Study, words: Words) -> str:

@@ -35,6 +35,7 @@ from netdesign.report.sections.basis import (
     count_defaults,
     describe_floor,
     has_other_floor,
+    label_rows,
     name_profile,
     name_rows,
 )
@@ -305,9 +306,7 @@ def _list_open_rows(study: Study, words: Words) -> Iterator[str]:
         for reason in row.reasons:
             if not (isinstance(reason, Message) and reason.key == _OF_CHECK):
                 rows.setdefault(words.show(reason), []).append(row.id)
-    for text, ids in rows.items():
-        named = show_text(name_rows(ids, study, words))
-        yield words("show.label", label=named, text=text)
+    yield from label_rows(rows, study, words)
 
 
 def _list_declared(study: Study, words: Words) -> Iterator[str]:

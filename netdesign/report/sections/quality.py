@@ -24,7 +24,7 @@ from netdesign.report.blocks import (
     text_cell,
     text_column,
 )
-from netdesign.report.sections.basis import group_notes, name_rows
+from netdesign.report.sections.basis import group_notes, label_rows
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -32,7 +32,6 @@ from netdesign.report.words import (
     name_heading,
     show_check,
     show_member,
-    show_text,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import (
@@ -383,13 +382,8 @@ def _list_refused(study: Study, words: Words) -> Iterator[Block]:
 def _list_by_rows(
     rows: dict[str, list[str]], study: Study, words: Words
 ) -> Iterator[Block]:
-    """Sentences, each with the net rows of which it holds."""
-    items = tuple(
-        words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
-        for one, ids in rows.items()
-    )
-    if items:
-        yield Items(items=items, look="small")
+    if rows:
+        yield Items(items=tuple(label_rows(rows, study, words)), look="small")
 
 
 def build_opinions(study: Study, words: Words) -> Table:
