@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import Annotated, Literal, Self, TypeVar, get_args
+from typing import Annotated, Any, Literal, Self, TypeVar, get_args
 
 from pydantic import (
     AfterValidator,
@@ -401,23 +401,7 @@ def _describe_gap(number: int, start: int, expected: float) -> Message:
     return say("standard.row_leaves", number=number, start=start, expected=expected)
 
 
-# Tables of document.toml.
-_INNER: Mapping[str | int, type[_Table]] = {
-    "load": LoadTable,
-    "scope": ScopeTable,
-    "tests": RouteTable,
-    "anchors": AnchorsTable,
-}
-
-FileT = TypeVar(
-    "FileT",
-    DocumentFile,
-    LimitsFile,
-    FactorsFile,
-    ModelFile,
-    TablesFile,
-    ChoicesFile,
-)
+FileT = TypeVar("FileT", bound=_Table)
 
 
 def check_table(
@@ -471,17 +455,13 @@ def _describe(file: str, shape: type[BaseModel], detail: ErrorDetails) -> Messag
 
 def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
     """Keys accepted at the level of an unknown one."""
-    depth = sum(isinstance(part, int) for part in detail["loc"])
-    fields = shape.model_fields
-    if detail["loc"][0] in _INNER and len(detail["loc"]) > 1:
-        fields = _INNER[str(detail["loc"][0])].model_fields
-    if depth:
-        (element,) = get_args(next(iter(fields.values())).annotation)
-        fields = element.model_fields
-    if depth > 1:
-        part = TableRow if element is TableEntry else FactorEntry
-        fields = part.model_fields
-    return tuple(field.alias or name for name, field in fields.items())
+    at: Any = shape
+    for part in detail["loc"][:-1]:
+        if isinstance(part, int):
+            (at,) = get_args(at)
+        else:
+            at = at.model_fields[part].annotation
+    return tuple(field.alias or name for name, field in at.model_fields.items())
 
 
 def _name(part: str | int) -> str | Message:
