@@ -95,7 +95,7 @@ def check_member(
     used = rate(action, on_action, strength, on_resistance)
     open_points = tuple(one for one in (gap, doubt) if one)
     gaps = tuple(dict.fromkeys((*open_points, *used.lacks)))
-    verdict = _judge_utilisation(used, is_complete=not open_points)
+    verdict = judge_utilisation(used.low, used.high, is_complete=not open_points)
     return CheckResult(
         id=f"{resistance.member}.{resistance.mode}",
         clause=clause,
@@ -215,16 +215,16 @@ def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity
     Without a value, with the reason, where it cannot be known or used.
     """
     what, source = _name_place(resistance), resistance.source
-    value, tests = resistance.value, resistance.tests
+    value, tested = resistance.value, find_tested(resistance, standard)
     if value is not None:
-        if not _is_usable(value):
+        if not 0.0 < value < math.inf:
             lack = say("check.resistance_not_usable", value=value, what=what)
             return given("R_k", None, "kN", source, lack=lack)
         return given("R_k", kilonewton_from_newton(value), "kN", source)
-    if tests is None:
+    if tested is None:
         lack = resistance.lack or say("check.no_resistance", what=what)
         return given("R_k", None, "kN", source, lack=lack)
-    return find_tested_resistance(tests, standard, source, what).counting
+    return tested.counting
 
 
 def find_tested(
@@ -248,14 +248,13 @@ def _name_place(resistance: GivenResistance) -> Message:
     return say("check.of_cell", what=kind, cell=resistance.source)
 
 
-def _judge_utilisation(used: Quantity, *, is_complete: bool) -> Verdict:
-    if used.low is None or used.high is None:
+def judge_utilisation(
+    low: float | None, high: float | None, *, is_complete: bool
+) -> Verdict:
+    """Verdict on the band of a utilisation [-]; not proven where it is not known."""
+    if low is None or high is None:
         return Verdict.NOT_PROVEN
-    return judge(used.low, used.high, least=0.0, most=1.0, is_complete=is_complete)
-
-
-def _is_usable(resistance: float) -> bool:
-    return 0.0 < resistance < math.inf
+    return judge(low, high, least=0.0, most=1.0, is_complete=is_complete)
 
 
 def lack_factor(factor: str) -> Message:

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.calculation.steps import Step, evaluate, list_steps
-from netdesign.checks.check import judge
+from netdesign.checks.check import judge_utilisation
 from netdesign.checks.forces import calculate_force, calculate_resistance, rate
 from netdesign.outcome import Verdict
 from netdesign.structure.members import REPORTED_MEMBERS, Member
@@ -245,9 +245,7 @@ def _calculate(leaves: Mapping[str, Quantity]) -> Quantity:
 def _follow_verdict(check: CheckRecord, row: RowStudy) -> Verdict:
     """Verdict from the band, as ``checks.check`` gives it; that held back stays."""
     low, high = check.utilisation_band
-    verdict = Verdict.NOT_PROVEN
-    if low is not None and high is not None:
-        verdict = judge(low, high, least=0.0, most=1.0, is_complete=is_complete(row))
+    verdict = judge_utilisation(low, high, is_complete=is_complete(row))
     if check.is_unbounded:
         verdict = Verdict.FAIL
     is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
