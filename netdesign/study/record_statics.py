@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from netdesign.coupling.solution import EndPull
@@ -55,7 +55,7 @@ def _record_cases(
         found += [
             (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS
         ]
-    for state, keys in _group(found, _is_same):
+    for state, keys in _group(found, lambda one: (one.result, one.panel)):
         if state.foot is not None:
             yield _record_state(keys, state, None)
 
@@ -79,25 +79,14 @@ def _measure(state: SupportState) -> dict[str, float]:
 
 
 def _group(
-    found: Iterable[tuple[str, _State]], is_same: Callable[[_State, _State], bool]
-) -> list[tuple[_State, list[str]]]:
+    found: Iterable[tuple[str, _State]], identify: Callable[[_State], Hashable]
+) -> Iterable[tuple[_State, list[str]]]:
     """States in the order of what they bring, each with all of it."""
-    groups: list[tuple[_State, list[str]]] = []
+    groups: dict[Hashable, tuple[_State, list[str]]] = {}
     for key, state in found:
-        keys = next((keys for known, keys in groups if is_same(known, state)), None)
-        if keys is None:
-            groups.append((state, [key]))
-        else:
-            keys.append(key)
-    return groups
-
-
-def _is_same(one: SupportState, other: SupportState) -> bool:
-    return one.result is other.result and one.panel is other.panel
-
-
-def _is_same_load(one: FloorForce, other: FloorForce) -> bool:
-    return one.at == other.at and one.case == other.case
+        _, keys = groups.setdefault(identify(state), (state, []))
+        keys.append(key)
+    return groups.values()
 
 
 def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:
@@ -106,7 +95,7 @@ def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:
         for one in ((*floor.forces, *floor.spans) if floor else ())
         if one.member in SPANS or one.force != 0.0
     ]
-    for state, keys in _group(found, _is_same_load):
+    for state, keys in _group(found, lambda one: (one.at, one.case)):
         yield _record_floor_state(state, keys)
 
 
