@@ -178,40 +178,23 @@ def list_end_notes(
     edge = effects.find_support("edge")
     if not edge.end_factor * edge.end_length > 0.0:
         return []
-    density, glide = _find_density(ranges), find_row_glide_factor(row)
-    own = _compute_own(row, density, law, row.gap, glide, edge.end_length)
-    return [] if own is None else [_tell(edge, own, glide, density)]
-
-
-def _find_density(ranges: Ranges) -> float:
-    """Middle of the range of densities [kg/m3]."""
-    span = ranges["density"]
-    return 0.5 * (span.low + span.high)
-
-
-def _compute_own(
-    row: NetRow,
-    density: float,
-    law: CreepLaw,
-    gap: float,
-    glide_factor: float,
-    length: float,
-) -> EndEffect | None:
-    """End effect by the plan view; None for snow that the law does not take."""
+    span, glide = ranges["density"], find_row_glide_factor(row)
+    density = 0.5 * (span.low + span.high)
     try:
-        return compute_end_effect(
+        own = compute_end_effect(
             Slab(
                 thickness=row.snow_thickness,
                 slope_angle=row.slope_angle,
                 density=density,
                 creep_law=law,
             ),
-            gap=gap,
-            glide_factor=glide_factor,
-            length=length,
+            gap=row.gap,
+            glide_factor=glide,
+            length=edge.end_length,
         )
-    except ModelError:  # the row's cases say so
-        return None
+    except ModelError:  # snow that the law does not take: the row's cases say so
+        return []
+    return [_tell(edge, own, glide, density)]
 
 
 def _tell(edge: LoadedWidth, own: EndEffect, glide: float, density: float) -> Message:
