@@ -19,10 +19,9 @@ def read_method(name: str) -> Method:
     ValueError
         If no method has it.
     """
-    for method in get_args(Method):
-        if name == method:
-            return cast(Method, method)
-    raise ValueError(f"no method {name!r:.60}")
+    if name not in get_args(Method):
+        raise ValueError(f"no method {name!r:.60}")
+    return cast(Method, name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -34,15 +34,12 @@ Prices = Mapping[str, tuple[Price, ...]]
 
 def find_unit_cost(part: PartRecord, prices: Prices) -> float | None:
     """Cost of one part; None where a price or the size that it needs is not given."""
-    found = prices.get(part.type_id or part.part)
-    if not found:
+    found = prices.get(part.type_id or part.part, ())
+    if part.size is None and any(one.per != "piece" for one in found):
         return None
-    costs = [
-        one.amount if one.per == "piece" else _times(one.amount, part.size)
-        for one in found
-    ]
-    known = [one for one in costs if one is not None]
-    return sum(known) if len(known) == len(costs) else None
+    size = part.size or 0.0
+    costs = [one.amount * (1.0 if one.per == "piece" else size) for one in found]
+    return sum(costs) if costs else None
 
 
 def add_costs(
@@ -57,7 +54,3 @@ def add_costs(
         else:
             total += cost * part.count
     return total, tuple(unknown)
-
-
-def _times(amount: float, size: float | None) -> float | None:
-    return None if size is None else amount * size

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cache
-from typing import TypeVar
+from functools import cache, partial
 
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
@@ -71,8 +69,6 @@ from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.study.winter_row import record_monitoring
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
-
-_Found = TypeVar("_Found")
 
 
 def judge_site(
@@ -145,19 +141,12 @@ def judge_row(
     task = RowToCheck(
         basis=Basis(site=site, row=row, standard=standard, law=run.creep_law),
         solved=solved,
-        find_floor=_remember(find_row_floor, row, standard),
-        bound_floor=_remember(bound_row_floor, row, standard),
+        find_floor=cache(partial(find_row_floor, row, standard=standard)),
+        bound_floor=cache(partial(bound_row_floor, row, standard=standard)),
         solver=solver,
         on_check=on_check,
     )
     return _record_row(task, run)
-
-
-def _remember(
-    find: Callable[[NetRow, Ranges, Standard], _Found], row: NetRow, standard: Standard
-) -> Callable[[Ranges], _Found]:
-    """Function of a row's ranges that finds each once."""
-    return cache(lambda ranges: find(row, ranges, standard))
 
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:

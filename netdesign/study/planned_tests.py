@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain, cycle, islice
 
@@ -136,13 +135,10 @@ def _rank_rows(of_type: list[tuple[RowStudy, CheckRecord]]) -> dict[str, float] 
 
 def _find_steel(of_type: list[tuple[RowStudy, CheckRecord]]) -> float | None:
     """Characteristic resistance of the steel beside a pull-out check [kN]."""
-    found = (_list_steel(row, check) for row, check in of_type)
-    return min(chain.from_iterable(found), default=None)
-
-
-def _list_steel(row: RowStudy, check: CheckRecord) -> Iterator[float]:
-    for other in row.checks:
-        is_same = other.resistance_type == check.resistance_type
-        force = other.read("R_k") if is_same and other.mode == "tendon" else None
-        if force is not None:
-            yield force
+    found = (
+        other.read("R_k")
+        for row, check in of_type
+        for other in row.checks
+        if other.mode == "tendon" and other.resistance_type == check.resistance_type
+    )
+    return min((force for force in found if force is not None), default=None)

@@ -39,17 +39,10 @@ from netdesign.study.row_to_check import is_calibrated
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 
 
-def show_parameter(name: str, value: float) -> float:
-    """Value of a parameter in the unit of its key."""
-    return PARAMETERS[name].show(value)
-
-
 def show_case(values: Mapping[str, float]) -> dict[str, float]:
     """Values of a case under their keys, each in the unit of its key."""
-    return {
-        PARAMETERS[name].key: show_parameter(name, value)
-        for name, value in values.items()
-    }
+    shown = ((PARAMETERS[name], value) for name, value in values.items())
+    return {parameter.key: parameter.show(value) for parameter, value in shown}
 
 
 def record_point(case: Case) -> CasePoint:
@@ -148,8 +141,8 @@ def record_envelope(
         axes=[
             AxisRecord(
                 key=PARAMETERS[name].key,
-                low=show_parameter(name, span.low),
-                high=show_parameter(name, span.high),
+                low=PARAMETERS[name].show(span.low),
+                high=PARAMETERS[name].show(span.high),
             )
             for name, span in task.ranges.intervals
         ],
@@ -264,7 +257,7 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
         inclination = values.get("inclination", envelope.results[0].case.inclination)
         found.append(
             MapRecord(
-                inclination_deg=show_parameter("inclination", inclination),
+                inclination_deg=PARAMETERS["inclination"].show(inclination),
                 density_kg_m3=[_show_place(ranges, "density", s) for s in shares],
                 friction_deg=[_show_place(ranges, "friction_angle", s) for s in shares],
                 force_kN=_show_drawn(force.reshape(_MAP_POINTS, _MAP_POINTS)),

@@ -14,7 +14,6 @@ from dataclasses import replace
 from itertools import product
 from typing import Literal
 
-from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
 from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.row_position import LoadedWidth
@@ -341,16 +340,12 @@ def _find_worst_use(check: CheckByCase, angle: float) -> float:
 
 def _less_passes(check: CheckByCase, name: str, bound: float) -> bool:
     """Every solved case passes that has no more of a quantity than a bound."""
-    return all(
-        _is_met(check, result)
+    used = (
+        check.utilisation(result)
         for result in check.results
         if (check.find_value(result.case, name) or 0.0) <= bound
     )
-
-
-def _is_met(check: CheckByCase, result: CaseResult) -> bool:
-    used = check.utilisation(result)
-    return used is not None and used <= 1.0
+    return all(one is not None and one <= 1.0 for one in used)
 
 
 def _record(

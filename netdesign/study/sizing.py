@@ -82,10 +82,6 @@ class SizedCell:
         """Number of types that were tried."""
         return len(self.types) if self.cell else 0
 
-    def choose(self, number: int) -> str | None:
-        """Type of a trial; None where all were tried."""
-        return self.types[number] if number < len(self.types) else None
-
 
 def size_site(
     solved: SolvedSite,
@@ -129,7 +125,7 @@ def size_site(
         if not slot.open_rows:
             found[slot][slot.was] = _rate_built(slot, study, prices)
     for number in range(max((len(slot.types) for slot in placed), default=0)):
-        trial = {slot: kind for slot in placed if (kind := slot.choose(number))}
+        trial = {one: one.types[number] for one in placed if number < len(one.types)}
         for slot, rating in _try_types(
             trial, solved, study, standard, run, read, prices
         ):
@@ -189,11 +185,7 @@ def _join(one: SizedCell, other: SizedCell) -> SizedCell:
 
 
 def _choose(slot: SizedCell, passing: Mapping[str, _Rating]) -> SizedCell:
-    best = min(
-        passing,
-        key=lambda kind: (passing[kind][0], kind),
-        default="",
-    )
+    best = min(passing, key=lambda kind: (passing[kind][0], kind), default="")
     return replace(slot, now=best, used=passing[best][1] if best else None)
 
 
