@@ -6,8 +6,9 @@ Theory: reliability/THEORY.md, section 1.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.outcome import ModelError
@@ -57,15 +58,8 @@ class KnownVariable:
         return self.variable.name
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Source:
-    """Lines of sheet Uncertainty that hold for one net row."""
-
-    site: Site
-    row: NetRow
-
-    def find(self, name: str) -> UncertainQuantity | None:
-        return self.site.find_uncertain(self.row.id, name)
+# Line of sheet Uncertainty that holds for a quantity of one net row.
+_Find = Callable[[str], UncertainQuantity | None]
 
 
 def list_variables(
@@ -78,45 +72,38 @@ def list_variables(
     ModelError
         If one has no distribution, neither typed nor assumed.
     """
-    source, case = _Source(site=site, row=check.row), check.governing
-    found = [_find_height(source)]
+    find, case = partial(site.find_uncertain, check.row.id), check.governing
+    found = [_find_height(find, check.row)]
     for name, span in check.ranges.intervals:
         if span.low < span.high:
-            found.append(_find_ranged(source, name, span.low, span.high))
+            found.append(_find_ranged(find, name, span.low, span.high))
         elif name in _SHARES and case.values[name] > 0.0:
-            found.append(_find_single(source, name, case.values[name]))
+            found.append(_find_single(find, name, case.values[name]))
     if not set(_GLIDES) & set(check.ranges.axes):
-        found += _list_glide(source)
-    found.append(_find_single(source, MODEL, 1.0))
-    found.append(_find_resistance(source, record))
+        found += _list_glide(find, check.row)
+    found.append(_find_single(find, MODEL, 1.0))
+    found.append(_find_resistance(find, record))
     return tuple(found)
 
 
-def _list_glide(source: _Source) -> list[KnownVariable]:
+def _list_glide(find: _Find, row: NetRow) -> list[KnownVariable]:
     """Glide of a row whose ground slides, by the quantity that was typed."""
-    row = source.row
     if row.glide_factor is not None:
-        return [_find_single(source, "glide_factor", row.glide_factor)]
+        return [_find_single(find, "glide_factor", row.glide_factor)]
     if row.ground.kind == "sliding":
-        return [_find_single(source, "slip_length", row.ground.slip_length)]
+        return [_find_single(find, "slip_length", row.ground.slip_length)]
     return []
 
 
-def _find_height(source: _Source) -> KnownVariable:
+def _find_height(find: _Find, row: NetRow) -> KnownVariable:
     """Annual maximum of the vertical snow height, capped by the net."""
-    row, typed, assumed = source.row, source.find(HEIGHT), load_assumed()[HEIGHT]
+    typed, assumed = find(HEIGHT), load_assumed()[HEIGHT]
     variation = typed.variation if typed else assumed.variation
     cosine = math.cos(row.slope_angle)
     height, cap = row.snow_thickness / cosine, row.net_height / cosine
     if typed and typed.mean_ratio is not None:
-        mean = typed.mean_ratio * height
-        variable = Variable(
-            name=HEIGHT,
-            kind=read_kind(typed.distribution or assumed.distribution),
-            mean=mean,
-            deviation=variation * mean,
-            cap=cap,
-        )
+        kind = typed.distribution or assumed.distribution
+        variable = _build(HEIGHT, kind, typed.mean_ratio * height, variation, cap)
     else:
         period = (typed.period if typed else None) or assumed.period or math.nan
         variable = build_annual_maximum(HEIGHT, height, period, variation, cap)
@@ -133,39 +120,37 @@ def _tell(
     )
 
 
-def _find_single(source: _Source, name: str, value: float) -> KnownVariable:
+def _find_single(find: _Find, name: str, value: float) -> KnownVariable:
     """Variable whose mean is a single value of the workbook, or in a ratio to it."""
-    typed, assumed = source.find(name), load_assumed().get(name)
+    typed, assumed = find(name), load_assumed().get(name)
     if typed is not None:
-        return _tell(_build(typed, name, value), typed, say("source.range"))
+        return _tell(_build_typed(typed, name, value), typed, say("source.range"))
     if assumed is None:
         told = say("reliability.no_distribution", name=PARAMETERS[name].label)
         raise ModelError(told)
-    variable = Variable(
-        name=name,
-        kind=assumed.distribution,
-        mean=value,
-        deviation=assumed.variation * value,
-    )
+    variable = _build(name, assumed.distribution, value, assumed.variation)
     return _tell(variable, None, assumed.told)
 
 
-def _build(typed: UncertainQuantity, name: str, value: float) -> Variable:
+def _build_typed(typed: UncertainQuantity, name: str, value: float) -> Variable:
     """Variable of a line of the workbook, by the value that its ratio refers to."""
     mean = value * (1.0 if typed.mean_ratio is None else typed.mean_ratio)
-    return Variable(
-        name=name,
-        kind=read_kind(typed.distribution or "lognormal"),
-        mean=mean,
-        deviation=typed.variation * mean,
-    )
+    return _build(name, typed.distribution, mean, typed.variation)
 
 
-def _find_ranged(source: _Source, name: str, low: float, high: float) -> KnownVariable:
+def _build(
+    name: str, kind: str, mean: float, variation: float, cap: float = math.inf
+) -> Variable:
+    """Variable by its coefficient of variation; lognormal unless told otherwise."""
+    kind, deviation = read_kind(kind or "lognormal"), variation * mean
+    return Variable(name=name, kind=kind, mean=mean, deviation=deviation, cap=cap)
+
+
+def _find_ranged(find: _Find, name: str, low: float, high: float) -> KnownVariable:
     """Variable of a range of the workbook: its middle nine tenths, if nobody says."""
-    typed, middle = source.find(name), 0.5 * (low + high)
+    typed, middle = find(name), 0.5 * (low + high)
     if typed is not None:
-        variable = _build(typed, name, middle)
+        variable = _build_typed(typed, name, middle)
     elif low > 0.0 and name != "inclination":
         spread = math.log(high / low) / (2.0 * _WITHIN)
         variation = math.sqrt(math.expm1(spread**2))
@@ -176,9 +161,9 @@ def _find_ranged(source: _Source, name: str, low: float, high: float) -> KnownVa
     return _tell(variable, typed, say("source.range"))
 
 
-def _find_resistance(source: _Source, check: CheckRecord) -> KnownVariable:
+def _find_resistance(find: _Find, check: CheckRecord) -> KnownVariable:
     """Resistance over its characteristic value."""
-    typed = source.find(RESISTANCE)
+    typed = find(RESISTANCE)
     assumed = load_assumed()["ground" if check.mode in _OF_GROUND else "steel"]
     variation = typed.variation if typed else assumed.variation
     ratio, tests, least = assumed.mean_ratio, check.tests, check.read("R_k")
@@ -191,12 +176,8 @@ def _find_resistance(source: _Source, check: CheckRecord) -> KnownVariable:
     if ratio is None:
         variable = build_by_share(RESISTANCE, 1.0, _CHARACTERISTIC, variation)
     else:
-        variable = Variable(
-            name=RESISTANCE,
-            kind=read_kind((typed.distribution if typed else "") or "lognormal"),
-            mean=ratio,
-            deviation=variation * ratio,
-        )
+        kind = typed.distribution if typed else ""
+        variable = _build(RESISTANCE, kind, ratio, variation)
     return _tell(variable, typed, assumed.told)
 
 
