@@ -110,6 +110,10 @@ class Response:
             result = result + line.find(values[line.name])
         return result
 
+    def find_at(self, values: Mapping[str, float]) -> float:
+        """Value of ln mu at one place."""
+        return float(self.find({k: np.array([one]) for k, one in values.items()})[0])
+
     def _find_over_axes(self, values: Values) -> Floats:
         """Mean of the search's model; beyond the ranges along its tangent."""
         if self.model is None:
@@ -306,5 +310,4 @@ def _fit(
 
 def meet(response: Response, values: Mapping[str, float], rate: float) -> Response:
     """Model shifted so that it has a solved value of ln mu at one place."""
-    at = {name: np.array([one]) for name, one in values.items()}
-    return replace(response, shift=response.shift + rate - float(response.find(at)[0]))
+    return replace(response, shift=response.shift + rate - response.find_at(values))

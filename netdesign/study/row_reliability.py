@@ -257,11 +257,10 @@ class _Miss:
 
 
 def _solve(state: _State, rater: Rater, values: Mapping[str, float]) -> _Miss:
-    at = {name: np.array([one]) for name, one in values.items()}
     (solved,) = rater.solve(rater.check.governing, [_order(values)])
     if solved is None:
         raise ModelError(say("reliability.no_solve"))
-    return _Miss(by_model=float(state.response.find(at)[0]), solved=solved)
+    return _Miss(by_model=state.response.find_at(values), solved=solved)
 
 
 def _record(
@@ -274,8 +273,7 @@ def _record(
     values = dict(zip(state.names, found.design_point, strict=True))
     used = math.log(check.utilisation or math.nan)
     point = state.read_point(found.design_point)
-    at = {name: np.array([one]) for name, one in point.items()}
-    ratio = math.exp(float(state.response.find(at)[0]) - used)
+    ratio = math.exp(state.response.find_at(point) - used)
     return ReliabilityRecord(
         check=check.id,
         reason=None,
