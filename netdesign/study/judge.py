@@ -159,8 +159,8 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
-    effects, held = known.effects, known.held
-    drawing, anchors, head = record_drawn(row, governing, effects.lateral_share)
+    share = known.effects.lateral_share
+    drawing, anchors, head = record_drawn(row, governing, share)
     independent = record_independent(governing, head)
     panel = record_panel(row, solved.results, extremes, governing)
     notes = list_judged_notes(known, checks, cases, panel)
@@ -189,7 +189,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         panel=panel,
         notes=[*notes, *list_history_notes(extremes)],
         statics=record_statics(row, solved.results, extremes, floor),
-        held_sideways=None if isinstance(held, Message) else held,
+        held_sideways=known.along_row,
         tilt=known.tilt,
         envelope=_record_search(solved, checks),
         reliability=_find_reliability(task, found, run),

@@ -52,7 +52,7 @@ def list_pulls(
         for anchor in ANCHORS
     }
     directions[Member.FOOT_ANCHOR] = [
-        measure_pull(force.x, force.y, Member.FOOT_ANCHOR) for force in feet
+        measure_pull(x, y, Member.FOOT_ANCHOR) for x, y in feet
     ]
     if floor is not None and feet:
         directions[Member.FOOT_ANCHOR] += [floor.foot_least, floor.foot_largest]

@@ -20,7 +20,7 @@ from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
-from netdesign.structure.anchors import AnchorForces, GroundForce
+from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, name_in_panel
@@ -207,11 +207,10 @@ class SupportState:
         return self.panel.solution.mid_foot if self.panel else (0.0, 0.0)
 
     @property
-    def feet(self) -> list[GroundForce]:
-        """Forces of the net on foot anchors, beside a post and in mid-panel."""
-        x, y = self.mid_foot
-        mid = [GroundForce(member=Member.NET, x=x, y=y)] if x or y else []
-        return [self.anchors.foot_anchor, *mid]
+    def feet(self) -> list[Point]:
+        """Forces of the net on foot anchors, beside a post and in mid-panel [N]."""
+        foot, mid = self.anchors.foot_anchor, self.mid_foot
+        return [(foot.x, foot.y), *([mid] if any(mid) else [])]
 
 
 def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
