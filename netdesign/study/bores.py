@@ -54,13 +54,12 @@ def check_anchor_distance(
     places = [place_row(row, one) for one in (ends.low, ends.high)]
     pairs = (_list_nearest(row, ranges, place, pulls) for place in places)
     least, anchors = min(chain(*pairs), key=lambda one: one[0])
-    is_apart, most = least >= limit.value, limit.value
+    is_apart = least >= limit.value
     key = "bores.apart" if is_apart else "bores.near"
-    reason = say(key, least=least, limit=most, anchors=anchors)
-    if gap is not None or not is_apart:
-        reason = not_proven(gap or reason)
-    verdict = Verdict.PASS if reason.key == "bores.apart" else Verdict.NOT_PROVEN
-    return conclude("anchors", verdict, reason, limit)
+    reason = say(key, least=least, limit=limit.value, anchors=anchors)
+    if gap is None and is_apart:
+        return conclude("anchors", Verdict.PASS, reason, limit)
+    return conclude("anchors", Verdict.NOT_PROVEN, not_proven(gap or reason), limit)
 
 
 def _list_nearest(
@@ -183,7 +182,8 @@ def place_anchors(
     """
     for anchor in ANCHORS:
         pull = find_pull(pulls, anchor, "intermediate")
-        if _is_same_as_foot(row, anchor) or pull is None:
+        is_foot = row.layout.is_foot_shared and anchor == Member.UPHILL_ANCHOR
+        if is_foot or pull is None:
             continue
         place = points.find_anchor(anchor)[0]
         heading = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
@@ -200,10 +200,6 @@ def place_anchors(
                 anchor,
                 Bore(start=(place, 0.0, aside), direction=direction, length=length),
             )
-
-
-def _is_same_as_foot(row: NetRow, anchor: Member) -> bool:
-    return row.layout.is_foot_shared and anchor == Member.UPHILL_ANCHOR
 
 
 def _spread(

@@ -186,7 +186,11 @@ def _solve(
         if one.reason is None and _find_denser(one.law, row, case) is None
     ]
     solved = solver.solve_all(
-        [(_lay(row, one.ground), case, one.law) for _, one in wanted],
+        [
+            # on another ground, whatever the row's glide factor says
+            (replace(row, ground=one.ground, glide_factor=None), case, one.law)
+            for _, one in wanted
+        ],
         [one.ground_contact for _, one in wanted],
     )
     found: list[CaseResult | None] = [
@@ -195,11 +199,6 @@ def _solve(
     for (index, _), one in zip(wanted, solved, strict=True):
         found[index] = one
     return found
-
-
-def _lay(row: NetRow, ground: GroundLaw) -> NetRow:
-    """Row on another ground, whatever its glide factor says."""
-    return replace(row, ground=ground, glide_factor=None)
 
 
 def _find_denser(law: CreepLaw, row: NetRow, case: Case) -> Message | None:

@@ -14,14 +14,11 @@ from netdesign.structure.row_position import Position
 from netdesign.study.member_force import is_shared
 from netdesign.study.sideways import place_row
 
-_PER_SUPPORT = (
-    *(Member.FOOT_ANCHOR, Member.UPHILL_GUY, Member.UPHILL_ANCHOR),
-    *(Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR, Member.POST),
-)
 _BESIDE_GUYS = (
     *(Member.UPHILL_GUY, Member.UPHILL_ANCHOR),
     *(Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR),
 )
+_PER_SUPPORT = (Member.FOOT_ANCHOR, *_BESIDE_GUYS, Member.POST)
 _ENDS = 2  # of a row
 
 

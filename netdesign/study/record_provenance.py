@@ -77,7 +77,7 @@ def _list_floor_values(standard: Standard) -> list[StandardValue]:
 
 def record_provenance(site: Site, run: CheckRun) -> Provenance:
     """Versions, files and settings of a run."""
-    settings = run.settings
+    settings, file = run.settings, site.map_file  # of what headings mean
     return Provenance(
         version=__version__,
         command=run.command,
@@ -91,7 +91,7 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
             "stress_tolerance": f"{settings.stress_tolerance:g}",
             "shape_tolerance": f"{settings.shape_tolerance:g}",
             "balance_tolerance": f"{settings.balance_tolerance:g}",
-            **_list_map(site),
+            **({"map": f"{file}, sha256 {site.map_sha256}"} if file else {}),
         },
         libraries={
             "python": platform.python_version(),
@@ -99,13 +99,6 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
             "netdesign.core": name_core(),
         },
     )
-
-
-def _list_map(site: Site) -> dict[str, str]:
-    """File that says what headings of the workbook mean, and its digest."""
-    if not site.map_file:
-        return {}
-    return {"map": f"{site.map_file}, sha256 {site.map_sha256}"}
 
 
 def name_law(law: CreepLaw) -> str:
