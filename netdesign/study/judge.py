@@ -56,12 +56,12 @@ from netdesign.study.records import (
     SCHEMA,
     CheckRecord,
     ModelFormRecord,
+    ReliabilityRecord,
     RowStudy,
     Study,
     list_verdicts,
     merge_rows,
 )
-from netdesign.study.reliability_records import ReliabilityRecord
 from netdesign.study.row_checks import RowChecks, check_row, detail_shown, distrust
 from netdesign.study.row_reliability import record_reliability
 from netdesign.study.row_to_check import Basis, CaseSolver, RowToCheck

@@ -28,8 +28,7 @@ from netdesign.site.model import Site
 from netdesign.snowpack.model_code import compare_densities
 from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.record_envelope import record_point
-from netdesign.study.records import CheckRecord
-from netdesign.study.reliability_records import ReliabilityRecord, VariableRecord
+from netdesign.study.records import CheckRecord, ReliabilityRecord, VariableRecord
 from netdesign.study.response import (
     Rater,
     Response,

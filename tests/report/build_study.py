@@ -39,14 +39,15 @@ from netdesign.study.records import (
     ModelFormRecord,
     ProfileRecord,
     Provenance,
+    ReliabilityRecord,
     RowStudy,
     SlabCase,
     SlabRecord,
     SpreadRecord,
     Study,
+    VariableRecord,
     VariantRecord,
 )
-from netdesign.study.reliability_records import ReliabilityRecord, VariableRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Arrow,

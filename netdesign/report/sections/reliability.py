@@ -32,8 +32,7 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
-from netdesign.study.records import RowStudy, Study
-from netdesign.study.reliability_records import ReliabilityRecord, VariableRecord
+from netdesign.study.records import ReliabilityRecord, RowStudy, Study, VariableRecord
 
 # Annual indices of the JCSS Probabilistic Model Code where safety is expensive, for
 # minor, moderate and large consequences.

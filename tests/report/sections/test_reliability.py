@@ -20,7 +20,7 @@ from netdesign.report.sections.reliability import (
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.reliability_records import ReliabilityRecord
+from netdesign.study.records import ReliabilityRecord
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.each import each
