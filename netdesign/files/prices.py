@@ -10,7 +10,7 @@ from pathlib import Path
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import decode_utf8, list_faults, read_bounded
 from netdesign.outcome import TerrainError
-from netdesign.study.cost import NET, Per, Price, Prices
+from netdesign.study.parts import NET, Per, Price, Prices
 from netdesign.words.message import Message, say
 
 _MOST_BYTES = 1_000_000

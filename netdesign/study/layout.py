@@ -24,7 +24,7 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import judge_solved, solve_rows
-from netdesign.study.cost import Prices, add_costs
+from netdesign.study.parts import Prices, add_costs
 from netdesign.study.records import Study
 from netdesign.study.sizing import SizedCell, size_site
 from netdesign.terrain.constructions import Catalogue, put_types

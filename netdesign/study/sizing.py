@@ -19,8 +19,8 @@ from netdesign.structure.members import EndMember, Member
 from netdesign.study.cases import have_same_forces
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite
-from netdesign.study.cost import Prices, find_unit_cost
 from netdesign.study.judge import judge_site
+from netdesign.study.parts import Prices, find_unit_cost
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.stronger_types import find_ground, holds_in_ground
 from netdesign.words.message import say

@@ -6,8 +6,7 @@ import pytest
 
 from netdesign.files.prices import read_prices
 from netdesign.outcome import TerrainError
-from netdesign.study.cost import Price, add_costs, find_unit_cost
-from netdesign.study.parts import PartRecord
+from netdesign.study.parts import PartRecord, Price, add_costs, find_unit_cost
 
 TYPES = ("A25-tested", "Seil 22", "HEB 140")
 
