@@ -190,10 +190,8 @@ def explain_unused(
             continue
         if not any(force is not None for force in series.tensions):
             continue
-        if series.start is None:
-            told.append(say("monitoring.undated", place=series.source))
-        else:
-            told.append(say("monitoring.outside", place=series.source))
+        key = "monitoring.undated" if series.start is None else "monitoring.outside"
+        told.append(say(key, place=series.source))
     return tuple(told)
 
 

@@ -52,6 +52,7 @@ from netdesign.study.rejudge.stored import (
     list_solved,
     measure_pull,
     read_force,
+    read_number,
     read_spans,
 )
 from netdesign.words.message import Message, say
@@ -95,7 +96,7 @@ def _look_at_cases(place: Message, row: RowStudy, study: Study) -> Iterator[Mess
     Histories have another measure of their balance.
     """
     spans, is_steady = read_spans(study), is_of_steady_states(study)
-    tolerance = _read_number(study, "balance_tolerance") if is_steady else math.inf
+    tolerance = read_number(study, "balance_tolerance") if is_steady else math.inf
     for number, case in enumerate(row.cases):
         where = say("audit.case", place=place, number=number)
         yield from _look_at_outcome(where, case, tolerance)
@@ -103,14 +104,6 @@ def _look_at_cases(place: Message, row: RowStudy, study: Study) -> Iterator[Mess
     counts = Counter(case.case for case in row.cases)
     if any(count > 1 for count in counts.values()):
         yield say("audit.case_twice", place=place)
-
-
-def _read_number(study: Study, setting: str) -> float:
-    """Number of a setting; nothing is known without it."""
-    try:
-        return float(study.provenance.settings.get(setting, math.inf))
-    except ValueError:
-        return math.inf
 
 
 def _look_at_outcome(

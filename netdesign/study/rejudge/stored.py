@@ -34,6 +34,14 @@ def is_of_steady_states(study: Study) -> bool:
     return study.provenance.settings.get("method") == _STEADY
 
 
+def read_number(study: Study, setting: str) -> float:
+    """Number of a setting; infinite, of which nothing follows, if it is none."""
+    try:
+        return float(study.provenance.settings.get(setting, math.inf))
+    except ValueError:
+        return math.inf
+
+
 def read_spans(study: Study) -> Spans:
     """Ranges as they were understood, by the keys of a case."""
     spans = {}

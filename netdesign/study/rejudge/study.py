@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -52,7 +51,12 @@ from netdesign.study.rejudge.again import (
     is_held_back,
 )
 from netdesign.study.rejudge.laws import list_broken
-from netdesign.study.rejudge.stored import Fields, Follow, is_of_steady_states
+from netdesign.study.rejudge.stored import (
+    Fields,
+    Follow,
+    is_of_steady_states,
+    read_number,
+)
 from netdesign.study.rejudge.support_again import (
     follow_brought,
     follow_drawn,
@@ -195,7 +199,7 @@ def judge_again(
     again = {
         "project": site.project,
         "range_inputs": list(site.range_inputs),
-        "notes": list_site_notes(site, law, _find_accuracy(study)),
+        "notes": list_site_notes(site, law, read_number(study, "accuracy")),
         "provenance": replace(study.provenance, site_file=site.file_name),
         "what_if": list(site.what_if),
         "left_out": list(site.left_out),
@@ -215,14 +219,6 @@ def judge_again(
 def _find_law(study: Study) -> CreepLaw:
     name = study.provenance.settings.get("creep_law", "").partition(" ")[0]
     return CREEP_LAWS.get(name, BOUTILLIER_2004)
-
-
-def _find_accuracy(study: Study) -> float:
-    """Accuracy that a study says; infinite, no cause of a note, if it is none."""
-    try:
-        return float(study.provenance.settings["accuracy"])
-    except (KeyError, ValueError):
-        return math.inf
 
 
 def _read_again(row: RowStudy, given: NetRow, site: Site, law: CreepLaw) -> Fields:
