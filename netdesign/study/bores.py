@@ -21,7 +21,7 @@ from netdesign.structure.anchor_distance import (
 )
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import EndMember, Member
-from netdesign.study.pulls import ANCHORS, find_pull
+from netdesign.study.pulls import ANCHORS, find_pull, lack_sharing
 from netdesign.study.sideways import place_row
 from netdesign.study.support_records import PullRecord
 from netdesign.words.message import Message, say
@@ -167,10 +167,9 @@ def _list_short(row: NetRow, pulls: Sequence[PullRecord]) -> Iterator[Message]:
 def _find_lack(row: NetRow, pulls: Sequence[PullRecord]) -> Message | None:
     if any(not one.is_axis_known for one in pulls):
         return say("bending.no_axis")
-    if row.guys.count > 1 and row.guys.are_shared is None:
-        return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
     names = row.row_end.list_unsaid_places() if row.row_end else ()
-    return say("check.unsaid", names=names) if names else None
+    of_end = say("check.unsaid", names=names) if names else None
+    return lack_sharing(row.guys) or of_end
 
 
 def place_anchors(

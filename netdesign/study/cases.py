@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -15,7 +15,7 @@ from netdesign.envelope.confirm import (
 )
 from netdesign.envelope.ranges import Case, Ranges, build_cases
 from netdesign.envelope.rows import RowEnvelope, RowGrid, RowTask, refine_settings
-from netdesign.envelope.run import CaseTask, build_task, run_cases
+from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import search_rows
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
@@ -24,7 +24,7 @@ from netdesign.site.model import CONNECTED, NetRow, Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.solving.runner import Runner
 from netdesign.study.check_run import CheckRun
-from netdesign.study.row_to_check import build_scene
+from netdesign.study.row_to_check import build_row_task, build_scene
 from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
@@ -247,7 +247,10 @@ def solve_site(
         For each row its cases in their order; failed ones are named.
     """
     cases = build_cases(site.ranges)
-    tasks = [_build_tasks(row, cases, run) for row in site.rows]
+    tasks = [
+        [build_row_task(row, case, run.creep_law, run.settings) for case in cases]
+        for row in site.rows
+    ]
     results = run_cases([task for of_row in tasks for task in of_row], runner)
     count = len(cases)
     by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
@@ -255,13 +258,3 @@ def solve_site(
         settings = build_history_settings(run.settings)
         by_row = confirm_rows(tasks, by_row, settings, runner)
     return [RowGrid(results=of_row) for of_row in by_row]
-
-
-def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:
-    def build(case: Case) -> Scene:
-        return build_scene(row, case, run.creep_law)
-
-    return [
-        build_task(case, build, row.layout, run.settings, row.solved_panels)
-        for case in cases
-    ]

@@ -22,10 +22,11 @@ from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import SingleTest
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.structure.members import Member
-from netdesign.structure.row_position import LoadedWidth, Position
+from netdesign.structure.row_position import Position
 from netdesign.study.dependent import resist
-from netdesign.study.effects import RowEffects, check_ends, find_effects
+from netdesign.study.effects import check_ends, find_effects
 from netdesign.study.member_force import MemberForce
+from netdesign.study.pulls import lack_sharing
 from netdesign.study.records import (
     CheckRecord,
     SingleTestRecord,
@@ -39,17 +40,6 @@ FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 # A post of which the snow's moment leaves nothing for its force; ground that slides
 # without any; a foot without hold.
 UNBOUNDED = ("post_bending.too_much", "wedge.slides", LOOSE_LIFTS.key)
-
-
-def list_checked(
-    row: NetRow, effects: RowEffects
-) -> list[tuple[LoadedWidth, Resistance]]:
-    """Members that are checked of a row, on each support and in each mode."""
-    return [
-        (width, given)
-        for width in effects.supports
-        for given in row.resistances_at(width.position)
-    ]
 
 
 def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
@@ -154,10 +144,7 @@ def doubt_ground(row: NetRow, given: Resistance) -> Message | None:
 def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
     """Doubt about an anchor of which nobody says whether it holds two guys."""
     of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-    is_said = row.guys.count == 1 or row.guys.are_shared is not None
-    if is_said or given.member not in of_guys:
-        return None
-    return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
+    return lack_sharing(row.guys) if given.member in of_guys else None
 
 
 def record_result(

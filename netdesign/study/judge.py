@@ -77,7 +77,6 @@ def judge_site(
     standard: Standard,
     run: CheckRun,
     solver: CaseSolver | None = None,
-    on_check: Callable[[], None] = lambda: None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
 
@@ -94,18 +93,15 @@ def judge_site(
     solver : CaseSolver, optional
         Solves what the envelope does not hold: other creep laws, and where a check
         flips. Without it a study has neither; give the same one for each profile.
-    on_check : callable, optional
-        Called after each check of a force.
 
     Returns
     -------
     Study
         Complete; a failed case is in it by name.
     """
-    with_solver = zip(site.rows, solved, strict=True)
     rows = [
-        judge_row(site, row, of_row, standard, run, solver, on_check)
-        for row, of_row in with_solver
+        judge_row(site, row, of_row, standard, run, solver)
+        for row, of_row in zip(site.rows, solved, strict=True)
     ]
     return gather_study(site, rows, standard, run)
 
@@ -139,7 +135,10 @@ def judge_row(
 ) -> RowStudy:
     """Study of one row of a site, as ``judge_site`` makes it."""
     task = RowToCheck(
-        basis=Basis(site=site, row=row, standard=standard, law=run.creep_law),
+        site=site,
+        row=row,
+        standard=standard,
+        law=run.creep_law,
         solved=solved,
         find_floor=cache(partial(find_row_floor, row, standard=standard)),
         bound_floor=cache(partial(bound_row_floor, row, standard=standard)),
@@ -150,10 +149,9 @@ def judge_row(
 
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
-    site, row = task.basis.site, task.basis.row
-    solved, extremes = task.solved, task.solved.extremes
-    floor = task.find_floor(site.ranges)
-    known = know_row(task.basis, solved.results, extremes, solved.gap, floor)
+    row, solved, extremes = task.row, task.solved, task.solved.extremes
+    floor = task.find_floor(task.site.ranges)
+    known = know_row(task, solved.results, extremes, solved.gap, floor)
     found, model_form = _check_row(task, extremes, known)
     checks = found.records
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
@@ -171,12 +169,12 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         extremes=_record_extremes(extremes),
         cases=cases,
         inputs=list(row.inputs),
-        parts=list_parts(row, site.ranges["inclination"]),
+        parts=list_parts(row, task.site.ranges["inclination"]),
         drawing=drawing,
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
         questions=list(row.questions),
-        monitoring=record_monitoring(site, row),
+        monitoring=record_monitoring(task.site, row),
         anchors=anchors,
         pulls=list(known.pulls),
         head=head,
@@ -205,7 +203,7 @@ def _find_reliability(
     worst = find_worst(found.records)
     by_case = found.by_case.get(worst.id) if worst else None
     solver = CaseSolver(run.settings, run.creep_law)
-    return record_reliability(task.basis.site, found.records, worst, by_case, solver)
+    return record_reliability(task.site, found.records, worst, by_case, solver)
 
 
 def _check_row(
@@ -284,7 +282,7 @@ def _find_model_form(
     if task.solver is None or worst is None or governing is None:
         return None
     member = _name_largest(worst)
-    return record_model_form(task.solver, task.basis.row, governing, member, worst)
+    return record_model_form(task.solver, task.row, governing, member, worst)
 
 
 def know_row(

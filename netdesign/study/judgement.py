@@ -20,7 +20,6 @@ from netdesign.study.check_to_record import (
     doubt_ground,
     doubt_sharing,
     judge_force,
-    list_checked,
     record_geometry,
     record_result,
 )
@@ -124,7 +123,8 @@ def judge_members(known: RowForces) -> list[MemberCheck]:
     parts = () if "mesh" in not_checked else row.net_parts
     checked = [
         (width, given)
-        for width, given in list_checked(row, effects)
+        for width in effects.supports
+        for given in row.resistances_at(width.position)
         if _concerns(known, given)
     ]
     checked += [(at_end, given) for given in (*parts, *held)]
@@ -234,11 +234,7 @@ def list_bringing(forces: RowForces, force: MemberForce) -> list[ForceRecord]:
 def _find_doubt(basis: Basis, brings: Sequence[ForceRecord]) -> Message | None:
     """Doubt that the creep law holds for the snow of a largest force."""
     doubts = (
-        find_doubt(
-            *(basis.site, basis.row, basis.law),
-            density=one.case.density_kg_m3,
-            largest=one.high_kN,
-        )
+        find_doubt(basis, density=one.case.density_kg_m3, largest=one.high_kN)
         for one in brings
     )
     return next((one for one in doubts if one is not None), None)

@@ -34,6 +34,7 @@ from netdesign.structure.members import (
 from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.case_records import FloorForceRecord, FloorRecord, ForceRecord
 from netdesign.study.effects import RowEffects
+from netdesign.study.pulls import may_share
 from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import HeldSidewaysRecord, PullRecord
 from netdesign.units import degree_from_radian
@@ -371,8 +372,7 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
 def is_shared(row: NetRow, member: str) -> bool:
     """An anchor holds a guy of each of two neighbouring posts, or may do so."""
     of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-    may_be = row.guys.are_shared is not False and row.guys.count > 1
-    return may_be and member in of_guys
+    return may_share(row.guys) and member in of_guys
 
 
 def name_governing(reason: Message, force: MemberForce, load_case: str) -> Message:

@@ -24,6 +24,7 @@ from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.dependent import find_snow_pressure
 from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
 from netdesign.study.member_force import RowForces
+from netdesign.study.pulls import may_share
 from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord, PullRecord
@@ -180,9 +181,8 @@ def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
 
 def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:
     """How the pulls of two guys on one anchor are added, where some are."""
-    is_shared = row.guys.count > 1 and row.guys.are_shared is not False
     told = say("row.shared_sum", sum=name("shared_sum", standard.shared_sum))
-    return [told] if is_shared else []
+    return [told] if may_share(row.guys) else []
 
 
 def describe_model_code(row: NetRow, density: Interval) -> Message:

@@ -88,13 +88,20 @@ def _measure_guy(points: SupportPoints, anchor: Member, guys: Guys) -> float:
     """Direction of a guy's line at its anchor, slack or not; in its own plane."""
     end = points.find_anchor(anchor)
     x, y = points.head[0] - end[0], points.head[1] - end[1]
-    turned = 0.0 if _may_share(guys) else guys.splay or 0.0
+    turned = 0.0 if may_share(guys) else guys.splay or 0.0
     return turn_by_splay(measure_pull(x, y, anchor), turned)
 
 
-def _may_share(guys: Guys) -> bool:
+def may_share(guys: Guys) -> bool:
     """Two guys on one anchor: it may be pulled out of the section by the splay."""
     return guys.count > 1 and guys.are_shared is not False
+
+
+def lack_sharing(guys: Guys) -> Message | None:
+    """Lack of a word on whether an anchor holds two guys."""
+    if guys.count == 1 or guys.are_shared is not None:
+        return None
+    return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
 
 
 def build_pull(
@@ -122,7 +129,7 @@ def build_pull(
     given, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
     axis = pulls.mean if given is None else given
     along_row = share if anchor in row.layout.anchors_at_foot else 0.0
-    if _may_share(row.guys) and anchor != Member.FOOT_ANCHOR:
+    if may_share(row.guys) and anchor != Member.FOOT_ANCHOR:
         along_row = math.tan(row.guys.splay or 0.0)
     turned = turn_sideways(pulls.find_largest_angle(axis), along_row)
     return PullRecord(
@@ -162,7 +169,7 @@ def check_directions(
     return [
         (one.position, _check_direction(one, standard, gap))
         for one in pulls
-        if one.is_checked
+        if one.kind not in ("bar", "micropile")  # what bends has a check of that
     ]
 
 

@@ -56,8 +56,8 @@ def list_remedies(
     used = one.result.find("μ")
     if used is None or used.high is None:
         return _complete(task, one, changes, None)
-    if not task.basis.row.panels:  # its forces are in no proportion to the spacing
-        spacing = task.basis.row.layout.post_spacing
+    if not task.row.panels:  # its forces are in no proportion to the spacing
+        spacing = task.row.layout.post_spacing
         changes.append(find_spacing_remedy(spacing, one.width, used.high))
     return _complete(task, one, changes, check)
 
@@ -84,7 +84,7 @@ def _complete(
 def _is_worth_telling(task: RowToCheck, one: MemberCheck) -> bool:
     """It has a force, and does not pass with much to spare."""
     demand, used = one.result.find("E_d"), one.result.find("μ")
-    if demand is None or demand.high == 0.0 or task.basis.row.is_overtopped:
+    if demand is None or demand.high == 0.0 or task.row.is_overtopped:
         return False
     if used is None:
         return one.result.verdict is not Verdict.PASS
@@ -105,20 +105,15 @@ def _list_solved_remedies(task: RowToCheck, check: CheckByCase) -> list[ChangeRe
 
 def _doubt_density(task: RowToCheck, change: ChangeRecord) -> ChangeRecord:
     """Change of density that says where the creep law is not given for its snow."""
-    if change.bound is None or not find_doubt(
-        task.basis.site,
-        task.basis.row,
-        task.basis.law,
-        density=change.bound,
-        largest=math.inf,
-    ):
+    bound = change.bound
+    if bound is None or not find_doubt(task, density=bound, largest=math.inf):
         return change
     return replace(change, note=say("change.if_law_accepted"))
 
 
 def _list_resistance_remedies(task: RowToCheck, one: MemberCheck) -> list[ChangeRecord]:
     """Characteristic resistance that is needed, and the type that has it."""
-    standard, result = task.basis.standard, one.result
+    standard, result = task.standard, one.result
     demand, factor = result.find("E_d"), result.find_value("γ_R")
     note: Message | None = None
     if factor is None:  # nothing is given, and so no basis: suppose a test
@@ -136,7 +131,7 @@ def _list_resistance_remedies(task: RowToCheck, one: MemberCheck) -> list[Change
         solves=0,
         note=note,
     )
-    kind = find_type_change(task.basis, one.given, demand.high, one.pull)
+    kind = find_type_change(task, one.given, demand.high, one.pull)
     return [change, kind] if kind else [change]
 
 

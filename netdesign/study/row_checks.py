@@ -70,7 +70,7 @@ def check_row(
         before = task.count_faults()
         changes.append(list_remedies(task, one, by_case) if one.force else [])
         if task.count_faults() > before:
-            judged[place] = judge_with_fault(task.basis, one, _FAULT_BESIDE)
+            judged[place] = judge_with_fault(task, one, _FAULT_BESIDE)
         task.on_check()
     checks = [
         replace(record_member(known, one), changes=found)
@@ -130,7 +130,7 @@ def list_checks_by_case(
     Of several supports that one which uses a member most: where that holds, the
     others do. What the ropes load has to be known as a whole.
     """
-    if task.solver is None or task.solved.gap or task.basis.row.is_overtopped:
+    if task.solver is None or task.solved.gap or task.row.is_overtopped:
         return [None] * len(judged)
     return [
         _build_check(task, known, one, extremes)
@@ -187,8 +187,8 @@ def _build_check(
     }
     followed = force.largest.quantity
     return CheckByCase(
-        row=task.basis.row,
-        ranges=task.basis.site.ranges,
+        row=task.row,
+        ranges=task.site.ranges,
         member=followed,
         scale=scales.pop(followed),
         beside=tuple(scales.items()),
@@ -292,7 +292,7 @@ def list_spreads(
     if one.is_of_end:
         return spreads
     if task.solver is not None and extreme.force.value > 0.0:
-        spreads += _list_creep_laws(task.solver, task.basis.row, extreme, scale)
+        spreads += _list_creep_laws(task.solver, task.row, extreme, scale)
     return spreads
 
 

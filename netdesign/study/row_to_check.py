@@ -31,7 +31,7 @@ class Basis:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RowToCheck:
+class RowToCheck(Basis):
     """One net row under one profile.
 
     ``find_floor`` gives the guideline's load over ranges in which something may be
@@ -40,7 +40,6 @@ class RowToCheck:
     ``on_check`` is called after each check of a force.
     """
 
-    basis: Basis
     solved: RowGrid | RowEnvelope
     find_floor: Callable[[Ranges], Floor | None]
     bound_floor: Callable[[Ranges], tuple[FloorEnd, FloorEnd] | None]
@@ -87,6 +86,23 @@ def build_scene(
     )
 
 
+def build_row_task(
+    row: NetRow,
+    case: Case,
+    law: CreepLaw,
+    settings: SolverSettings,
+    ground_contact: Sides = "two-sided",
+) -> CaseTask:
+    """Task of one case of a net row; a refused scene is a named refusal."""
+    return build_task(
+        case,
+        lambda one: build_scene(row, one, law, ground_contact),
+        row.layout,
+        settings,
+        row.solved_panels,
+    )
+
+
 class CaseSolver:
     """Solves a row at a case, remembers it, and counts its solves.
 
@@ -105,11 +121,6 @@ class CaseSolver:
         self._runner = runner or Runner()
         self._known: dict[tuple[NetRow, Case, str, Sides], CaseResult] = {}
 
-    def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
-        """Result of one case; a failed one is a result too."""
-        (result,) = self.solve_all([(row, case, law or self.law)])
-        return result
-
     def solve_all(
         self,
         wanted: Sequence[tuple[NetRow, Case, CreepLaw]],
@@ -117,7 +128,8 @@ class CaseSolver:
     ) -> list[CaseResult]:
         """Results of some cases in their order, the unknown ones solved together.
 
-        ``contacts`` are those of their grounds; two-sided unless told.
+        A failed one is a result too. ``contacts`` are those of their grounds; two-sided
+        unless told.
         """
         sides = contacts or (_TWO_SIDED,) * len(wanted)
         keys: list[tuple[NetRow, Case, str, Sides]] = [
@@ -125,7 +137,7 @@ class CaseSolver:
             for (row, case, law), side in zip(wanted, sides, strict=True)
         ]
         unknown = {
-            key: self._build_task(*one, key[-1])
+            key: build_row_task(*one, self._settings, key[-1])
             for key, one in zip(keys, wanted, strict=True)
             if key not in self._known
         }
@@ -138,17 +150,6 @@ class CaseSolver:
             self.faults += result.fault is not None
         return found
 
-    def _build_task(
-        self, row: NetRow, case: Case, law: CreepLaw, contact: Sides
-    ) -> CaseTask:
-        return build_task(
-            case,
-            lambda c: build_scene(row, c, law, contact),
-            row.layout,
-            self._settings,
-            row.solved_panels,
-        )
-
 
 def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
     """The law is given for the density of a case [kg/m3], and of each layer."""
@@ -157,21 +158,22 @@ def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
     )
 
 
-def find_doubt(
-    site: Site, row: NetRow, law: CreepLaw, *, density: float, largest: float
-) -> Message | None:
+def find_doubt(basis: Basis, *, density: float, largest: float) -> Message | None:
     """Doubt that the creep law holds for a member's largest force; None without.
 
     The workbook may accept the law by its name.
 
     Parameters
     ----------
+    basis : Basis
+        Row, creep law, and the site that may accept it.
     density : float
         Of the governing case [kg/m3]: no other counts.
     largest : float
         Upper end of the force, any unit; without a force nothing rests on the law.
     """
-    is_accepted = site.project.accepted_law == law.name
+    row, law = basis.row, basis.law
+    is_accepted = basis.site.project.accepted_law == law.name
     if is_accepted or largest == 0.0 or is_calibrated(law, row, density):
         return None
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)

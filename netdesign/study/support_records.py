@@ -96,11 +96,6 @@ class PullRecord:
         """Largest angle between pull and axis [rad]."""
         return radian_from_degree(self.angle_deg)
 
-    @property
-    def is_checked(self) -> bool:
-        """A limit of the direction is checked: what bends has a check of that."""
-        return self.kind not in ("bar", "micropile")
-
 
 @dataclass(frozen=True, kw_only=True)
 class HeadForce:

@@ -15,7 +15,8 @@ from tests.study.test_row_study import RANGES, ROW, RUN
 @pytest.fixture(scope="module")
 def solved():
     solver = CaseSolver(RUN.settings, RUN.creep_law)
-    return solver.solve(ROW, build_cases(RANGES)[-1])
+    (result,) = solver.solve_all([(ROW, build_cases(RANGES)[-1], solver.law)])
+    return result
 
 
 def check(result, head=None):
