@@ -4,13 +4,11 @@ from netdesign.checks.check import (
     check_member,
     declare,
     find_resistance,
-    judge,
     withhold,
 )
-from netdesign.checks.geometry import RowGeometry, check_geometry, check_inclination
+from netdesign.checks.geometry import RowGeometry, check_geometry
 from netdesign.checks.loader import (
     Standard,
-    StandardTable,
     StandardValue,
     list_standards,
     load_standard,
@@ -31,14 +29,11 @@ __all__ = [
     "Proof",
     "RowGeometry",
     "Standard",
-    "StandardTable",
     "StandardValue",
     "check_geometry",
-    "check_inclination",
     "check_member",
     "declare",
     "find_resistance",
-    "judge",
     "list_standards",
     "load_standard",
     "withhold",

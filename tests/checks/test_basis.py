@@ -11,10 +11,10 @@ from netdesign.checks import (
     Proof,
     check_member,
     declare,
-    judge,
     load_standard,
     withhold,
 )
+from netdesign.checks.check import judge
 from netdesign.checks.geometry import check_height
 from netdesign.outcome import Verdict
 from netdesign.words.names import as_given

@@ -10,12 +10,11 @@ from netdesign.checks import (
     Band,
     Standard,
     StandardValue,
-    check_inclination,
     check_member,
-    judge,
     load_standard,
 )
-from netdesign.checks.check import find_resistance
+from netdesign.checks.check import find_resistance, judge
+from netdesign.checks.geometry import check_inclination
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES

@@ -17,9 +17,9 @@ from netdesign.checks import (
     Standard,
     check_geometry,
     check_member,
-    judge,
     load_standard,
 )
+from netdesign.checks.check import judge
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.words.names import as_given
 from tests.checks.entries import a_force, a_resistance, a_value, no_force
