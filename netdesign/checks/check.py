@@ -168,9 +168,7 @@ def _find_resistance_factor(
     """Factor of the mode on its basis, gamma_R, and its clause."""
     found = standard.find_resistance_factor(resistance.mode, resistance.basis)
     if found is not None:
-        factor = given(
-            *("γ_R", found.value_si, "-", found.id), kind=Kind.PROFILE, lack=None
-        )
+        factor = given("γ_R", found.value_si, "-", found.id, kind=Kind.PROFILE)
         return factor, found.clause
     source = f"resistance.{resistance.mode}"
     ids = (value.id for value in standard.values)

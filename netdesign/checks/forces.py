@@ -290,20 +290,13 @@ def calculate_force(leaves: Leaves) -> SupportForce:
     of its guy.
     """
     support = _find_support(leaves)
-    if "T_b" in leaves:
-        action = pull_border_rope(leaves["T_b"], support)
-        return SupportForce(
-            action=action, coupled=action, by_panel=action, support=support
-        )
     letter = "V" if "V_s" in leaves else "E"
-    if f"{letter}_s" not in leaves:
-        return _calculate_end(leaves, support)
-    load, push = _find_load(leaves), _find_push(leaves, support)
     inside, in_panel, by_floor = (
         leaves.get(f"{letter}_{one}") for one in ("s", "p0", "g0")
     )
-    if inside is None:
-        raise ValueError("a force of no section")
+    if inside is None or "T_b" in leaves:
+        return _calculate_end(leaves, support)
+    load, push = _find_load(leaves), _find_push(leaves, support)
     is_alone = in_panel is None and by_floor is None
     name = f"{letter}_k" if is_alone else f"{letter}_c"
     coupled = bring_to_support(name, inside, load, support)
@@ -328,12 +321,13 @@ def calculate_force(leaves: Leaves) -> SupportForce:
 
 
 def _calculate_end(leaves: Leaves, support: Support) -> SupportForce:
-    """Force on a member that holds the ropes' pull along the row, at its end."""
-    pull = pull_at_end(leaves["T_r"], support)
-    if "γ" in leaves:
-        action = pull_end_guy(pull, leaves["γ"])
+    """Force in a border rope, or on a member that holds its pull along the row."""
+    if "T_b" in leaves:
+        action = pull_border_rope(leaves["T_b"], support)
+    elif "γ" in leaves:
+        action = pull_end_guy(pull_at_end(leaves["T_r"], support), leaves["γ"])
     else:
-        action = pull.named("E_k", "kN", "(P8)")
+        action = pull_at_end(leaves["T_r"], support).named("E_k", "kN", "(P8)")
     return SupportForce(action=action, coupled=action, by_panel=action, support=support)
 
 
