@@ -196,9 +196,9 @@ class MemberForce:
         growth = max(0.0, pull / self.pull - 1.0) if self.pull else 0.0
         return self.share * force + self.added + growth * self.rise
 
-    def find_high(self, force: float, *, is_by_panel: bool) -> float:
+    def find_high(self, force: float) -> float:
         """Upper end of the member's force inside the row, from one solved [kN]."""
-        push = _high(self.on.push) if is_by_panel else 0.0
+        push = _high(self.on.push) if self.is_by_panel else 0.0
         along = self._tilt * push / self.on_support
         if self.on.load.across is not None:
             return math.hypot(force, _high(self.on.load.across))

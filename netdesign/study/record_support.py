@@ -37,7 +37,7 @@ from netdesign.units import (
     kilonewton_if_known,
 )
 
-_DECIMALS = 4  # of a metre in a drawing
+_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
 def record_panel(
@@ -173,7 +173,6 @@ def _record_rope(
 
 
 _PRESSURE_DECIMALS = 3  # [kPa]
-_DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
 def record_anchors(anchors: AnchorForces, share: float) -> list[AnchorRecord]:
@@ -240,10 +239,10 @@ def _record_drawing(
     row: NetRow, result: CaseResult, solution: SolvedState, anchors: AnchorForces
 ) -> Drawing:
     points = place_support(row.layout, solution.head_point)
-    curve = solution.net_curve.T.round(_DRAWN_DECIMALS).tolist()
+    curve = solution.net_curve.T.round(_DECIMALS).tolist()
     in_snow = len(solution.net_slides)
     sticks = [not bool(slides) for slides in solution.net_slides]
-    edges = solution.mesh_nodes[:, solution.mesh_edges].round(_DRAWN_DECIMALS)
+    edges = solution.mesh_nodes[:, solution.mesh_edges].round(_DECIMALS)
     return Drawing(
         case=record_point(result.case),
         slope_deg=degree_from_radian(row.slope_angle),

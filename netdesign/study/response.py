@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -180,7 +180,6 @@ class Rater:
     check: CheckByCase
     solver: CaseSolver
     scale: float = 1.0
-    _widths: dict[tuple[tuple[str, float], ...], float] = field(default_factory=dict)
 
     def rate(self, result: CaseResult, moved: Mapping[str, float]) -> float | None:
         """Value of ln mu in a case with some quantities moved; None without a force."""
@@ -199,13 +198,10 @@ class Rater:
 
     def _find_width(self, moved: Mapping[str, float]) -> float:
         """Load of the support by its end, as ``CheckByCase.widen`` gives it."""
-        key = tuple(moved.items())
-        if key not in self._widths:
-            ranges = self.check.ranges
-            for name, value in moved.items():
-                ranges = ranges.with_value(name, value)
-            self._widths[key] = self.check.widen(ranges)
-        return self._widths[key]
+        ranges = self.check.ranges
+        for name, value in moved.items():
+            ranges = ranges.with_value(name, value)
+        return self.check.widen(ranges)
 
     def solve(
         self, case: Case, moved: Sequence[Mapping[str, float]]

@@ -274,10 +274,9 @@ def list_spreads(
     force, use = one.force, one.use
     if force is None or use is None or not one.result.find_value("μ"):
         return []
-    is_by_panel = force.is_by_panel
 
     def rate(solved: float) -> float:
-        return use * force.find_high(solved / 1e3, is_by_panel=is_by_panel)
+        return use * force.find_high(solved / 1e3)
 
     largest = 1e3 * force.largest.high_kN
     scale = rate(largest) / largest if largest else use * force.share / 1e3
