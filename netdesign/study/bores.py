@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain, product
 
-from netdesign.checks import CheckResult, Standard
+from netdesign.checks import CheckResult
 from netdesign.checks.check import conclude, not_proven
 from netdesign.checks.schema import ANCHOR_DISTANCE
 from netdesign.envelope.ranges import Ranges
@@ -21,6 +21,7 @@ from netdesign.structure.anchor_distance import (
 )
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import EndMember, Member
+from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import ANCHORS, find_pull, lack_sharing
 from netdesign.study.sideways import place_row
 from netdesign.study.support_records import PullRecord
@@ -31,19 +32,14 @@ _FLATTEST = 1e-3  # of an end guy along the row; it ends far from the others [ra
 _POSTS = 3  # beside each other: whatever comes near does so among them
 
 
-def check_anchor_distance(
-    row: NetRow,
-    ranges: Ranges,
-    pulls: Sequence[PullRecord],
-    standard: Standard,
-    gap: Message | None,
-) -> CheckResult | None:
+def check_anchor_distance(known: RowForces, gap: Message | None) -> CheckResult | None:
     """Check how near the anchors of a row come to each other in the ground.
 
     Nearer than the profile says is not proven: a test of the group may show it. None
     without any pull.
     """
-    limit = standard.find(ANCHOR_DISTANCE)
+    row, pulls, ranges = known.row, known.pulls, known.site.ranges
+    limit = known.standard.find(ANCHOR_DISTANCE)
     if not pulls:
         return None
     if limit is None:
@@ -123,14 +119,13 @@ def place_end_anchors(
         yield member, bore
 
 
-def check_cover(
-    row: NetRow, pulls: Sequence[PullRecord], standard: Standard, gap: Message | None
-) -> CheckResult | None:
+def check_cover(known: RowForces, gap: Message | None) -> CheckResult | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
     None where the profile leaves it to others, or without any pull.
     """
-    if "anchor_ground" in standard.not_checked or not pulls:
+    row, pulls = known.row, known.pulls
+    if "anchor_ground" in known.standard.not_checked or not pulls:
         return None
     unsaid = dict.fromkeys(
         name

@@ -20,7 +20,7 @@ from netdesign.checks.routes import TestedResistance
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import SingleTest
-from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
 from netdesign.study.dependent import resist
@@ -32,6 +32,7 @@ from netdesign.study.records import (
     SingleTestRecord,
     TestsRecord,
 )
+from netdesign.study.row_to_check import Basis
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
@@ -42,16 +43,17 @@ FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 UNBOUNDED = ("post_bending.too_much", "wedge.slides", LOOSE_LIFTS.key)
 
 
-def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
+def record_geometry(basis: Basis) -> list[CheckRecord]:
     """Checks of a row that no force enters."""
-    geometry = check_geometry(read_geometry(row, site.ranges), standard)
-    ends = check_ends(find_effects(row, standard, site.ranges))
+    row, standard, ranges = basis.row, basis.standard, basis.site.ranges
+    geometry = check_geometry(read_geometry(row, ranges), standard)
+    ends = check_ends(find_effects(row, standard, ranges))
     results = [
         *(_leave_default_open(row, one) for one in geometry),
         *([ends] if ends else []),
         *_list_open(row, standard),
     ]
-    return [record_result(site, row, one) for one in results]
+    return [record_result(basis, one) for one in results]
 
 
 def _leave_default_open(row: NetRow, result: CheckResult) -> CheckResult:
@@ -91,17 +93,16 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def _apply_declaration(
-    site: Site, row: NetRow, result: CheckResult, position: str
-) -> CheckResult:
+def _apply_declaration(basis: Basis, result: CheckResult, position: str) -> CheckResult:
     """Check on a support, if it has one, with what the workbook says of it.
 
     Forces of a net below its snow are those of snow up to its head: information.
     A check may be declared as proven elsewhere.
     """
-    if row.is_overtopped and result.member != Member.NET:
+    row, member = basis.row, result.member
+    if row.is_overtopped and member != Member.NET:
         result = withhold(result, say("check.overtopped"))
-    declaration = site.find_declaration(row, result.member, result.mode, position)
+    declaration = basis.site.find_declaration(row, member, result.mode, position)
     return declare(result, declaration)
 
 
@@ -148,8 +149,7 @@ def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
 
 
 def record_result(
-    site: Site,
-    row: NetRow,
+    basis: Basis,
     result: CheckResult,
     position: Position | None = None,
     given: Resistance | None = None,
@@ -159,7 +159,7 @@ def record_result(
 
     That of a member on a support has its ``position``; what is declared of it holds.
     """
-    result = _apply_declaration(site, row, result, position or "")
+    result = _apply_declaration(basis, result, position or "")
     return CheckRecord(
         id=f"{result.id}.end" if position == "edge" else result.id,
         position=position or "",

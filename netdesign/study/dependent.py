@@ -90,7 +90,7 @@ def find_resistance_for_force(
             return given
 
 
-def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message | None:
+def find_short_post(given: Resistance, basis: Basis) -> Message | None:
     """Lack of a post's resistance that was computed for a shorter post than the row's.
 
     Theory: resistance/THEORY.md, (R5). The post is longest at one end of the net's
@@ -98,8 +98,9 @@ def find_short_post(given: Resistance, row: NetRow, ranges: Ranges) -> Message |
     """
     if given.buckling_length is None:
         return None
-    span = ranges["inclination"]
-    longest = max(place_row(row, one).post_length for one in (span.low, span.high))
+    span = basis.site.ranges["inclination"]
+    places = (place_row(basis.row, one) for one in (span.low, span.high))
+    longest = max(place.post_length for place in places)
     if given.buckling_length >= (1.0 - _ROUNDED) * longest:
         return None
     return say(
@@ -311,18 +312,16 @@ def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantit
     return resist_by_friction(friction, find_action_factor(standard), pressing)
 
 
-def corrode(
-    given: Resistance, row: NetRow, standard: Standard
-) -> tuple[Resistance, Message | None]:
+def corrode(given: Resistance, basis: Basis) -> tuple[Resistance, Message | None]:
     """Resistance with the steel that is left, and why it may not last so long.
 
     None is known where that is not given. As it is, and no doubt, of what does not
     corrode, and where the profile leaves corrosion to others.
     """
-    wear, life = given.wear, row.design_life
-    if wear is None or "corrosion" in standard.not_checked:
+    wear, life = given.wear, basis.row.design_life
+    if wear is None or "corrosion" in basis.standard.not_checked:
         return given, None
-    unsaid = row.list_unsaid_wear(given)
+    unsaid = basis.row.list_unsaid_wear(given)
     if unsaid or life is None:
         lack = say("corrosion.lacks", names=unsaid)
         return replace(given, value=None, dimensions=None, lack=lack), lack

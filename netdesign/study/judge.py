@@ -64,7 +64,7 @@ from netdesign.study.records import (
 )
 from netdesign.study.row_checks import RowChecks, check_row, detail_shown, distrust
 from netdesign.study.row_reliability import record_reliability
-from netdesign.study.row_to_check import Basis, CaseSolver, RowToCheck
+from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.study.winter_row import record_monitoring
 from netdesign.units import kilonewton_from_newton
@@ -151,7 +151,7 @@ def judge_row(
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     row, solved, extremes = task.row, task.solved, task.solved.extremes
     floor = task.find_floor(task.site.ranges)
-    known = know_row(task, solved.results, extremes, solved.gap, floor)
+    known = know_row(task, extremes, floor)
     found, model_form = _check_row(task, extremes, known)
     checks = found.records
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
@@ -286,17 +286,11 @@ def _find_model_form(
 
 
 def know_row(
-    basis: Basis,
-    results: Sequence[CaseResult],
-    extremes: Mapping[str, Extreme],
-    gap: Message | None,
-    floor: Floor | None,
+    task: RowToCheck, extremes: Mapping[str, Extreme], floor: Floor | None
 ) -> RowForces:
-    """Knowledge of a row by its cases and the guideline's load.
-
-    ``gap`` says why the cases are not complete.
-    """
-    site, row, standard = basis.site, basis.row, basis.standard
+    """Knowledge of a row by its cases and the guideline's load."""
+    site, row, standard = task.site, task.row, task.standard
+    results = task.solved.results
     effects = find_effects(row, standard, site.ranges)
     head = floor.head if floor else None
     held = find_held_sideways(row, results, extremes, standard, head)
@@ -304,7 +298,7 @@ def know_row(
         site=site,
         row=row,
         standard=standard,
-        law=basis.law,
+        law=task.law,
         effects=effects,
         largest={name: _record_force(one) for name, one in extremes.items()},
         floor=record_floor(floor, row),
@@ -313,7 +307,7 @@ def know_row(
             row, (one.case.inclination for one in results if one.is_converged)
         ),
         pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
-        gap=gap,
+        gap=task.solved.gap,
         panel_gap=_find_failed_panel(row, results),
     )
 

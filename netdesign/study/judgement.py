@@ -181,7 +181,7 @@ def _judge_member(
     gap = gap or _find_unseen(force.solved if force else ())
     gap = gap or find_other_panel(row, given, width.position)
     result = judge_force(given, force, standard, gap=gap, doubt=doubt or unsure)
-    short = find_short_post(given, row, known.site.ranges)
+    short = find_short_post(given, known)
     if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
         result = judge_force(given, force, standard, gap=gap, doubt=doubt)
@@ -202,7 +202,7 @@ def find_lasting(
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
     row = basis.row
-    lasting, worn = corrode(given, row, basis.standard)
+    lasting, worn = corrode(given, basis)
     doubt = worn or doubt_ground(row, given) or doubt_sharing(row, given)
     return lasting, doubt or doubt_mortar(given, pull)
 
@@ -265,9 +265,7 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 def record_member(known: RowForces, one: MemberCheck) -> CheckRecord:
     """Check of a force as the study has it, without what a solve adds to it."""
     position = one.width.position
-    check = record_result(
-        known.site, known.row, one.result, position, one.given, one.force
-    )
+    check = record_result(known, one.result, position, one.given, one.force)
     if one.unsure is None:
         check = replace(
             check,
@@ -293,18 +291,12 @@ def record_others(
     known: RowForces, judged: Sequence[MemberCheck]
 ) -> Iterator[CheckRecord]:
     """Checks that compare no force: load along the row, directions, geometry."""
-    site, row, standard = known.site, known.row, known.standard
-    gap = find_open(row, judged)
-    lateral = check_sideways(row, known.held, standard, gap)
-    yield record_result(site, row, lateral)
-    for place, one in check_directions(known.pulls, standard, gap):
-        yield record_result(site, row, one, place)
-    pulls = known.pulls
-    of_ground = (
-        check_anchor_distance(row, site.ranges, pulls, standard, gap),
-        check_cover(row, pulls, standard, gap),
-    )
-    for found in of_ground:
+    gap = find_open(known.row, judged)
+    lateral = check_sideways(known.row, known.held, known.standard, gap)
+    yield record_result(known, lateral)
+    for place, one in check_directions(known.pulls, known.standard, gap):
+        yield record_result(known, one, place)
+    for found in (check_anchor_distance(known, gap), check_cover(known, gap)):
         if found is not None:
-            yield record_result(site, row, found)
-    yield from record_geometry(site, row, standard)
+            yield record_result(known, found)
+    yield from record_geometry(known)

@@ -132,8 +132,8 @@ def _list_enough(
         if other.mode != given.mode or not is_here:
             continue
         other = replace(other, member=given.member)
-        lasting, worn = corrode(other, row, standard)
-        if worn or find_short_post(other, row, basis.site.ranges):
+        lasting, worn = corrode(other, basis)
+        if worn or find_short_post(other, basis):
             continue
         value = find_resistance(lasting, standard).value
         factor = standard.find_resistance_factor(other.mode, other.basis)
