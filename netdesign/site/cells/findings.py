@@ -14,11 +14,11 @@ from netdesign.words.message import Message, say
 Severity = Literal["error", "question", "note"]
 
 _LONGEST_QUOTE = 60
-_OF_SHEETS = (
+# Rules that an answer settles, beside all of headings and items.
+_ASKED = (
     *("table.lacks_sheet", "table.close_to_missing", "table.second_sheet"),
-    "table.copy",
+    *("table.copy", "cell.unknown_word"),
 )
-_OF_WORDS = ("cell.unknown_word",)
 _ALIKE = (
     "number.ambiguous",
     "type.governs",
@@ -87,9 +87,8 @@ class Finding:
     def is_asked(self) -> bool:
         """An answer in a file beside the workbook can settle it."""
         area = self.rule.key.partition(".")[0]
-        return self.severity == "error" and (
-            area in ("heading", "item") or self.rule.key in (*_OF_SHEETS, *_OF_WORDS)
-        )
+        is_asked = area in ("heading", "item") or self.rule.key in _ASKED
+        return self.severity == "error" and is_asked
 
     def __str__(self) -> str:
         """The message in English."""
@@ -121,16 +120,11 @@ def fold_findings(
         group.append(finding)
     asked = [one for one in findings if one.is_asked]
     offers = [say("finding.ask_map", file=site_file or one.file) for one in asked[:1]]
-    faults, notes = (
-        [_describe_alike(group) for key, group in alike.items() if is_of(key)]
-        for is_of in (_is_fault, lambda key: not _is_fault(key))
-    )
+    lines = [_describe_alike(group) for group in alike.values()]
+    count = sum(group[0].severity == "error" for group in alike.values())
+    faults, notes = lines[:count], lines[count:]
     between = [say("finding.beside")] if faults and notes else []
     return (*faults, *offers, *between, *notes)
-
-
-def _is_fault(key: tuple[object, ...]) -> bool:
-    return key[0] == "error"
 
 
 def _describe_alike(findings: list[Finding]) -> Message:

@@ -77,14 +77,10 @@ def parse_number(value: object, decimal_mark: DecimalMark = "") -> float | Refus
     """
     if isinstance(value, bool):
         return Refusal(say("number.truth_value"), _ACCEPTED)
-    if isinstance(value, int | float):
-        return _check_size(value)
     if isinstance(value, str):
         return _parse_text(value.strip(), decimal_mark)
-    return Refusal(say("number.date"), say("accepted.number_format"))
-
-
-def _check_size(value: float) -> float | Refusal:
+    if not isinstance(value, int | float):
+        return Refusal(say("number.date"), say("accepted.number_format"))
     # Written in the positive, so that NaN fails; integers may exceed any float.
     if -_LARGEST < value < _LARGEST:
         return float(value)

@@ -22,6 +22,7 @@ from netdesign.site.cells.cells import (
     MergedRange,
     Sheet,
     group_by_row,
+    name_column,
     require_columns,
     require_rows,
 )
@@ -198,17 +199,15 @@ def _note_merge(sheet: _OpenSheet, cell: Any, row: int, column: int) -> None:
     rows, columns = _spans(cell)
     if (rows, columns) == (1, 1):
         return
-    corners = [
-        Cell(file="", sheet="", row=r, column=c).address
-        for r, c in ((row, column), (row + rows - 1, column + columns - 1))
-    ]
+    last_row, last_column = row + rows - 1, column + columns - 1
+    last = f"{name_column(last_column)}{last_row}"
     sheet.merged.append(
         MergedRange(
-            text=":".join(corners),
+            text=f"{name_column(column)}{row}:{last}",
             row=row,
             column=column,
-            last_row=min(row + rows - 1, MAX_ROWS),
-            last_column=min(column + columns - 1, MAX_COLUMNS),
+            last_row=min(last_row, MAX_ROWS),
+            last_column=min(last_column, MAX_COLUMNS),
         )
     )
 

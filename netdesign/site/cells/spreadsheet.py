@@ -36,7 +36,6 @@ from netdesign.site.cells.cells import (
     group_by_row,
     guard_archive,
     require_cells,
-    require_columns,
     require_rows,
     require_width,
 )
@@ -95,8 +94,7 @@ def read_delimited(
         records = _split(file, text, delimiter)
         require_rows(file, name, len(records), MAX_LINES)
         require_cells(file, name, sum(map(len, records)))
-        for record in records:
-            require_width(file, name, len(record))
+        require_width(file, name, max(map(len, records), default=0))
         rule = say(
             "csv.read_with", delimiter=_name_delimiter(delimiter), encoding=encoding
         )
@@ -214,13 +212,11 @@ def _cut_sheets(
             for column, text in enumerate(record, start=1)
             if text
         ]
-    sheets = []
-    for name, cells in groups:
-        require_columns(file, name, cells)
-        if cells:
-            rows = group_by_row(cells)
-            sheets.append(Sheet(file=file, name=name, rows=rows, is_delimited=True))
-    return sheets
+    return [
+        Sheet(file=file, name=name, rows=group_by_row(cells), is_delimited=True)
+        for name, cells in groups
+        if cells
+    ]
 
 
 def _find_title(record: list[str], is_name: Callable[[str], bool]) -> str:

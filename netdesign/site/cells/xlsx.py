@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 from string import ascii_uppercase
@@ -108,7 +108,8 @@ def read_xlsx(
 
 def _read_formulas(typed: Any, layout: _Layout) -> dict[tuple[int, int], str]:
     return {
-        (cell.row, cell.column): _show_formula(cell.value)
+        # array formulas come as an object with the text inside
+        (cell.row, cell.column): str(getattr(cell.value, "text", cell.value))
         for cell in _filled_cells(typed, layout.last_row)
         if cell.data_type == "f"
     }
@@ -143,10 +144,10 @@ def _read_sheet(
         file=file,
         name=stored.title,
         rows=group_by_row(cells.values()),
-        merged=layout.merged,
-        hidden_rows=layout.hidden_rows,
+        merged=tuple(layout.merged),
+        hidden_rows=frozenset(layout.hidden_rows),
         struck_rows=frozenset(row for row, is_struck in struck.items() if is_struck),
-        hidden_columns=layout.hidden_columns,
+        hidden_columns=frozenset(layout.hidden_columns),
         is_hidden=stored.sheet_state != "visible",
     )
 
@@ -172,11 +173,6 @@ def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) ->
     )
 
 
-def _show_formula(value: Any) -> str:
-    # Array formulas come as an object with the text inside.
-    return str(getattr(value, "text", value))
-
-
 def _read_format(cell: Any) -> dict[str, Any]:
     """Fields of a `Cell` that say what the format shows beside its number."""
     if cell.data_type != "n" or not isinstance(cell.value, int | float):
@@ -189,13 +185,15 @@ def _read_format(cell: Any) -> dict[str, Any]:
     }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(slots=True)
 class _Layout:
-    last_row: int
-    merged: tuple[MergedRange, ...]
-    hidden_rows: frozenset[int]
-    hidden_columns: frozenset[int]
-    has_formulas: bool
+    """Layout of a sheet while its parts arrive."""
+
+    last_row: int = 0
+    merged: list[MergedRange] = field(default_factory=list)
+    hidden_rows: set[int] = field(default_factory=set)
+    hidden_columns: set[int] = field(default_factory=set)
+    has_formulas: bool = False
 
 
 def _is_struck(cell: Any) -> bool:
@@ -211,35 +209,25 @@ def _scan_layout(sheet: Any) -> _Layout:
     """
     from defusedxml.ElementTree import iterparse
 
-    row = last_row = 0
-    merged: list[MergedRange] = []
-    hidden: set[int] = set()
-    hidden_columns: set[int] = set()
-    has_formulas = False
+    row, layout = 0, _Layout()
     with sheet._get_source() as source:
         for _, element in iterparse(source):
             tag = element.tag.rpartition("}")[2]
             if tag == "f":
-                has_formulas = True
+                layout.has_formulas = True
             elif tag == "mergeCell":
-                merged.append(_read_merged_range(element.get("ref", "")))
+                layout.merged.append(_read_merged_range(element.get("ref", "")))
             elif tag == "col" and _is_true(element.get("hidden")):
                 first, last = int(element.get("min", 1)), int(element.get("max", 1))
-                hidden_columns.update(range(first, min(last, MAX_COLUMNS) + 1))
+                layout.hidden_columns.update(range(first, min(last, MAX_COLUMNS) + 1))
             elif tag == "row":
                 row = _follow_row(element, row)
                 if any(len(cell) for cell in element):
-                    last_row = max(last_row, row)
+                    layout.last_row = row  # rows ascend
                     if _is_true(element.get("hidden")):
-                        hidden.add(row)
+                        layout.hidden_rows.add(row)
                 element.clear()
-    return _Layout(
-        last_row=last_row,
-        merged=tuple(merged),
-        hidden_rows=frozenset(hidden),
-        hidden_columns=frozenset(hidden_columns),
-        has_formulas=has_formulas,
-    )
+    return layout
 
 
 def _follow_row(element: Any, row_before: int) -> int:
