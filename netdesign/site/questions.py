@@ -36,7 +36,7 @@ from netdesign.site.headings import Table, count_known
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
 from netdesign.site.tables import find_tables
-from netdesign.site.titles import MARKS, SCHEMA, find_plan, is_meant
+from netdesign.site.titles import MARKS, SCHEMA, find_plan, list_meant
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -194,17 +194,13 @@ def _ask_sheets(
     for name, one in asked.items():
         likely = NETS.name if one.rule.key == "table.net_rows" else ""
         yield Question("", name, UNANSWERED, (one.accepted,), likely=likely)
-    given, names = workbook.answers.sheets, [one.name for one in workbook.sheets]
+    given = workbook.answers.sheets
     open_names = {
         one
         for one in workbook.unread
         if given.get(one) != IGNORE and find_plan(given.get(one, "")) is None
     }
-    missing = [
-        plan
-        for plan in _EXPECTED
-        if not any(is_meant(one, plan, workbook.answers) for one in names)
-    ]
+    missing = [plan for plan in _EXPECTED if not list_meant(workbook, plan)]
     if not missing or not open_names:
         return
     every = read_workbook(path, lambda _: True, text_format=text_format)
@@ -222,7 +218,7 @@ def _ask_ranges(
     workbook: Workbook, findings: list[Finding], language: Language
 ) -> Iterator[Question]:
     """Ranges that must be given, where the workbook has no sheet for them."""
-    if any(is_meant(one.name, RANGES, workbook.answers) for one in workbook.sheets):
+    if list_meant(workbook, RANGES):
         return
     no_sheet = say(
         "table.lacks_sheet", wanted=say("finding.in_quotes", text=RANGES.title)

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.numbers import split_range
 from netdesign.site.columns.all_tables import NETS, RANGES
 from netdesign.site.columns.lexicon import UNANSWERED, Lexicon
 from netdesign.site.headings import Table
-from netdesign.site.titles import Title, is_meant, understand
+from netdesign.site.titles import Title, list_meant, understand
 
 _HEADINGS = ("quantity", "range", "unit")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Line:
-    """Cells of one range: its name, its value and, perhaps, its unit."""
-
-    cells: tuple[Cell, ...]
-    row_of_cover: int | None = None
+# Of one range its row on the cover, if it stands there, and its cells: name, value and,
+# perhaps, unit.
+_Line = tuple[int | None, tuple[Cell, ...]]
 
 
 def gather_ranges(
@@ -30,22 +27,22 @@ def gather_ranges(
 
     Both are the same where it has that sheet, or nothing for it.
     """
-    if any(is_meant(one.name, RANGES, workbook.answers) for one in workbook.sheets):
+    if list_meant(workbook, RANGES):
         return workbook, cover
     lines = [*_list_answered(workbook), *_list_on_cover(cover)]
     if not lines:
         return workbook, cover
     sheet = RANGES.name
-    file = lines[0].cells[0].file
+    file = lines[0][1][0].file
     head = {
         n: Cell(file=file, sheet=sheet, row=1, column=n, value=value)
         for n, value in enumerate(_HEADINGS, 1)
     }
     rows = {
-        number: dict(enumerate(line.cells, 1)) for number, line in enumerate(lines, 2)
+        number: dict(enumerate(cells, 1)) for number, (_, cells) in enumerate(lines, 2)
     }
     made = Sheet(file=file, name=sheet, rows={1: head, **rows})
-    taken = {one.row_of_cover for one in lines}
+    taken = {row for row, _ in lines}
     if cover:
         kept = tuple(row for row in cover.rows if row not in taken)
         cover = replace(cover, rows=kept)
@@ -59,7 +56,7 @@ def _list_answered(workbook: Workbook) -> Iterator[_Line]:
         if UNANSWERED in answer:
             continue
         made = Cell(file=answers.file, sheet="ranges", row=row, column=1, value=name)
-        yield _Line(cells=(made, replace(made, column=2, value=answer)))
+        yield None, (made, replace(made, column=2, value=answer))
 
 
 def _list_on_cover(cover: Table | None) -> Iterator[_Line]:
@@ -74,4 +71,4 @@ def _list_on_cover(cover: Table | None) -> Iterator[_Line]:
         field = understand(Title(cells[0]), lexicon, cover.sheet.answers).field
         is_range = split_range(cells[1].text) is not None
         if field and (is_range or field.key not in {one.key for one in NETS.fields}):
-            yield _Line(cells=cells[:3], row_of_cover=row)
+            yield row, cells[:3]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
@@ -12,7 +11,7 @@ from netdesign.checks import list_standards
 from netdesign.edge.given_files import is_there
 from netdesign.outcome import SiteDataError
 from netdesign.resistance.connection import Link
-from netdesign.site.cells.cells import UNDECLARED, Answers, TextFormat, Workbook
+from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
@@ -79,10 +78,11 @@ from netdesign.site.tables import (
 )
 from netdesign.site.titles import (
     give_answers,
-    is_absent,
     is_meant,
     is_near,
     judge_answers,
+    list_meant,
+    list_near,
     read_answers,
 )
 from netdesign.site.type_lines import (
@@ -194,9 +194,6 @@ def _ask_for_rows_elsewhere(
     asked about until somebody answers for them.
     """
     given = workbook.answers.sheets
-    is_there = any(
-        is_meant(one.name, NETS, workbook.answers) for one in workbook.sheets
-    )
     names = {
         name
         for name in workbook.unread
@@ -204,7 +201,7 @@ def _ask_for_rows_elsewhere(
         and name not in (*workbook.hidden, *QUIET_SHEETS)
         and not NETS.begins(name)  # asked about by its name
     }
-    if not names or not is_there:
+    if not names or not list_meant(workbook, NETS):
         return
     try:
         every = read_workbook(path, names.__contains__, None, is_heading, text_format)
@@ -337,7 +334,11 @@ def _read_lines(
         ends=index_lines(ends, "row", say("ends.one_line"), findings),
         snow=snow,
         types={sheet: found or {} for sheet, found in types.items()},
-        absent=[plan.name for plan in _TYPE_PLANS if is_absent(workbook, plan)],
+        absent=[
+            plan.name
+            for plan in _TYPE_PLANS
+            if not (list_meant(workbook, plan) or list_near(workbook, plan))
+        ],
         unreadable=[sheet for sheet, found in types.items() if found is None],
         ranges=ranges,
         links=read_rows(tables[LINKS.name], findings),
@@ -377,8 +378,13 @@ def read_cells(
     answers = replace(answers, sheets={**answers.sheets, **sheets})
     if not text_format.decimal_mark:
         text_format = replace(text_format, decimal_mark=answers.decimal_mark)
-    is_wanted = partial(_is_wanted, answers=answers)
-    is_name = partial(_is_name, answers=answers)
+
+    def is_wanted(sheet_name: str) -> bool:
+        return any(is_meant(sheet_name, plan, answers) for plan in SHEETS)
+
+    def is_name(text: str) -> bool:
+        return is_wanted(text) or any(is_near(text, plan) for plan in SHEETS)
+
     workbook = read_workbook(path, is_wanted, is_name, is_heading, text_format)
     return give_answers(workbook, answers)
 
@@ -387,14 +393,6 @@ def _shorten(finding: Finding) -> Finding:
     """Remark without the list of headings, which helps only where one is sought."""
     is_long = finding.rule.key == "heading.unknown"
     return replace(finding, accepted="") if is_long else finding
-
-
-def _is_wanted(sheet_name: str, answers: Answers) -> bool:
-    return any(is_meant(sheet_name, plan, answers) for plan in SHEETS)
-
-
-def _is_name(text: str, answers: Answers) -> bool:
-    return _is_wanted(text, answers) or any(is_near(text, plan) for plan in SHEETS)
 
 
 def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:

@@ -36,8 +36,8 @@ from netdesign.site.titles import (
     Title,
     explain,
     find_near,
-    is_meant,
-    is_near,
+    list_meant,
+    list_near,
     quote_title,
     understand,
 )
@@ -72,7 +72,11 @@ def find_tables(
     workbook: Workbook, plan: SheetPlan, findings: list[Finding]
 ) -> tuple[Table, ...]:
     """All sheets of one plan, with their headings; of net rows one a structure."""
-    sheets = _find_sheets(workbook, plan, findings)
+    sheets = list_meant(workbook, plan)
+    if sheets:
+        findings.extend(_ask_for_copies(workbook, plan, sheets[0].name))
+    else:
+        findings.extend(_judge_missing(workbook, plan))
     is_one = plan.name != NETS.name
     plain = [sheet for sheet in sheets if is_one or plan.matches(sheet.name)]
     for double in plain[1:]:
@@ -159,21 +163,6 @@ def _read_word(
     return replace(reading, text=cell.text, cell=cell)
 
 
-def _find_sheets(
-    workbook: Workbook, plan: SheetPlan, findings: list[Finding]
-) -> list[Sheet]:
-    sheets = [
-        sheet
-        for sheet in workbook.sheets
-        if is_meant(sheet.name, plan, workbook.answers)
-    ]
-    if not sheets:
-        findings.extend(_judge_missing(workbook, plan))
-    else:
-        findings.extend(_ask_for_copies(workbook, plan, sheets[0].name))
-    return sheets
-
-
 def _ask_for_copies(
     workbook: Workbook, plan: SheetPlan, first: str
 ) -> Iterator[Finding]:
@@ -198,8 +187,7 @@ def is_about(name: Cell, table: Table) -> bool:
 
 def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     """Refuse a sheet that seems the missing one, misspelt; or the lack of it."""
-    unread = (name for name in workbook.unread if name not in workbook.answers.sheets)
-    near = [name for name in unread if is_near(name, plan)]
+    near = list_near(workbook, plan)
     wanted = say("finding.in_quotes", text=plan.title)
     if near:
         rule = say("table.close_to_missing", wanted=wanted)

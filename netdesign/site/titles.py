@@ -94,7 +94,8 @@ def understand(title: Title, lexicon: Lexicon, answers: Mapping[str, str]) -> Me
 
     An answer names a field by its key, or by a heading of any language.
     """
-    answer = find_answer(title, answers)
+    given = (answer for key, answer in answers.items() if is_asked(title, key))
+    answer = next(given, "")
     if not answer:
         return lexicon.match(title.text, title.group)
     if answer == UNANSWERED and (known := lexicon.match(title.text, title.group)).field:
@@ -104,14 +105,6 @@ def understand(title: Title, lexicon: Lexicon, answers: Mapping[str, str]) -> Me
     field = lexicon.fields.get(answer.partition("[")[0].strip())
     meaning = Meaning(field) if field else lexicon.match(answer)
     return replace(meaning, answer=answer, unit=find_unit(answer))
-
-
-def find_answer(title: Title, answers: Mapping[str, str]) -> str:
-    """Answer to a heading; empty where there is none."""
-    for key, answer in answers.items():
-        if is_asked(title, key):
-            return answer
-    return ""
 
 
 def is_asked(title: Title, key: str) -> bool:
@@ -174,20 +167,10 @@ def read_unit(cell: Cell) -> tuple[str, bool]:
 
 def find_own_unit(cells: list[Cell], field: Field) -> str:
     """Unit of a column whose heading has none: in its cells, or that of a grade."""
-    if _have_units(cells, field):
+    if any(normalise_unit(cell.own_unit) in field.units for cell in cells):
         return IN_CELLS
-    return field.unit if field.is_grade and _have_grades(cells) else ""
-
-
-def _have_units(cells: list[Cell], field: Field) -> bool:
-    """The first numbers of a column have their units in their cells."""
-    units = [normalise_unit(cell.own_unit) for cell in cells]
-    return any(unit in field.units for unit in units)
-
-
-def _have_grades(cells: list[Cell]) -> bool:
-    """The first cells of a column name steel grades."""
-    return bool(cells) and all(read_grade(cell.value) is not None for cell in cells)
+    has_grades = cells and all(read_grade(cell.value) is not None for cell in cells)
+    return field.unit if field.is_grade and has_grades else ""
 
 
 def refuse_unit(unit: str, cells: list[Cell], field: Field) -> Refusal:
@@ -208,7 +191,7 @@ def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
     for unit in field.units:
         value = convert_unit(number, unit, field.unit)
         if field.bounds[0] <= value <= field.bounds[1]:
-            readings.append(_describe_reading((number, unit), (value, field.unit)))
+            readings.append(_describe_reading(number, unit, value, field.unit))
     if len(readings) < 2:
         return say("heading.no_unit")
     return say(
@@ -216,9 +199,10 @@ def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
     )
 
 
-def _describe_reading(typed: tuple[float, str], own: tuple[float, str]) -> Message:
+def _describe_reading(
+    number: float, unit: str, other: float, other_unit: str
+) -> Message:
     """A number with the unit that it may have, and what it is in the field's unit."""
-    (number, unit), (other, other_unit) = typed, own
     if unit == other_unit:
         return say("text.number_in", number=number, unit=unit)
     return say(
@@ -237,7 +221,7 @@ def explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
     if UNANSWERED in meaning.answer:
         rule = say("heading.unanswered", file=sheet.answered_in)
         return Refusal(rule, say("heading.unanswered_wanted"))
-    if meaning.is_wrong_answer:
+    if meaning.answer and meaning.field is None:  # it names no heading, or several
         rule = say("heading.wrong_answer", answer=quote(meaning.answer))
         return Refusal(rule, say("heading.answer_wanted", file=sheet.answered_in))
     if not meaning.is_unclear:
@@ -372,32 +356,30 @@ def is_near(name: str, plan: SheetPlan) -> bool:
     )
 
 
-def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
-    """A workbook has no sheet of the plan's name, nor of a name near to it."""
+def list_meant(workbook: Workbook, plan: SheetPlan) -> list[Sheet]:
+    """Sheets of a workbook that are the planned one."""
     answers = workbook.answers
-    return not any(
-        is_meant(sheet.name, plan, answers) for sheet in workbook.sheets
-    ) and not any(
-        is_near(name, plan) for name in workbook.unread if name not in answers.sheets
-    )
+    return [one for one in workbook.sheets if is_meant(one.name, plan, answers)]
+
+
+def list_near(workbook: Workbook, plan: SheetPlan) -> list[str]:
+    """Names of sheets that are not read, near to the planned one's, not answered."""
+    unread = (one for one in workbook.unread if one not in workbook.answers.sheets)
+    return [name for name in unread if is_near(name, plan)]
 
 
 def give_answers(workbook: Workbook, answers: Answers) -> Workbook:
     """Workbook whose sheets know what was answered."""
-    return replace(
-        workbook,
-        answers=answers,
-        sheets=tuple(_give(sheet, answers) for sheet in workbook.sheets),
+    sheets = tuple(
+        replace(
+            sheet,
+            answers=answers.headings.get(sheet.name, {}),
+            words=answers.words.get(sheet.name, {}),
+            answered_in=answers.file,
+        )
+        for sheet in workbook.sheets
     )
-
-
-def _give(sheet: Sheet, answers: Answers) -> Sheet:
-    return replace(
-        sheet,
-        answers=answers.headings.get(sheet.name, {}),
-        words=answers.words.get(sheet.name, {}),
-        answered_in=answers.file,
-    )
+    return replace(workbook, answers=answers, sheets=sheets)
 
 
 def judge_answers(workbook: Workbook) -> list[Finding]:
@@ -430,10 +412,9 @@ def _list_wrong_sheets(answers: Answers) -> Iterator[Finding]:
 
 def _list_ranges_twice(workbook: Workbook) -> Iterator[Finding]:
     """Ranges that are answered beside a sheet of ranges."""
-    names = [one.name for one in workbook.sheets]
-    own = [one for one in names if is_meant(one, RANGES, workbook.answers)]
+    own = list_meant(workbook, RANGES)
     if own and workbook.answers.ranges:
-        yield _refuse(workbook.answers, say("map.ranges_twice"), own[0])
+        yield _refuse(workbook.answers, say("map.ranges_twice"), own[0].name)
 
 
 def _list_unused_words(sheet: Sheet) -> Iterator[Finding]:

@@ -123,7 +123,7 @@ def from_si(value: float, unit: str) -> float:
 
 
 Kind = Literal["number", "count", "word", "id", "date", "text"]
-_LONGEST_HEADING = 100
+LONGEST_HEADING = 100
 _NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
 _STRUCTURE = re.compile(
     r"[A-Za-z]|[IVX]{1,4}|\d{1,2}|[A-Za-z]\d"
@@ -323,8 +323,15 @@ class SheetPlan:
     site_wide: tuple[str, ...] = ()
 
     def matches(self, sheet_name: str) -> bool:
-        """A workbook's sheet of this name is the planned one."""
-        return is_one_of(sheet_name, self.raw_names)
+        """A workbook's sheet is the planned one: numbered perhaps, in two languages."""
+        known = frozenset(map(normalise, self.raw_names))
+        plain = _NUMBERING.sub("", sheet_name)
+        parts = [normalise(one) for one in _BETWEEN_NAMES.split(plain)]
+        return (
+            normalise(sheet_name) in known
+            or normalise(plain) in known
+            or (all(parts) and known.issuperset(parts))
+        )
 
     def is_structure(self, sheet_name: str) -> bool:
         """A name is that of a sheet with a letter, number or quarter: "Nets A"."""
@@ -368,18 +375,6 @@ class SheetPlan:
         return tuple(one for one in self.fields if one.key in self.site_wide)
 
 
-def is_one_of(sheet_name: str, names: Iterable[str]) -> bool:
-    """The name of a sheet is one of some: numbered perhaps, or in two languages."""
-    known = frozenset(map(normalise, names))
-    plain = _NUMBERING.sub("", sheet_name)
-    parts = [normalise(one) for one in _BETWEEN_NAMES.split(plain)]
-    return (
-        normalise(sheet_name) in known
-        or normalise(plain) in known
-        or (all(parts) and known.issuperset(parts))
-    )
-
-
 def name_word(key: str, word: str) -> Message | str:
     """Word of a column; what is alike in all languages stays."""
     text = f"choice.{key}.{normalise(word)}"
@@ -400,7 +395,7 @@ def split_heading(text: str) -> tuple[str, str]:
     ('slopeangle', 'deg')
     """
     heading = text.strip()
-    if len(heading) > _LONGEST_HEADING:
+    if len(heading) > LONGEST_HEADING:
         return "", ""
     match = re.fullmatch(r"(.*)[\[(]([^\[\]()]*)[\])]", heading, re.DOTALL)
     if match is None:

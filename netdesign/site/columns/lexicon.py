@@ -15,6 +15,7 @@ from functools import lru_cache
 from netdesign.site.columns.all_tables import load_file
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
+    LONGEST_HEADING,
     Field,
     SheetPlan,
     normalise,
@@ -22,7 +23,6 @@ from netdesign.site.columns.fields import (
     split_heading,
 )
 
-LONGEST_HEADING = 100
 # Without brackets these are as often names as units: N is newton and glide factor.
 _SHORT = ("n", "t", "c", "d", "h", "j", "1", "-", "–", "—", "a")
 _BRACKETS = re.compile(r"[\[(]([^\[\]()]*)[\])]")
@@ -98,9 +98,15 @@ def find_unit(text: str) -> str:
     known = dict.fromkeys(one for one in bracketed if one in KNOWN_UNITS)
     if known:
         return ", ".join(known)
+    behind = _match_unit_behind(text)
+    return normalise_unit(behind[1]) if behind else ""
+
+
+def _match_unit_behind(text: str) -> re.Match[str] | None:
+    """Unit without brackets at the end of a heading, unless it is too short for one."""
     behind = _BEHIND.search(text)
-    unit = normalise_unit(behind[1]) if behind else ""
-    return unit if unit in KNOWN_UNITS and behind and not _is_short(behind[1]) else ""
+    is_unit = behind and normalise_unit(behind[1]) in KNOWN_UNITS
+    return behind if behind and is_unit and behind[1].casefold() not in _SHORT else None
 
 
 def split_languages(text: str) -> Iterator[tuple[Part, ...]]:
@@ -184,19 +190,12 @@ def find_words_apart(text: str) -> tuple[str, ...]:
     return tuple(one for one in named if not fold(one)) if len(named) > 1 else ()
 
 
-def _is_short(unit: str) -> bool:
-    return unit.casefold() in _SHORT
-
-
 def _remove_units(text: str) -> str:
     kept = _BRACKETS.sub(
         lambda found: "" if normalise_unit(found[1]) in KNOWN_UNITS else found[0], text
     ).strip()
-    behind = _BEHIND.search(kept)
-    is_unit = behind and not _is_short(behind[1])
-    if behind and is_unit and normalise_unit(behind[1]) in KNOWN_UNITS:
-        return kept[: behind.start()]
-    return kept
+    behind = _match_unit_behind(kept)
+    return kept[: behind.start()] if behind else kept
 
 
 @lru_cache(maxsize=8192)
@@ -325,11 +324,6 @@ class Meaning:
         """Somebody answered that it is not to be read."""
         return self.answer == IGNORE
 
-    @property
-    def is_wrong_answer(self) -> bool:
-        """The answer names no heading, or more than one."""
-        return bool(self.answer) and not self.is_ignored and self.field is None
-
 
 UNKNOWN = Meaning()
 
@@ -368,18 +362,15 @@ class Lexicon:
             known = frozenset(keys).intersection(by_key)
             if known:
                 names[normalise(heading)] = known | _UNCLEAR
-                _add(folded, read_part(heading), known | _UNCLEAR)
+                part = read_part(heading)
+                folded[part.whole] = folded.get(part.whole, known) | known | _UNCLEAR
         for key, field in by_key.items():
-            names |= dict.fromkeys(field.names, frozenset((key,)))
-        for key, field in by_key.items():
-            for name in field.raw_names:
-                # a name as typed is surer than one of which only the core is alike
-                _add(folded, read_part(name), frozenset((key,)), is_sure=True)
-        noun = frozenset(
-            noun
-            for sheet, noun in load_file("thesaurus")["nouns"].items()
-            if sheet == plan.name
-        )
+            own = frozenset((key,))
+            names |= dict.fromkeys(field.names, own)
+            # a name as typed is surer than one of which only the core is alike
+            folded |= {read_part(name).whole: own for name in field.raw_names}
+        nouns = load_file("thesaurus")["nouns"]
+        noun = frozenset((nouns[plan.name],)) if plan.name in nouns else _NOTHING
         return cls(by_key, names, folded, _list_senses(by_key, plan, noun), noun)
 
     def match(self, text: str, group: str = "") -> Meaning:
@@ -540,14 +531,6 @@ def _is_too_little(name: str) -> bool:
     words = frozenset(load_file("thesaurus")["alone"]["words"])
     sense = part.sense or frozenset()
     return bool(part.symbols) or (len(sense) == 1 and sense <= words)
-
-
-def _add(
-    folded: dict[str, _Keys], part: Part, keys: _Keys, *, is_sure: bool = False
-) -> None:
-    if part.name:
-        before = _NOTHING if is_sure else folded.get(part.whole, _NOTHING)
-        folded[part.whole] = before | keys
 
 
 def _find_meant(symbol: str) -> tuple[_Keys, bool]:
