@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import NamedTuple
@@ -46,12 +46,11 @@ from netdesign.site.titles import (
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.words.message import say
 
-_LAST_HEADING_ROW = 20  # a title block may stand above the headings
+_HEADING_ROWS = 20  # from the first filled one: a title block may stand above them
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 _EXAMPLES = 3  # cells that show how a column is written
 _BY_CELLS = ("glide_factor", "section")
 _GUYS = frozenset(("uphill_guy", "downhill_guy"))
-_NONE: frozenset[str] = frozenset()
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
 
@@ -117,9 +116,9 @@ class Table:
         column = self.columns.get(key)
         return self.sheet.cell(row, column.number) if column else None
 
-    def list_named(self, key: str) -> list[Title]:
+    def list_named(self) -> list[Title]:
         """Names in the lines of a table of items, and its headings."""
-        cells = [self.cell(row, key) for row in self.rows]
+        cells = [self.cell(row, self.plan.fields[0].key) for row in self.rows]
         named = [Title(one) for one in cells if one is not None and not one.is_blank]
         return [*named, *(title for title, _ in self.titles)]
 
@@ -236,9 +235,10 @@ def _find_row(sheet: Sheet, lexicon: Lexicon) -> int | None:
 
 
 def _count_known(sheet: Sheet, lexicon: Lexicon) -> dict[int, int]:
+    first = next((row for row in sheet.rows if sheet.row(row)), 1)
     return {
         row: sum(_is_known(title, lexicon, sheet) for title in list_titles(sheet, row))
-        for row in range(1, _last_row(sheet) + 1)
+        for row in range(1, first + _HEADING_ROWS)
     }
 
 
@@ -248,12 +248,6 @@ def _is_known(title: Title, lexicon: Lexicon, sheet: Sheet) -> bool:
         return False
     meaning = understand(title, lexicon, sheet.answers)
     return bool(meaning.field or meaning.readings or meaning.answer)
-
-
-def _last_row(sheet: Sheet) -> int:
-    """Last row that headings are looked for in, counted from the first filled one."""
-    first = next((row for row in sheet.rows if sheet.row(row)), 1)
-    return first + _LAST_HEADING_ROW - 1
 
 
 def _find_units_row(
@@ -340,7 +334,7 @@ def _find_both(meaning: Meaning, clear: set[str]) -> frozenset[str]:
     keys = frozenset(one.key for one in meaning.readings)
     has_sides = clear.issuperset(("uphill_anchor", "downhill_anchor"))
     is_open = has_sides and not (keys & clear or meaning.contrary)
-    return keys if keys == _GUYS and is_open else _NONE
+    return keys if keys == _GUYS and is_open else frozenset()
 
 
 def _note_reading(
@@ -376,7 +370,7 @@ def _judge_rest(
     claimed |= {field.key for _, field in judged if field}
     _report_missing(table, {*columns, *claimed}, findings)
     if not plan.items:
-        refuse_unused_answers(table, (title for title, _ in table.titles), findings)
+        refuse_unused_answers(table, findings)
 
 
 def _is_note_of_steel(table: Table, title: Title, field: Field) -> bool:
@@ -438,11 +432,9 @@ def _has_glide_factors(table: Table, title: Title) -> bool:
     return is_all and in_bounds and any(one % 1.0 for one in values)
 
 
-def refuse_unused_answers(
-    table: Table, titles: Iterable[Title], findings: list[Finding]
-) -> None:
+def refuse_unused_answers(table: Table, findings: list[Finding]) -> None:
     """Refuse answers to what the sheet does not have: it has changed since."""
-    known = list(titles)
+    known = table.list_named()
     for key in table.sheet.answers:
         if not any(is_asked(title, key) for title in known):
             rule = say("heading.unused_answer", file=table.sheet.answered_in)

@@ -220,29 +220,20 @@ def read_once(
     field = meaning.field
     if field is None:
         raise ValueError(f"{name.place} names no column")
-    unit = _find_unit(name, value, beside, meaning, findings) if field.units else ""
-    if field.units and not unit:
-        return Reading(field=field, state="faulty", text=value.text, cell=value)
-    return read_answered(sheet, value, field, unit, findings)
-
-
-def _find_unit(
-    name: Cell,
-    value: Cell,
-    beside: Cell | None,
-    meaning: Meaning,
-    findings: list[Finding],
-) -> str:
+    if not field.units:
+        return read_answered(sheet, value, field, "", findings)
     column = next(one for one in RANGES.fields if one.key == "unit")
     text = beside.text if beside and normalise_unit(beside.text) in KNOWN_UNITS else ""
-    typed = meaning.unit or normalise_unit(value.own_unit)
-    return settle_unit(
+    unit = settle_unit(
         Reading(field=column, state="given", value=str(name.value), cell=name),
         Reading(field=column, state="blank", value=text, cell=beside),
-        meaning.field or column,
-        typed,
+        field,
+        meaning.unit or normalise_unit(value.own_unit),
         findings,
     )
+    if not unit:
+        return Reading(field=field, state="faulty", text=value.text, cell=value)
+    return read_answered(sheet, value, field, unit, findings)
 
 
 def read_above(table: Table, findings: list[Finding]) -> dict[str, Reading]:
@@ -258,17 +249,11 @@ def read_above(table: Table, findings: list[Finding]) -> dict[str, Reading]:
     return found
 
 
-def fill_in_site_wide(
-    rows: Iterable[Row], given: SiteWide, findings: list[Finding]
-) -> list[Row]:
-    """Lines whose empty cells have what stands once; what they say themselves stays.
+def fill_in_site_wide(row: Row, given: SiteWide, findings: list[Finding]) -> Row:
+    """Line whose empty cells have what stands once; what it says itself stays.
 
     A line with another value than the one that stands once is told.
     """
-    return [_fill_in(row, given, findings) for row in rows]
-
-
-def _fill_in(row: Row, given: SiteWide, findings: list[Finding]) -> Row:
     filled = dict(row)
     for key, reading in given.items():
         own = row[key]

@@ -200,11 +200,7 @@ def _compose_net_row(
         altitude=row["altitude"].given_si,
         ground_type=row["ground"].word,
         edge_distance=row["edge_distance"].given_si,
-        design_life=(
-            int(row["design_life"].number)
-            if row["design_life"].state == "given"
-            else None
-        ),
+        design_life=row["design_life"].given_count,
         glide_factor=row["glide_factor"].given_si,
         guys=read_guys(row),
         has_row_above=row["row_above"].word != "none",
@@ -230,15 +226,10 @@ def _find_length(row: Row) -> float | None:
 
 def _count_posts(row: Row) -> int | None:
     """Posts of the row; by its length where their number is not given."""
-    length, count = row["row_length"].given_si, row["post_count"]
-    if count.state == "given":
-        return int(count.number)
-    return None if length is None else 1 + math.ceil(_divide(length, row) - _CLOSE)
-
-
-def _divide(length: float, row: Row) -> float:
-    """Length of a row in post spacings."""
-    return length / row["post_spacing"].si
+    length, count = row["row_length"].given_si, row["post_count"].given_count
+    if count is not None or length is None:
+        return count
+    return 1 + math.ceil(length / row["post_spacing"].si - _CLOSE)
 
 
 def _check_length(row: Row, findings: list[Finding]) -> None:
@@ -247,7 +238,7 @@ def _check_length(row: Row, findings: list[Finding]) -> None:
     if any(one.state != "given" for one in (length, count, spacing)):
         return
     fields = count.number - 1.0
-    if not fields - 1.0 < _divide(length.si, row) < fields + 1.0:
+    if not fields - 1.0 < length.si / spacing.si < fields + 1.0:
         rule = say(
             "nets.other_length",
             count=int(count.number),
@@ -365,17 +356,14 @@ def _echo_inputs(
     for key, reading in row.items():
         echoes.append(reading.echo())
         if key == "snow_height" and reading.state == "given":
-            how = _derive_thickness(reading.si, row["slope_angle"].number)
+            slope = row["slope_angle"].number
+            how = say("column.thickness_of_height", height=reading.si, slope=slope)
             echoes.append(_echo_derived(row["snow_thickness"], thickness, reading, how))
         if key == "glide_factor" and reading.state == "given":
             table = _derive_slip(reading.number, thickness)
             slip = ground.slip_length
             echoes.append(_echo_derived(row["slip_length"], slip, reading, table))
     return tuple(echoes)
-
-
-def _derive_thickness(height: float, slope_deg: float) -> Message:
-    return say("column.thickness_of_height", height=height, slope=slope_deg)
 
 
 def _derive_slip(glide_factor: float, thickness: float) -> Message | None:

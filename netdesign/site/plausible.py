@@ -13,7 +13,6 @@ from statistics import median
 from typing import TypeAlias
 
 from netdesign.resistance.products import find_product
-from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
 from netdesign.site.declared_sheet import show_value
@@ -44,13 +43,9 @@ def ask(
         if reading.cell is None or reading.place in confirmed or not rows:
             continue
         if reading.place not in asked:
-            refuse(
-                reading,
-                rule,
-                _describe_how(reading.cell),
-                findings,
-                severity="question",
-            )
+            sheet, value = say("sheet.Declared"), show_value(reading.cell)
+            how = say("plausible.settle", sheet=sheet, place=reading.place, value=value)
+            refuse(reading, rule, how, findings, severity="question")
             asked[reading.place] = _name_question(reading, rule)
         for row in rows:
             by_row[row][asked[reading.place]] = None
@@ -66,12 +61,6 @@ def _name_question(reading: Reading, rule: Message) -> Message:
         text=quote(reading.text),
         rule=rule,
     )
-
-
-def _describe_how(cell: Cell) -> Message:
-    """The way to settle a question."""
-    sheet, value = say("sheet.Declared"), show_value(cell)
-    return say("plausible.settle", sheet=sheet, place=cell.place, value=value)
 
 
 _Group = list[tuple[list[str], Row]]  # lines, each with the net rows that rest on it

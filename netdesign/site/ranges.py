@@ -30,7 +30,6 @@ from netdesign.words.message import Message, say
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
 _DEFAULT_INCLINATION = (25.0, 35.0)  # [deg]
 STIFFNESS = "net_stiffness"
-_Line = tuple[Reading, Reading, Reading]  # low, high, samples
 _Ends = tuple[Cell | None, Cell | None]
 
 
@@ -94,7 +93,7 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     names: dict[str, Reading] = {}
     for row in table.rows:
         _read_line(table, row, found, names, findings)
-    refuse_unused_answers(table, table.list_named("quantity"), findings)
+    refuse_unused_answers(table, findings)
     for one in USUAL_QUANTITIES:
         if one.key in found:
             continue
@@ -103,7 +102,7 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
             findings.append(table.sheet.finding(rule, one.accepted))
             found[one.key] = None
         else:
-            found[one.key] = _default_inclination(one)
+            found[one.key] = _make_default(one, _DEFAULT_INCLINATION)
     for name in _refuse_doubles(names, findings):
         found[name] = None
     complete = {key: value for key, value in found.items() if value is not None}
@@ -244,7 +243,7 @@ def _read_line(
     if field in FURTHER_QUANTITIES and _is_empty(low, high):
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
-        built = _read_range(field, (low, high, samples), settled, findings)
+        built = _read_range(field, low, high, samples, settled, findings)
         found[field.key] = _justify(built, field, why)
 
 
@@ -312,11 +311,12 @@ def settle_unit(
 
 def _read_range(
     field: Field,
-    line: tuple[Reading | None, Reading | None, Reading],
+    low: Reading | None,
+    high: Reading | None,
+    samples: Reading,
     unit: str,
     findings: list[Finding],
 ) -> _Range | None:
-    low, high, samples = line
     if (
         low is None
         or high is None
@@ -324,16 +324,16 @@ def _read_range(
     ):
         return None
     if low.state == high.state == "blank":
-        return _default_inclination(field)
+        return _make_default(field, _DEFAULT_INCLINATION)
     for reading, other in ((low, high), (high, low)):
         if reading.state == "blank":
             rule = say("range.empty_beside", place=other.place)
             refuse(reading, rule, say("range.both_ends"), findings, unit=unit)
             return None
-    samples = _settle_samples((low, high, samples), unit, findings)
+    samples = _settle_samples(low, high, samples, unit, findings)
     if samples.state == "faulty":
         return None
-    return _build_range(field, (low, high, samples))
+    return _build_range(field, low, high, samples)
 
 
 def _read_end(
@@ -360,9 +360,10 @@ def _name_end(field: Field, key: str) -> Field:
     return replace(field, named=say(f"column.{key}_end", name=field.name))
 
 
-def _settle_samples(line: _Line, unit: str, findings: list[Finding]) -> Reading:
+def _settle_samples(
+    low: Reading, high: Reading, samples: Reading, unit: str, findings: list[Finding]
+) -> Reading:
     """Check order and count of a range; an empty count means a search."""
-    low, high, samples = line
     is_single = low.number == high.number
     if low.number > high.number:
         rule = say("range.below_low", place=low.place)
@@ -379,10 +380,6 @@ def _settle_samples(line: _Line, unit: str, findings: list[Finding]) -> Reading:
     return replace(samples, state="faulty")
 
 
-def _default_inclination(field: Field) -> _Range:
-    return _make_default(field, _DEFAULT_INCLINATION)
-
-
 def _make_default(field: Field, ends: tuple[float, float]) -> _Range:
     low, high = (
         Reading(
@@ -394,11 +391,10 @@ def _make_default(field: Field, ends: tuple[float, float]) -> _Range:
     )
     samples_field = Field(key="samples", kind="count", table="Ranges")
     samples = Reading(field=samples_field, state="default", value=SEARCHED)
-    return _build_range(field, (low, high, samples))
+    return _build_range(field, low, high, samples)
 
 
-def _build_range(field: Field, line: _Line) -> _Range:
-    low, high, samples = line
+def _build_range(field: Field, low: Reading, high: Reading, samples: Reading) -> _Range:
     count = None if samples.value == SEARCHED else int(samples.number)
     interval = Interval(low=low.si, high=high.si, count=count)
     named = say("column.samples_of", name=field.name)

@@ -288,15 +288,12 @@ def _read_net_rows(
     tables: Sequence[Table], site_wide: SiteWide, findings: list[Finding]
 ) -> list[Row]:
     """Lines of all sheets of net rows, with what stands once."""
-    return [
-        row
-        for table in tables
-        for row in fill_in_site_wide(
-            read_rows(table, findings),
-            {**site_wide, **read_above(table, findings)},
-            findings,
-        )
-    ]
+    rows: list[Row] = []
+    for table in tables:
+        lines = read_rows(table, findings)
+        given = {**site_wide, **read_above(table, findings)}
+        rows += [fill_in_site_wide(line, given, findings) for line in lines]
+    return rows
 
 
 def _read_lines(
@@ -437,7 +434,7 @@ def _read_project(
             )
         else:
             values[field.key], cells[field.key] = value.word, value.place
-    refuse_unused_answers(table, table.list_named("item"), findings)
+    refuse_unused_answers(table, findings)
     of_project = {key: place for key, place in cells.items() if key in values}
     return Project(**values), of_project, site_wide
 

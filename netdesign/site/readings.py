@@ -91,6 +91,11 @@ class Reading:
         return self.si if self.state == "given" else None
 
     @property
+    def given_count(self) -> int | None:
+        """The whole number where it was typed; else None."""
+        return int(self.number) if self.state == "given" else None
+
+    @property
     def word(self) -> str:
         """The value of a word, id or text; empty where nothing is given."""
         return self.value if isinstance(self.value, str) else ""
@@ -328,15 +333,11 @@ def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
     return value
 
 
-def _parse(cell: Cell) -> float | Refusal:
-    return parse_number(cell.value, cell.decimal_mark)
-
-
 def _take_number(cell: Cell, unit: str) -> float | Refusal:
     """Read a number as the column's unit has it; refuse one shown in another unit."""
     if isinstance(cell.value, str):
         return _take_typed_number(cell.value.strip(), cell.decimal_mark, unit)
-    number = _parse(cell)
+    number = parse_number(cell.value, cell.decimal_mark)
     if isinstance(number, Refusal):
         return number
     shown = _name_number(number, cell.shown_unit)

@@ -9,7 +9,6 @@ What all its verdicts lack is listed once, `list_missing`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import chain
 
 from netdesign.panel.assumed import Ends, find_stiffness, list_panels
@@ -195,14 +194,11 @@ def replace_types(row: Row, end: Row | None) -> Row:
     types not given are those inside.
     """
     if end is None:
-        return {**row, **{key: _say_nothing(row[key]) for key in _TYPES}}
+        fields = (row[key].field for key in _TYPES)
+        return {**row, **{one.key: Reading(field=one, state="blank") for one in fields}}
     if end["support_types"].word:
         return row
     return {**row, **{key: end[key] for key in _TYPES}}
-
-
-def _say_nothing(reading: Reading) -> Reading:
-    return replace(reading, state="blank", value=None, text="", cell=None)
 
 
 def has_same_types(at_end: Row, row: Row) -> bool:
@@ -277,8 +273,7 @@ def _list_chains(
     row: NetRow, links: Mapping[str, tuple[Link, ...]]
 ) -> Iterator[Message]:
     """Types of ropes and anchors whose links nobody gives."""
-    at_end = (*(row.end_resistances or ()), *_list_along(row))
-    for one in (*row.resistances, *row.net_parts, *at_end):
+    for one in (*row.resistances, *row.net_parts, *_list_at_end(row)):
         is_rope = one.mode in ("rope", "tendon") and one.member in CONNECTED
         if is_rope and one.type_id and one.type_id not in links:
             yield say("links.of_type", type=one.type_id)
@@ -302,15 +297,16 @@ def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
 
 
 def _list_of_end(row: NetRow) -> Iterator[Message]:
-    at_end = (*(row.end_resistances or ()), *_list_along(row))
-    if any(one.source == ENDS.name for one in at_end):
+    if any(one.source == ENDS.name for one in _list_at_end(row)):
         yield say("check.unsaid_ends")
     elif row.row_end is not None:
         yield from row.row_end.list_unsaid_places()
 
 
-def _list_along(row: NetRow) -> tuple[Resistance, ...]:
-    return row.row_end.resistances if row.row_end else ()
+def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:
+    """Resistances of the support at the row's end, and of what holds it there."""
+    along = row.row_end.resistances if row.row_end else ()
+    return (*(row.end_resistances or ()), *along)
 
 
 def _name(plan: SheetPlan, key: str) -> Message:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.corrosion import Wear
@@ -49,20 +48,18 @@ _AXES = {
 }
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By type sheet: a member that takes its types, and what these may fail by.
-_CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = MappingProxyType(
-    {
-        "Anchors": (Member.FOOT_ANCHOR, ("tendon", "pull_out")),
-        "Ropes": (Member.UPHILL_GUY, ("rope",)),
-        "Posts": (Member.POST, ("compression",)),
-    }
-)
+_CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = {
+    "Anchors": (Member.FOOT_ANCHOR, ("tendon", "pull_out")),
+    "Ropes": (Member.UPHILL_GUY, ("rope",)),
+    "Posts": (Member.POST, ("compression",)),
+}
 
 
 def read_guys(row: Row) -> Guys:
     """Guys on each side of a post, one if not given, with their splay and anchors."""
-    count, anchors = row["guy_count"], row["guy_anchors"].word
+    anchors = row["guy_anchors"].word
     return Guys(
-        count=int(count.number) if count.state == "given" else 1,
+        count=row["guy_count"].given_count or 1,
         splay=row["guy_splay"].given_si,
         are_shared=anchors == "shared" if anchors else None,
     )
@@ -259,7 +256,7 @@ def _describe_type(
 def _read_wear(kind: Row, mode: str) -> Wear | None:
     """Corrosion of a type's steel; None of posts, and of the grout in the ground."""
     if mode == "rope":
-        return Wear(kind="rope", protected_years=_count_years(kind))
+        return Wear(kind="rope", protected_years=kind["protected_years"].given_count)
     if "protection" not in kind or mode == "pull_out":
         return None
     outer = kind["bar_diameter"].given_si
@@ -267,15 +264,10 @@ def _read_wear(kind: Row, mode: str) -> Wear | None:
         kind=kind["kind"].word,
         protection=kind["protection"].word,
         soil=kind["soil"].word,
-        protected_years=_count_years(kind),
+        protected_years=kind["protected_years"].given_count,
         outer=outer,
         inner=None if outer is None or lacks_inner(kind) else read_inner(kind),
     )
-
-
-def _count_years(kind: Row) -> int | None:
-    years = kind["protected_years"]
-    return int(years.number) if years.state == "given" else None
 
 
 def _find_lacking(kind: Row, mode: str) -> str:

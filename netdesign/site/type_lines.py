@@ -213,7 +213,7 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
     first = tests[0]["force"]
     how = say("tests.counted", count=len(tests), place=first.place)
     numbers = (float(len(forces)), min(forces), fmean(forces))
-    counted: Mapping[str, Reading] = {
+    counted = {
         key: replace(
             line[key],
             state="given",
@@ -226,10 +226,7 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
     }
     if "test_count" in counted:
         singles = tuple(map(read_single, tests))
-        counted = {
-            **counted,
-            "test_count": replace(counted["test_count"], singles=singles),
-        }
+        counted["test_count"] = replace(counted["test_count"], singles=singles)
     field = line["ground"].field
     return {**line, **counted, "ground": replace(ground, field=field)}
 
@@ -287,12 +284,12 @@ def _is_sound(line: Row, kinds: Sequence[str], findings: list[Finding]) -> bool:
 
 
 def _read_link(line: Row) -> Link:
-    breaking, limit, count = line["strength"], line["working_limit"], line["count"]
+    breaking, limit = line["strength"], line["working_limit"]
     return Link(
         kind=line["link"].word,
         breaking=breaking.given_si,
         limit=limit.given_si,
-        count=int(count.number) if count.state == "given" else 1,
+        count=line["count"].given_count or 1,
         angle=line["angle"].given_si,
         source=(breaking if breaking.state == "given" else limit).place,
     )

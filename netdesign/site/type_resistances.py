@@ -213,10 +213,6 @@ def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
     return not lacking
 
 
-def _word(row: Row, key: str, default: str) -> str:
-    return row[key].word or default
-
-
 def _describe_origin(datum: Datum) -> Message:
     """Status and source of a number of the catalogue."""
     status = name("status", datum.status)
@@ -240,7 +236,7 @@ def _bar(row: Row) -> tuple[float, Message]:
 
 
 def _bond(row: Row) -> tuple[float, Message]:
-    ground, grouting = row["ground"].word, _word(row, "grouting", _DEFAULT_GROUTING)
+    ground, grouting = row["ground"].word, row["grouting"].word or _DEFAULT_GROUTING
     ground_name = row["ground"].field.name_word(ground)
     bond = find_bond_stress(ground, grouting, ground_name=ground_name)
     diameter, length = row["drill_diameter"], row["bond_length"]
