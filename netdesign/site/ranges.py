@@ -1,18 +1,26 @@
-"""From the lines of sheet Ranges to the ranges of the uncertain quantities."""
+"""From the lines of sheet Ranges to the ranges of the uncertain quantities.
+
+A workbook without that sheet may have ranges on its cover sheet, or answered.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as of_dataclass
 
 from netdesign.envelope.parameters import ONE_QUANTITY
 from netdesign.envelope.ranges import MOST_GRID_CASES, Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
-from netdesign.site.cells.cells import Cell
+from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.cells.numbers import split_range
-from netdesign.site.columns.all_tables import FURTHER_QUANTITIES, NETS, USUAL_QUANTITIES
+from netdesign.site.columns.all_tables import (
+    FURTHER_QUANTITIES,
+    NETS,
+    RANGES,
+    USUAL_QUANTITIES,
+)
 from netdesign.site.columns.fields import (
     UNCLEAR_UNITS,
     Field,
@@ -20,11 +28,12 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     split_heading,
 )
-from netdesign.site.columns.lexicon import Meaning, find_unit
+from netdesign.site.columns.lexicon import UNANSWERED, Lexicon, Meaning, find_unit
 from netdesign.site.headings import Table, refuse_unused_answers
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, explain_unit, read_cell, refuse
 from netdesign.site.tables import match_item, read_field
+from netdesign.site.titles import Title, list_meant, understand
 from netdesign.words.message import Message, say
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
@@ -471,3 +480,59 @@ def _can_glide(
     rule = say("range.not_sliding", place=pair[0].place, name=row[own].field.name)
     refuse(ground, rule, say("range.sliding_or_none"), findings)
     return False
+
+
+_HEADINGS = ("quantity", "range", "unit")
+_Cells = tuple[Cell, ...]  # of one range: name, value and, perhaps, unit
+
+
+def gather_ranges(
+    workbook: Workbook, cover: Table | None
+) -> tuple[Workbook, Table | None]:
+    """Workbook with a sheet Ranges, and its cover without the lines that went there.
+
+    Both are the same where it has that sheet, or nothing for it.
+    """
+    if list_meant(workbook, RANGES):
+        return workbook, cover
+    on_cover = list(_list_on_cover(cover))
+    lines = [*_list_answered(workbook), *on_cover]
+    if not lines:
+        return workbook, cover
+    sheet, file = RANGES.name, lines[0][0].file
+    head = {
+        n: Cell(file=file, sheet=sheet, row=1, column=n, value=value)
+        for n, value in enumerate(_HEADINGS, 1)
+    }
+    rows = {number: dict(enumerate(cells, 1)) for number, cells in enumerate(lines, 2)}
+    made = Sheet(file=file, name=sheet, rows={1: head, **rows})
+    if cover:
+        taken = {cells[0].row for cells in on_cover}
+        kept = tuple(row for row in cover.rows if row not in taken)
+        cover = replace(cover, rows=kept)
+    return replace(workbook, sheets=(*workbook.sheets, made)), cover
+
+
+def _list_answered(workbook: Workbook) -> Iterator[_Cells]:
+    """Ranges of the file of answers; an open one is none."""
+    answers = workbook.answers
+    for row, (name, answer) in enumerate(answers.ranges.items(), 1):
+        if UNANSWERED in answer:
+            continue
+        made = Cell(file=answers.file, sheet="ranges", row=row, column=1, value=name)
+        yield made, replace(made, column=2, value=answer)
+
+
+def _list_on_cover(cover: Table | None) -> Iterator[_Cells]:
+    """Lines of the cover that name a range; a single value of all rows is none."""
+    if cover is None:
+        return
+    lexicon = Lexicon.of(RANGES.items, RANGES)
+    for row in cover.rows:
+        cells = cover.sheet.row(row)
+        if len(cells) < 2 or not isinstance(cells[0].value, str):
+            continue
+        field = understand(Title(cells[0]), lexicon, cover.sheet.answers).field
+        is_range = split_range(cells[1].text) is not None
+        if field and (is_range or field.key not in {one.key for one in NETS.fields}):
+            yield cells[:3]

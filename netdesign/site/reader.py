@@ -48,7 +48,7 @@ from netdesign.site.lines import (
     refuse_unknown_ids,
     spread_over_rows,
 )
-from netdesign.site.model import NetRow, Project, Site
+from netdesign.site.model import NetRow, Project, Site, UncertainQuantity
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.plausible import ask
 from netdesign.site.ranges import (
@@ -57,9 +57,9 @@ from netdesign.site.ranges import (
     assume_stiffness,
     build_ranges,
     free_columns,
+    gather_ranges,
     refuse_large_grid,
 )
-from netdesign.site.ranges_elsewhere import gather_ranges
 from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
 from netdesign.site.snow_sheets import (
     check_layers,
@@ -97,7 +97,6 @@ from netdesign.site.type_resistances import (
     fill_in_resistances,
     fill_in_section,
 )
-from netdesign.site.uncertainty_sheet import read_uncertainty
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 
@@ -151,7 +150,7 @@ def read_site(
     net_rows = _build_rows(tables[RANGES.name], nets, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
     winter = read_winter(tables[WINTER.name], lines.places, findings)
-    uncertain = read_uncertainty(tables[UNCERTAINTY.name], lines.places, findings)
+    uncertain = _read_uncertain(tables[UNCERTAINTY.name], lines.places, findings)
     links = read_links(lines.links, lines.types, findings)
     declared, confirmed = read_declared(
         tables[DECLARED.name], workbook, lines.places, findings
@@ -473,3 +472,44 @@ def _read_types(
         check_ends(row, findings)
     by_id = index_lines(filled, "id", say("nets.ids_once"), findings)
     return by_id if "id" in table.columns else None
+
+
+def _read_uncertain(
+    table: Table | None, places: Mapping[str, str], findings: list[Finding]
+) -> tuple[UncertainQuantity, ...]:
+    """Scatter of some quantities, each of one net row or of all.
+
+    It serves the notional reliability alone; no check hangs on it.
+
+    Parameters
+    ----------
+    table : Table or None
+        Sheet Uncertainty, if there is one.
+    places : mapping of str to str
+        Cells of the ids of sheet Nets.
+    findings : list of Finding
+        Appended to: unknown rows, a quantity that comes twice.
+    """
+    found: dict[tuple[str, str], UncertainQuantity] = {}
+    lines = read_rows(table, findings)
+    if places:
+        refuse_unknown_ids((one["row"] for one in lines), places, findings)
+    for line in lines:
+        if any(one.state == "faulty" for one in line.values()):
+            continue
+        word = line["variable"].word
+        quantity = UncertainQuantity(
+            row_id=line["row"].word,
+            name="model" if word == "model factor" else word.replace(" ", "_"),
+            distribution=line["distribution"].word.lower(),
+            mean_ratio=line["mean_ratio"].given_si,
+            variation=line["variation"].si,
+            period=line["period"].given_si,
+            source=line["source"].word,
+        )
+        key = (quantity.row_id, quantity.name)
+        if key in found:
+            rule = say("uncertainty.twice")
+            refuse(line["variable"], rule, say("uncertainty.once"), findings)
+        found[key] = quantity
+    return tuple(found.values())
