@@ -123,8 +123,7 @@ def _put(sheet: Sheet, cell: Cell) -> Sheet:
         cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
     )
     kept = [one for line in sheet.rows.values() for one in line.values()]
-    others = [one for one in kept if (one.row, one.column) != (plain.row, plain.column)]
-    return replace(sheet, rows=group_by_row([*others, plain]))
+    return replace(sheet, rows=group_by_row([*kept, plain]))  # the last of a place
 
 
 def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
@@ -233,11 +232,8 @@ def read_declared(
 def _meet(one: Declaration, other: Declaration) -> bool:
     """Two declarations concern the same check of some net row."""
     same_row = one.row_id == other.row_id or "" in (one.row_id, other.row_id)
-    return same_row and _name_subject(one) == _name_subject(other)
-
-
-def _name_subject(one: Declaration) -> _Subject:
-    return one.member, one.mode, one.position
+    subjects = {(each.member, each.mode, each.position) for each in (one, other)}
+    return same_row and len(subjects) == 1
 
 
 def _read_line(

@@ -69,11 +69,12 @@ Titles = Sequence[tuple[Title, Meaning]]
 
 
 class Pair(NamedTuple):
-    """A name and its value, side by side, and the field that the name means."""
+    """A name and its value, side by side; their field, its unit if answered."""
 
     name: Cell
     value: Cell
-    meaning: Meaning
+    field: Field
+    unit: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -171,7 +172,7 @@ def find_headings(
     above = tuple(_find_pairs_above(sheet, row, plan))
     table = Table(
         sheet=sheet,
-        plan=plan.free({one.meaning.field.key for one in above if one.meaning.field}),
+        plan=plan.free({one.field.key for one in above}),
         above=above,
         titles=titles,
         heading_row=row,
@@ -219,7 +220,7 @@ def _find_pairs_above(sheet: Sheet, row: int, plan: SheetPlan) -> Iterator[Pair]
             continue
         meaning = understand(Title(cells[0]), lexicon, sheet.answers)
         if meaning.field:
-            yield Pair(*cells, meaning)
+            yield Pair(*cells, meaning.field, meaning.unit)
 
 
 def count_known(sheet: Sheet, plan: SheetPlan) -> int:

@@ -12,8 +12,7 @@ from netdesign.site.cells.cells import Cell, Sheet
 from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
 from netdesign.site.columns.all_tables import RANGES
 from netdesign.site.columns.fields import KNOWN_UNITS, normalise, normalise_unit
-from netdesign.site.columns.lexicon import Meaning
-from netdesign.site.headings import Table
+from netdesign.site.headings import Pair, Table
 from netdesign.site.ranges import RangesSheet, settle_unit
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import read_answered
@@ -190,12 +189,7 @@ _GROUND = ("ground_law", "slip_length", "glide_factor")  # one of them says it a
 
 
 def read_once(
-    sheet: Sheet,
-    name: Cell,
-    value: Cell,
-    beside: Cell | None,
-    meaning: Meaning,
-    findings: list[Finding],
+    sheet: Sheet, pair: Pair, beside: Cell | None, findings: list[Finding]
 ) -> Reading:
     """Value of a column that stands once.
 
@@ -203,23 +197,14 @@ def read_once(
     ----------
     sheet : Sheet
         Has the answers to words.
-    name, value : Cell
+    pair : Pair
         What it is, perhaps with its unit in brackets, and its value.
     beside : Cell or None
         The cell behind the value, which may hold the unit.
-    meaning : Meaning
-        Of the name; its field is the column.
     findings : list of Finding
         Appended to: a value that cannot be read, or that has no unit.
-
-    Raises
-    ------
-    ValueError
-        If the name means no column: a fault of the program.
     """
-    field = meaning.field
-    if field is None:
-        raise ValueError(f"{name.place} names no column")
+    name, value, field, answered = pair
     if not field.units:
         return read_answered(sheet, value, field, "", findings)
     column = next(one for one in RANGES.fields if one.key == "unit")
@@ -228,7 +213,7 @@ def read_once(
         Reading(field=column, state="given", value=str(name.value), cell=name),
         Reading(field=column, state="blank", value=text, cell=beside),
         field,
-        meaning.unit or normalise_unit(value.own_unit),
+        answered or normalise_unit(value.own_unit),
         findings,
     )
     if not unit:
@@ -239,13 +224,13 @@ def read_once(
 def read_above(table: Table, findings: list[Finding]) -> dict[str, Reading]:
     """Values that stand in lines above the headings of a table."""
     found: dict[str, Reading] = {}
-    for name, value, meaning in table.above:
-        reading = read_once(table.sheet, name, value, None, meaning, findings)
-        if reading.field.key in found:
-            rule = say("item.twice", place=found[reading.field.key].place)
-            findings.append(name.finding(rule, say("item.one_line")))
+    for pair in table.above:
+        reading, key = read_once(table.sheet, pair, None, findings), pair.field.key
+        if key in found:
+            rule = say("item.twice", place=found[key].place)
+            findings.append(pair.name.finding(rule, say("item.one_line")))
         else:
-            found[reading.field.key] = reading
+            found[key] = reading
     return found
 
 

@@ -36,9 +36,8 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.columns.lexicon import UNANSWERED
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
-from netdesign.site.headings import Table, count_known, refuse_unused_answers
+from netdesign.site.headings import Pair, Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
-    TYPE_SHEETS,
     Lines,
     SiteWide,
     fill_in_site_wide,
@@ -274,13 +273,9 @@ def _is_stiffness_given(workbook: Workbook, plan: SheetPlan) -> bool:
     if not next(one for one in plan.fields if one.key == STIFFNESS).required:
         return True
     tables = find_tables(workbook, plan.free((STIFFNESS,)), [])
-    above = (one.meaning.field for table in tables for one in table.above)
-    return not tables or any(
-        [
-            *(STIFFNESS in table.columns for table in tables),
-            *(one.key == STIFFNESS for one in above if one),
-        ]
-    )
+    given = {key for table in tables for key in table.columns}
+    given |= {one.field.key for table in tables for one in table.above}
+    return not tables or STIFFNESS in given
 
 
 def _read_net_rows(
@@ -316,14 +311,13 @@ def _read_lines(
     ends, more = place_in_ground(ends, anchors, grounds, findings)
     made += [one for one in more if one["id"].word not in {m["id"].word for m in made}]
     of_types = {
-        sheet: read_rows(tables[sheet], findings)
-        for sheet in TYPE_SHEETS
-        if sheet != ANCHORS.name
+        ANCHORS.name: [*name_by_ground(anchors), *made],
+        ROPES.name: read_rows(tables[ROPES.name], findings),
+        POSTS.name: read_rows(tables[POSTS.name], findings),
     }
-    of_types[ANCHORS.name] = [*name_by_ground(anchors), *made]
     types = {
-        sheet: _read_types(tables[sheet], of_types[sheet], findings)
-        for sheet in TYPE_SHEETS
+        sheet: _read_types(tables[sheet], rows, findings)
+        for sheet, rows in of_types.items()
     }
     lines = Lines(
         nets=nets,
@@ -423,9 +417,8 @@ def _read_project(
             refuse(item, rule, say("item.one_line"), findings)
         elif field.table == NETS.name:
             beside = table.sheet.cell(value.cell.row, value.cell.column + 1)
-            site_wide[field.key] = read_once(
-                table.sheet, item.cell, value.cell, beside, meaning, findings
-            )
+            pair = Pair(item.cell, value.cell, field, meaning.unit)
+            site_wide[field.key] = read_once(table.sheet, pair, beside, findings)
             cells[field.key] = value.place
         elif field.key == "accepted_law" and value.word not in CREEP_LAWS:
             refuse(

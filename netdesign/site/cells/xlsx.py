@@ -160,6 +160,8 @@ def _filled_cells(sheet: Any, last_row: int) -> list[Any]:
 
 
 def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) -> Cell:
+    is_number = cell.data_type == "n" and isinstance(cell.value, int | float)
+    shown = str(cell.number_format) if is_number else ""
     return Cell(
         file=file,
         sheet=cell.parent.title,
@@ -168,21 +170,11 @@ def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) ->
         value=cell.value,
         formula=formula,
         is_error=cell.data_type == "e",
-        **_read_format(cell),
+        is_percent=show_percent(shown),
+        is_thousandth=show_thousands(shown),
+        shown_unit=find_format_unit(shown, cell.value) if shown else "",
         decimal_mark=decimal_mark,
     )
-
-
-def _read_format(cell: Any) -> dict[str, Any]:
-    """Fields of a `Cell` that say what the format shows beside its number."""
-    if cell.data_type != "n" or not isinstance(cell.value, int | float):
-        return {}
-    text = str(cell.number_format)
-    return {
-        "is_percent": show_percent(text),
-        "is_thousandth": show_thousands(text),
-        "shown_unit": find_format_unit(text, cell.value),
-    }
 
 
 @dataclass(slots=True)
