@@ -6,8 +6,6 @@ n + 1 segments join them. Theory: cable/THEORY.md, eqs (C10) to (C12).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from netdesign.numerics.arrays import Floats
@@ -20,29 +18,6 @@ from netdesign.outcome import (
 from netdesign.words.message import say
 
 _LARGEST_FRICTION = np.tan(np.radians(89.0))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class NodeForces:
-    """Forces of the net on the snow at its nodes and on its two ends; they sum to 0.
-
-    Attributes
-    ----------
-    normal : ndarray, shape (n,)
-        R_n along the bisector of the node, positive where the net presses [N/m].
-    tangential : ndarray, shape (n,)
-        R_t across it, positive towards the head [N/m].
-    vector : ndarray, shape (2, n)
-        The same force along X and Y [N/m].
-    foot_pull, head_pull : ndarray, shape (2,)
-        What the net pulls with on foot and head [N/m].
-    """
-
-    normal: Floats
-    tangential: Floats
-    vector: Floats
-    foot_pull: Floats
-    head_pull: Floats
 
 
 def compute_end_directions(points: Floats, *, is_curved: bool) -> tuple[Floats, Floats]:
@@ -146,8 +121,8 @@ def compute_tensions(
     return tensions
 
 
-def compute_node_forces(points: Floats, tensions: Floats) -> NodeForces:
-    """Forces of the net on its nodes, eq. (C11).
+def compute_node_forces(points: Floats, tensions: Floats) -> tuple[Floats, Floats]:
+    """Components of the net's forces on the snow at its nodes, eq. (C11).
 
     Parameters
     ----------
@@ -158,22 +133,17 @@ def compute_node_forces(points: Floats, tensions: Floats) -> NodeForces:
 
     Returns
     -------
-    NodeForces
-        [N/m].
+    tuple of ndarray, shape (n,)
+        R_n along the bisector of the node, positive where the net presses, and R_t
+        across it, positive towards the head [N/m].
 
     Source
     ------
     The paper's Eq. 11, whose angle theta_{i-1} - theta_i is beta_i here.
     """
     half = compute_turning_angles(points) / 2.0
-    pulls = tensions * np.diff(points) / compute_segment_lengths(points)
-    return NodeForces(
-        normal=(tensions[1:] + tensions[:-1]) * np.sin(half),
-        tangential=(tensions[1:] - tensions[:-1]) * np.cos(half),
-        vector=np.diff(pulls),
-        foot_pull=pulls[:, 0],
-        head_pull=-pulls[:, -1],
-    )
+    normal = (tensions[1:] + tensions[:-1]) * np.sin(half)
+    return normal, (tensions[1:] - tensions[:-1]) * np.cos(half)
 
 
 def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:

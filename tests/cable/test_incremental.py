@@ -105,8 +105,8 @@ def test_conditions_of_the_paper_hold_at_every_node():
     step = advance(before, points)
     assert step.outcome is Outcome.CONVERGED
     assert set(step.slide_signs) == {-1, 0, 1}
-    forces = compute_node_forces(points, step.state.tensions)
-    usage = forces.tangential / (forces.normal * FRICTION)
+    normal, tangential = compute_node_forces(points, step.state.tensions)
+    usage = tangential / (normal * FRICTION)
     glides = step.slide_signs != 0
     np.testing.assert_allclose(usage[glides], -step.slide_signs[glides], rtol=1e-9)
     assert np.abs(usage[~glides]).max() < 1.0

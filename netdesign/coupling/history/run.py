@@ -270,15 +270,15 @@ def _scale_moment(moment: HistoryPoint, scene: Scene) -> HistoryPoint:
 def _measure_balance(run: Run, scene: Scene) -> Balance:
     weight = float(run.state.body.mass.sum())
     tensions = run.instant.response.sliding.tensions
-    forces = compute_node_forces(run.instant.points, tensions)
+    normal, tangential = compute_node_forces(run.instant.points, tensions)
     friction = run.problem.snow.friction
-    excess = np.abs(forces.tangential) - friction * np.maximum(forces.normal, 0.0)
+    excess = np.abs(tangential) - friction * np.maximum(normal, 0.0)
     size = weight * float(np.hypot(*run.problem.snow.gravity))
     return Balance(
         weight_along_slope=weight * run.problem.snow.gravity[0] * scene.force_scale,
         relative_residual=max(moment.residual for moment in run.moments),
         friction_excess=max(0.0, float(excess.max())) / size,
         smallest_tension=float(tensions.min()) * scene.force_scale,
-        suction_share=negative_share(forces.normal),
+        suction_share=negative_share(normal),
         ground_tension_share=negative_share(run.instant.ground_normal),
     )
