@@ -399,13 +399,6 @@ def derive_exponent(law: CreepLaw, exponent: float) -> CreepLaw:
     )
 
 
-DERIVED_LAWS = {
-    law.name: law
-    for one in CREEP_LAWS.values()
-    for law in (derive_exponent(one, stated.exponent) for stated in STATED_EXPONENTS)
-}
-
-
 def compute_fluidity(temperature: float) -> float:
     """Fluidity B for creep exponent 3 by an Arrhenius law.
 

@@ -293,24 +293,27 @@ def _linearise(
     creep = linearise_creep(problem, material, state.stress)
     matrix, base = assemble_stiffness(mesh, creep.modulus), None
     if state.base_shear is not None:
-        base = _linearise_base(problem, state.base_shear, contact)
+        base = linearise_base(problem, state.base_shear, contact)
         matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
     return _Linear(creep=creep, base=base, matrix=matrix)
 
 
-def _linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tangent:
-    """Tangent of the base law; edges that have lifted wholly carry nothing."""
+def linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tangent:
+    """Tangent of the base law; edges that have lifted wholly carry nothing.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Ground.
+    shear : ndarray, shape (n_edges, n_points)
+        Shear stress on it [rho g d].
+    contact : Contact
+        Where the snow has let go of it.
+    """
     tangent = linearise_sliding(problem, shear)
-    if not contact.is_lifted.any():
-        return tangent
-    bears = _find_bearing(contact)[:, None]
-    return Tangent(modulus=tangent.modulus * bears, intercept=tangent.intercept * bears)
-
-
-def _find_bearing(contact: Contact) -> Mask:
-    """Edges of the ground that have not lifted wholly, (n_edges,)."""
     lifted = np.append(False, contact.is_lifted)
-    return np.asarray(~(lifted[:-2:2] & lifted[1::2] & lifted[2::2]))
+    bears = ~(lifted[:-2:2] & lifted[1::2] & lifted[2::2])[:, None]
+    return Tangent(modulus=tangent.modulus * bears, intercept=tangent.intercept * bears)
 
 
 def _gravity_load(problem: FlowProblem, material: Material, mesh: PlacedMesh) -> Floats:

@@ -113,8 +113,10 @@ def assemble_stress_form(mesh: PlacedMesh, stress: Floats) -> Floats:
     return np.asarray(form.assemble(build_basis(mesh), stress=_field(stress)))
 
 
-def assemble_gravity_form(mesh: PlacedMesh, gravity: tuple[float, float]) -> Floats:
-    """Integral of w . g / |g|: nodal forces of gravity.
+def assemble_gravity_form(
+    mesh: PlacedMesh, gravity: tuple[float, float], density: Floats
+) -> Floats:
+    """Integral of rho w . g / |g|: nodal forces of gravity.
 
     Parameters
     ----------
@@ -122,14 +124,17 @@ def assemble_gravity_form(mesh: PlacedMesh, gravity: tuple[float, float]) -> Flo
         Mesh against the net's curve.
     gravity : tuple of float, shape (2,)
         Over g, in the slope's axes [-].
+    density : ndarray, shape (n_triangles, n_points)
+        Over the mean [-].
 
     Returns
     -------
     ndarray, shape (n_dofs,)
         In the slope's axes [rho g d^2].
     """
-    form = skfem.LinearForm(_gravity_power)
-    return np.asarray(form.assemble(build_basis(mesh), x=gravity[0], y=gravity[1]))
+    x, y = gravity
+    form = skfem.LinearForm(lambda w, at: at.density * (x * w[0] + y * w[1]))
+    return np.asarray(form.assemble(build_basis(mesh), density=density))
 
 
 def _tangent(v: Any, w: Any, at: Any) -> Any:
@@ -146,10 +151,6 @@ def _compression(p: Any, q: Any, at: Any) -> Any:
 
 def _internal_power(w: Any, at: Any) -> Any:
     return dot(_strain_rate(w), at.stress)
-
-
-def _gravity_power(w: Any, at: Any) -> Any:
-    return at.x * w[0] + at.y * w[1]
 
 
 def _strain_rate(v: Any) -> Any:

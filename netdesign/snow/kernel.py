@@ -15,7 +15,7 @@ from netdesign.numerics.arrays import Floats, gather
 from netdesign.snow.element import reference_element
 from netdesign.snow.linear import Matrix, sum_blocks
 from netdesign.snow.mesh import MeshTemplate, edge_triples
-from netdesign.snow.placed_mesh import PlacedMesh
+from netdesign.snow.placed_mesh import EDGE_SHAPE, PlacedMesh
 from netdesign.snow.shared_mesh import find_once
 
 
@@ -185,7 +185,7 @@ def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
         In node axes [rho g d^2].
     """
     base = mesh.base
-    forces = (base.weights * shear) @ base.shape
+    forces = (base.weights * shear) @ EDGE_SHAPE
     return gather(base.dofs, forces, mesh.n_dofs)
 
 
@@ -206,7 +206,7 @@ def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Matrix:
     """
     base = mesh.base
     weighted = base.weights * modulus
-    values = np.einsum("eq,qi,qj->eij", weighted, base.shape, base.shape)
+    values = np.einsum("eq,qi,qj->eij", weighted, EDGE_SHAPE, EDGE_SHAPE)
     return sum_blocks(base.dofs, values, mesh.n_dofs)
 
 
@@ -225,4 +225,4 @@ def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
     ndarray, shape (n_edges, n_points)
         [velocity scale].
     """
-    return np.asarray(velocity[mesh.base.dofs] @ mesh.base.shape.T)
+    return np.asarray(velocity[mesh.base.dofs] @ EDGE_SHAPE.T)

@@ -324,9 +324,7 @@ def squared_invariant(
     """
     if problem.element == "mixed":
         deviator, pressure = stress[..., :3], stress[..., 3]
-        return _quadratic(_DEVIATOR_COMPLIANCE, deviator) + pressure**2 / (
-            material.bulk_ratio
-        )
+        return _square_deviator(deviator) + pressure**2 / material.bulk_ratio
     # sigma . M^-1 sigma, M^-1 = diag(1/2, 1/2, 1) - k / (4 (1 + k)) u u^T, written out
     coupling = np.asarray(material.bulk_ratio) - 2.0 / 3.0
     first, second, shear = stress[..., 0], stress[..., 1], stress[..., 2]
@@ -342,7 +340,7 @@ def _linearise_mixed(
 ) -> Tangent:
     deviator, pressure = stress[..., :3], stress[..., 3]
     bulk = material.bulk_ratio
-    part = _quadratic(_DEVIATOR_COMPLIANCE, deviator)
+    part = _square_deviator(deviator)
     size = part + pressure**2 / bulk
     viscosity, reduction, share = _scalars(problem, size, part)
     viscosity = viscosity / material.fluidity_ratio
@@ -370,6 +368,7 @@ def _scalars(
     return floored ** ((1.0 - n) / 2.0), reduction, 1.0 / (1.0 + reduction * part)
 
 
-def _quadratic(compliance: Floats, stress: Floats) -> Floats:
-    strained = (compliance @ stress[..., None])[..., 0]
-    return np.asarray((strained * stress).sum(axis=-1))
+def _square_deviator(deviator: Floats) -> Floats:
+    """Part of the squared invariant (N18) that a deviator has."""
+    strained = (_DEVIATOR_COMPLIANCE @ deviator[..., None])[..., 0]
+    return np.asarray((strained * deviator).sum(axis=-1))

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -170,20 +169,17 @@ class PlacedMesh:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BaseEdges:
-    """Quadrature on the edges that lie on the ground.
+    """Quadrature on the edges that lie on the ground; ``EDGE_SHAPE`` at its points.
 
     Attributes
     ----------
     dofs : ndarray, shape (n_edges, 3)
         Components of the velocity along the ground.
-    shape : ndarray, shape (n_points, 3)
-        Shape functions at the points.
     weights : ndarray, shape (n_edges, n_points)
         Quadrature weights times the length element.
     """
 
     dofs: Ints
-    shape: Floats
     weights: Floats
 
 
@@ -228,7 +224,7 @@ def build_placed_mesh(
 
 def _net_normals(template: MeshTemplate, nodes: Floats) -> Floats:
     """Unit normals, each the normal integrated with the node's shape function."""
-    shares = nodes[:, _list_edges(template).net] @ EDGE_TANGENT.T
+    shares = nodes[:, _list_edges(template)[0]] @ EDGE_TANGENT.T
     tangents = np.zeros((2, template.net.size))
     tangents[:, :-2:2] = shares[..., 0]
     tangents[:, 1::2] = shares[..., 1]
@@ -270,26 +266,18 @@ def _build_base(template: MeshTemplate, nodes: Floats) -> BaseEdges:
     ends = nodes[0, template.ground[::2]]
     half = np.abs(ends[1:] - ends[:-1]) / 2.0
     return BaseEdges(
-        dofs=_list_edges(template).ground_dofs,
-        shape=EDGE_SHAPE,
+        dofs=_list_edges(template)[1],
         weights=half[:, None] * EDGE_WEIGHTS,
     )
 
 
-class _Edges(NamedTuple):
-    """Start, middle and end node (n, 3) of the edges on the net and on the ground."""
-
-    net: Ints
-    ground: Ints
-    ground_dofs: Ints  # components of the velocity along the ground
-
-
 @find_once
-def _list_edges(template: MeshTemplate) -> _Edges:
+def _list_edges(template: MeshTemplate) -> tuple[Ints, Ints]:
+    """Starts, middles and ends (n, 3): nodes of the net, X unknowns of the ground."""
     net, ground = (
         np.column_stack(edge_triples(chain))
         for chain in (template.net, template.ground)
     )
-    ground_dofs = 2 * ground
-    ground_dofs.setflags(write=False)
-    return _Edges(net=net, ground=ground, ground_dofs=ground_dofs)
+    along = 2 * ground
+    along.setflags(write=False)
+    return net, along

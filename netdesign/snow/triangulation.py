@@ -44,11 +44,6 @@ class Triangulation:
     edges: Ints
     boundary: Ints
 
-    @property
-    def n_vertices(self) -> int:
-        """Number of corner nodes."""
-        return int(self.nodes.shape[1] - self.edges.shape[1])
-
 
 @cache
 def load_delaunay() -> Any:

@@ -12,7 +12,6 @@ from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,
-    DERIVED_LAWS,
     STATED_EXPONENTS,
     compute_bulk_factor,
     compute_shear_factor,
@@ -29,6 +28,11 @@ from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snow.wall import Wall
 from tests.each import each
 
+DERIVED_LAWS = {
+    law.name: law
+    for one in CREEP_LAWS.values()
+    for law in (derive_exponent(one, stated.exponent) for stated in STATED_EXPONENTS)
+}
 FLUIDITY = 2.6e-25  # [Pa^-3 s^-1]
 LAYERS = (
     Layer(thickness=0.7, density=411.0),

@@ -33,7 +33,7 @@ def test_nodes_and_edges_are_those_of_scikit_fem(seed, count):
     assert np.array_equal(found.triangles, basis.element_dofs)
     assert np.array_equal(found.edges, mesh.facets)
     assert np.array_equal(found.boundary, mesh.boundary_facets())
-    assert found.n_vertices == count
+    assert found.nodes.shape[1] - found.edges.shape[1] == count
 
 
 def test_shape_functions_are_those_of_scikit_fem():

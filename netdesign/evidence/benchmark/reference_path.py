@@ -18,7 +18,9 @@ from skfem.element import DiscreteField
 
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.contact import Contact, FlowState, free_unknowns, friction_shares
+from netdesign.snow.flow_step import linearise_base
 from netdesign.snow.forms import (
+    assemble_gravity_form,
     assemble_mixed_form,
     assemble_stress_form,
     assemble_tangent_form,
@@ -31,9 +33,8 @@ from netdesign.snow.law import (
     Tangent,
     advance_stress,
     linearise_creep,
-    linearise_sliding,
 )
-from netdesign.snow.placed_mesh import PlacedMesh
+from netdesign.snow.placed_mesh import EDGE_SHAPE, PlacedMesh
 
 _BASE_DEGREE = 7  # four Gauss points an edge, as the kernel
 
@@ -65,7 +66,7 @@ def advance(
     force = _assemble_force(problem, material, mesh, tangent)
     base = None
     if state.base_shear is not None:
-        base = _linearise_base(problem, state.base_shear, contact)
+        base = linearise_base(problem, state.base_shear, contact)
         matrix = matrix + _assemble_base_matrix(mesh, base.modulus)
         force += _assemble_base_force(mesh, base.intercept)
     turn = _rotation(mesh)
@@ -96,17 +97,14 @@ def _assemble_force(
     problem: FlowProblem, material: Material, mesh: PlacedMesh, tangent: Tangent
 ) -> Floats:
     """Forces of the kept stress less those of gravity (n_dofs,), slope's axes."""
-    velocity = build_basis(mesh)
     density = np.broadcast_to(np.asarray(material.density), mesh.weights.shape)
     force = assemble_stress_form(mesh, tangent.intercept[..., :3])
-    force -= skfem.LinearForm(_gravity_power).assemble(
-        velocity, density=density, x=problem.gravity[0], y=problem.gravity[1]
-    )
+    force -= assemble_gravity_form(mesh, problem.gravity, density)
     if problem.end_load:
         force -= assemble_end_load(mesh, problem.end_load)[: mesh.n_velocities]
     if problem.element == "velocity":
         return force
-    pressure = velocity.with_element(skfem.ElementTriP1())
+    pressure = build_basis(mesh).with_element(skfem.ElementTriP1())
     kept = skfem.LinearForm(_pressure_power).assemble(
         pressure, intercept=DiscreteField(tangent.intercept[..., 3])
     )
@@ -167,14 +165,6 @@ def _compute_strain(mesh: PlacedMesh, velocity: Floats) -> Floats:
     return np.stack(strains, axis=-1)
 
 
-def _linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tangent:
-    """Tangent of the base law; edges that have lifted wholly carry nothing."""
-    tangent = linearise_sliding(problem, shear)
-    lifted = np.append(False, contact.is_lifted)
-    bears = ~(lifted[:-2:2] & lifted[1::2] & lifted[2::2])[:, None]
-    return Tangent(modulus=tangent.modulus * bears, intercept=tangent.intercept * bears)
-
-
 @lru_cache(maxsize=2)
 def _rotation(mesh: PlacedMesh) -> sparse.csr_matrix:
     """Node axes to slope's axes, a block a node; pressures stay."""
@@ -198,7 +188,7 @@ def _build_base_basis(mesh: PlacedMesh) -> _Base:
     )
     places = np.asarray(basis.global_coordinates())[0].ravel()
     ends = mesh.nodes[0, mesh.base.dofs // 2]
-    own = (ends @ mesh.base.shape.T).ravel()
+    own = (ends @ EDGE_SHAPE.T).ravel()
     order = np.empty(own.size, dtype=np.int64)
     order[np.argsort(places)] = np.argsort(own)
     return _Base(basis, order)
@@ -208,10 +198,6 @@ def _on_base(base: _Base, values: Floats) -> DiscreteField:
     """Values of the kernel's points at scikit-fem's."""
     shape = base.basis.dx.shape
     return DiscreteField(values.ravel()[base.order].reshape(shape))
-
-
-def _gravity_power(w: Any, at: Any) -> Any:
-    return at.density * (at.x * w[0] + at.y * w[1])
 
 
 def _pressure_power(q: Any, at: Any) -> Any:

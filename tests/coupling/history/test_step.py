@@ -48,7 +48,8 @@ def solve_forms(snow, carried, forces):
     )
     folding = fold(template, mesh.n_dofs)
     matrix = folding.T @ forms.assemble_tangent_form(mesh, linear.modulus) @ folding
-    push = folding.T @ forms.assemble_gravity_form(mesh, problem.gravity)
+    density = np.ones_like(mesh.weights)
+    push = folding.T @ forms.assemble_gravity_form(mesh, problem.gravity, density)
     push[2 * carried] += forces[0]
     push[2 * carried + 1] += forces[1]
     free = np.ones(mesh.n_dofs, dtype=bool)
