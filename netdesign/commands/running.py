@@ -148,7 +148,7 @@ def open_phases(
     ``asked`` are options of the command line: jobs, executor, cache, quiet.
     """
     from netdesign.edge.progress import show_phases
-    from netdesign.solving.session import open_runner
+    from netdesign.solving.runner import open_runner
     from netdesign.solving.store import find_store
 
     language = speak()

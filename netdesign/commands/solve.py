@@ -82,8 +82,7 @@ def solve(scene_file: Path, **asked: Any) -> None:
 def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     """Solution of a scene, and the exit code of a fault; it is told on stderr."""
     from netdesign.coupling.solution import FailedSolution
-    from netdesign.solving.describe import describe_case
-    from netdesign.solving.solve import solve_scene
+    from netdesign.solving.solve import describe_case, solve_scene
 
     case = describe_case(scene, settings)
     solution = catch_fault(lambda: solve_scene(scene, settings), case)

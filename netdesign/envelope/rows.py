@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.curvature import estimate_hidden
 from netdesign.envelope.extremes import (
     Extreme,
     describe_gap,
@@ -86,6 +85,61 @@ class Confirmation:
         screened = self.screened.member_forces[self.member].value
         confirmed = self.confirmed.member_forces[self.member].value
         return confirmed / screened - 1.0 if screened > 0.0 else 0.0
+
+
+def estimate_hidden(extreme: Extreme, results: Sequence[CaseResult]) -> Extreme:
+    """Extreme with the largest rise of a parabola over its samples.
+
+    Through three neighbouring samples with second difference D a parabola rises at
+    most |D| / 8 above the larger of two neighbours; the rises along the axes are added.
+    With two samples only, or a failed neighbour, nothing is known along an axis.
+
+    Parameters
+    ----------
+    extreme : Extreme
+        Largest force of one member.
+    results : sequence of CaseResult
+        All cases of the grid.
+
+    Returns
+    -------
+    Extreme
+        With what may hide about its governing case.
+    """
+    forces = {
+        result.case: result.member_forces[extreme.member].value
+        for result in results
+        if extreme.member in result.member_forces
+    }
+    cases = [result.case.values for result in results]
+    size, unknown = 0.0, []
+    for axis in extreme.governing.case.values:
+        samples = sorted({values[axis] for values in cases})
+        if len(samples) == 1:
+            continue
+        difference = _second_difference(extreme.governing.case, axis, samples, forces)
+        if difference is None:
+            unknown.append(axis)
+        else:
+            size += abs(difference) / 8.0
+    return replace(extreme, hidden=size, unknown=tuple(unknown))
+
+
+def _second_difference(
+    case: Case, axis: str, samples: Sequence[float], forces: Mapping[Case, float]
+) -> float | None:
+    """Second difference of the force beside a case along an axis, or None."""
+    if len(samples) < 3:
+        return None
+    place = samples.index(case.values[axis])
+    middle = min(max(place, 1), len(samples) - 2)
+    values = [
+        forces.get(case.with_value(axis, samples[middle + step])) for step in (-1, 0, 1)
+    ]
+    before, at, after = values
+    if before is None or at is None or after is None:
+        return None
+    return before - 2.0 * at + after
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

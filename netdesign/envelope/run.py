@@ -16,9 +16,8 @@ from netdesign.envelope.support_bands import resolve_pulls, spread_out
 from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel
-from netdesign.solving.describe import describe_case
 from netdesign.solving.runner import Runner
-from netdesign.solving.solve import Settings
+from netdesign.solving.solve import Settings, describe_case
 from netdesign.solving.state import CaseEnd, SolvedState
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces

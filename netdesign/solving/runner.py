@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TypeVar
 
 from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Fault
 from netdesign.solving.state import CaseEnd, is_stuck
-from netdesign.solving.store import FORGOTTEN, CaseStore, name_case
-from netdesign.solving.workers import Batch, Ends, Job, OwnProcess, Workers
+from netdesign.solving.store import FORGOTTEN, CaseStore, StoreError, name_case
+from netdesign.solving.workers import (
+    Batch,
+    Ends,
+    Job,
+    OwnProcess,
+    ProcessPool,
+    Workers,
+    build_workers,
+)
 from netdesign.words.message import Message, say
 
 _Answer = TypeVar("_Answer")
@@ -177,3 +187,46 @@ def _list_missing(
         if missing:
             found.append(missing)
     return found
+
+
+@contextmanager
+def open_runner(
+    *,
+    executor: str,
+    processes: int,
+    store: Path | None,
+    tell: Callable[[Message], None],
+    expected: int = 0,
+) -> Iterator[Runner]:
+    """Runner for the time of a ``with``.
+
+    Parameters
+    ----------
+    executor : str
+        "" for this machine, or ``dask://HOST:PORT``.
+    processes : int
+        On this machine.
+    store : Path or None
+        File of the finished cases; None keeps none.
+    tell : callable
+        Takes what the user should know, for instance that there can be no store.
+    expected : int
+        Number of cases, about; processes that it is worth are started now.
+
+    Raises
+    ------
+    ClusterError
+        If the executor cannot be used.
+    """
+    with ExitStack() as stack:
+        workers = build_workers(executor, processes)
+        stack.callback(workers.close)
+        if isinstance(workers, ProcessPool):
+            workers.prepare(expected)
+        kept: CaseStore | None = None
+        if store is not None:
+            try:
+                kept = stack.enter_context(CaseStore(store, tell))
+            except StoreError as error:
+                tell(say("store.going_on", reason=error.message))
+        yield Runner(workers=workers, store=kept, tell=tell)

@@ -262,7 +262,7 @@ class CaseStore:
         self._base.execute("COMMIT")
 
 
-def seal_entry(name: str, numbers: str, shape: bytes = b"") -> str:
+def seal_entry(name: str, numbers: str, shape: bytes) -> str:
     """Digest of an entry, by which a change of any part of it is seen."""
     return hashlib.sha256(f"{name} {numbers}".encode() + shape).hexdigest()
 

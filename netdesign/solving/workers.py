@@ -36,8 +36,7 @@ from netdesign.outcome import (
     catch_fault,
 )
 from netdesign.snow.triangulation import load_delaunay
-from netdesign.solving.describe import describe_case
-from netdesign.solving.solve import Settings, solve_scene
+from netdesign.solving.solve import Settings, describe_case, solve_scene
 from netdesign.solving.state import CaseEnd, is_stuck, keep_state
 from netdesign.words.message import say
 

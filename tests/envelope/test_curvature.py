@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import Band
-from netdesign.envelope.curvature import estimate_hidden
 from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.ranges import Interval, Ranges, build_cases
+from netdesign.envelope.rows import estimate_hidden
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from tests.each import each
