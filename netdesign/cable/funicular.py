@@ -212,6 +212,26 @@ def _sum_from_zero(steps: Floats) -> Floats:
     return sums
 
 
+def share_uniform_load(lengths: Floats) -> Floats:
+    """Nodal forces of a uniform load of 1 on quadratic elements.
+
+    Parameters
+    ----------
+    lengths : ndarray, shape (n,)
+        Of the elements, along which the load is uniform.
+
+    Returns
+    -------
+    ndarray, shape (2 n + 1,)
+        Consistent with the shape functions, in the unit of the lengths.
+    """
+    shares = np.zeros(2 * lengths.size + 1)
+    shares[1::2] = 4.0 / 6.0 * lengths
+    shares[:-1:2] += lengths / 6.0
+    shares[2::2] += lengths / 6.0
+    return shares
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class AlikeCables:
     """Common part of cables that differ in length and ends.

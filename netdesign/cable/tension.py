@@ -43,6 +43,26 @@ def compute_end_directions(points: Floats, *, is_curved: bool) -> tuple[Floats, 
     return foot, head
 
 
+def join_points(nodes: Floats, head: Floats) -> Floats:
+    """Points of a net: its foot at the origin, its nodes, its head.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (2, n)
+        Foot and head left out [m, or any unit].
+    head : ndarray, shape (2,)
+        In that unit.
+
+    Returns
+    -------
+    ndarray, shape (2, n + 2)
+        In that unit.
+    """
+    points = np.zeros((2, nodes.shape[1] + 2))
+    points[:, 1:-1], points[:, -1] = nodes, head
+    return points
+
+
 def compute_segment_lengths(points: Floats) -> Floats:
     """Final lengths of the segments.
 

@@ -26,6 +26,7 @@ from netdesign.cable.response import (
     respond,
 )
 from netdesign.cable.sliding import SlidingStep
+from netdesign.cable.tension import join_points
 from netdesign.core.arguments import YieldingArgument, locate_all, to_floats
 from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats, Mask, Signs
@@ -212,9 +213,7 @@ def settle_net(
         tensions=end.tensions,
         slides=end.guess.slides,
     )
-    points = np.zeros((2, end.guess.slides.size + 2))
-    points[:, 1:-1], points[:, -1] = end.guess.place, head
-    return pull_nodes(points, sliding), end.guess
+    return pull_nodes(join_points(end.guess.place, head), sliding), end.guess
 
 
 class _Settled(NamedTuple):
@@ -286,7 +285,7 @@ def _call_core(
 
 def _loosen(given: _Given, guess: NetGuess) -> NetGuess:
     """The net as it slides on nodes that stay, where a segment would push."""
-    points = np.column_stack([np.zeros(2), guess.place, given.head])
+    points = join_points(guess.place, given.head)
     loose = respond(
         points, given.old_lengths, friction=given.friction, stiffness=given.stiffness
     ).sliding
@@ -294,8 +293,7 @@ def _loosen(given: _Given, guess: NetGuess) -> NetGuess:
 
 
 def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
-    points = np.zeros((2, place.shape[1] + 2))
-    points[:, 1:-1], points[:, -1] = place, given.head
+    points = join_points(place, given.head)
     steps = np.diff(points)
     chords = np.hypot(*steps)
     if not chords.min() > 0.0:

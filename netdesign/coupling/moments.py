@@ -91,8 +91,8 @@ class Plateau:
     """
 
     reached: bool
-    time: float | None
-    index: int | None
+    time: float | None = None
+    index: int | None = None
     end: int | None = None
     drift: float | None = None
     criterion: str = CRITERION
@@ -157,7 +157,7 @@ def find_plateau(moments: Sequence[HistoryPoint]) -> Plateau:
             return Plateau(
                 reached=True, time=moments[begin].time, index=begin, end=place
             )
-    return Plateau(reached=False, time=None, index=None)
+    return Plateau(reached=False)
 
 
 def judge_plateau(moments: Sequence[HistoryPoint], plateau: Plateau) -> Plateau:

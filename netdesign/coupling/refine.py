@@ -134,17 +134,13 @@ STEADY_ERROR = ErrorModel(
 )
 
 
-def _is_firm(_: object) -> Looseness:
-    return _FIRM
-
-
 def refine(
     levels: Sequence[MeshSize],
     solve: Callable[[MeshSize, State | None], State],
     measure: Callable[[State], Sequence[Floats]],
     accuracy: float,
     model: ErrorModel,
-    loosen: Callable[[State], Looseness] = _is_firm,
+    loosen: Callable[[State], Looseness] = lambda _: _FIRM,
 ) -> tuple[list[State], list[Estimate]]:
     """Solve level after level until two in turn agree.
 

@@ -54,7 +54,7 @@ def try_spoilt_plan(scene, rng):
 
 def try_spoilt_rounds(scene, rng):
     """Rounds along spoilt curves, from spoilt states, and nets under spoilt forces."""
-    problem = _build_problem(scene, scene.net, SolverSettings().levels[0])
+    problem = _build_problem(scene, SolverSettings().levels[0])
     rounds = prepare_rounds(problem, SolverSettings(max_iterations=30), 1e9)
     if rounds is None:
         return

@@ -14,7 +14,7 @@ from netdesign.coupling.history.state import (
     TransientProblem,
     TransientState,
 )
-from netdesign.numerics.arrays import Floats, Signs
+from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.body import move_body
@@ -58,6 +58,8 @@ def follow(
     net = _spread_nodes(problem, state, _move_top(problem, state, instant))
     if not net.vertices[1, 1:].min() > 0.0:
         raise SolveError(Outcome.OUT_OF_VALIDITY, say("net.touches_ground"))
+    # the upper corner may have become a node of the net, or none any more
+    signs = np.append(instant.response.sliding.slide_signs, np.zeros(1, dtype=np.int8))
     body, fallen = move_body(state.body, instant.displaced, net.vertices, problem.head)
     following = TransientState(
         time=state.time + step,
@@ -69,16 +71,9 @@ def follow(
         step=step,
         stress=instant.stress,
         base_shear=instant.base_shear,
-        slide_signs=_match_signs(
-            instant.response.sliding.slide_signs, net.lengths.size - 1
-        ),
+        slide_signs=signs[: net.lengths.size - 1],
     )
     return following, fallen
-
-
-def _match_signs(signs: Signs, count: int) -> Signs:
-    """The upper corner may have become a node of the net, or none any more."""
-    return np.append(signs, np.zeros(1, dtype=np.int8))[:count]
 
 
 def _move_top(

@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from netdesign.cable.response import NetResponse, hold_net
+from netdesign.cable.tension import join_points
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.coupling.history.snow import SnowIterate
 from netdesign.coupling.history.state import (
     Top,
     TransientProblem,
     TransientState,
-    list_net_points,
 )
 from netdesign.coupling.history.step import (
     StepEquations,
@@ -116,7 +116,7 @@ def advance(
     """
     equations = assemble_step(problem, state, step)
     iterate = _begin(equations, state)
-    points = list_net_points(problem, state.net_nodes)
+    points = join_points(state.net_nodes, problem.head)
     forces = hold_net(points, state.lengths, stiffness=problem.stiffness).forces
     guess = NetGuess.at_rest(equations.place_net(iterate.unknowns), state.slide_signs)
     top_changes = 0
@@ -264,8 +264,8 @@ def _finish(
         stress=iterate.stress,
         base_shear=iterate.base_shear,
         top=top,
-        points=list_net_points(
-            equations.problem, equations.place_net(iterate.unknowns)
+        points=join_points(
+            equations.place_net(iterate.unknowns), equations.problem.head
         ),
         response=response,
         foot_pull=response.foot_pull + _share_corner(equations, corner, response),

@@ -73,7 +73,7 @@ def record_moment(
     state: TransientState,
     instant: Instant,
     way: Floats | float,
-    strain: float,
+    moments: Sequence[HistoryPoint],
     step: float,
 ) -> tuple[HistoryPoint, Floats]:
     """Point of a history at the end of a step.
@@ -88,8 +88,8 @@ def record_moment(
         Equilibrium at the step's end.
     way : ndarray, shape (n,), or float
         Ways of the net's vertices before the step [thickness]; 0 at first.
-    strain : float
-        Mean creep strain before the step [-].
+    moments : sequence of HistoryPoint
+        Those before the step.
     step : float
         Duration [time scale].
 
@@ -104,6 +104,7 @@ def record_moment(
     ways = way + across * step
     tensions = instant.response.sliding.tensions
     ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
+    strain = moments[-1].strain if moments else 0.0
     moment = HistoryPoint(
         time=state.time,
         foot=instant.foot_pull,

@@ -23,7 +23,7 @@ from netdesign.cable.response import (
     measure_arcs,
     pull_nodes,
 )
-from netdesign.cable.tension import compute_turning_angles
+from netdesign.cable.tension import compute_turning_angles, join_points
 from netdesign.coupling.history.instant import Instant, advance_under
 from netdesign.coupling.history.net_start import build_start, find_start
 from netdesign.coupling.history.run import (
@@ -39,7 +39,6 @@ from netdesign.coupling.history.state import (
     TransientProblem,
     TransientState,
     build_problem,
-    list_net_points,
 )
 from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
@@ -164,9 +163,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
             max_iterations=settings.max_iterations,
         )
         state, cable = _follow(problem, state, cable, instant, step)
-        moment, way = record_moment(
-            problem, state, instant, way, moments[-1].strain if moments else 0.0, step
-        )
+        moment, way = record_moment(problem, state, instant, way, moments, step)
         moments.append(moment)
         solves += instant.linear_solves
     return Run(
@@ -190,7 +187,7 @@ def _longest_step(problem: TransientProblem, aspect: float) -> float:
 
 
 def _start_cable(problem: TransientProblem, state: TransientState) -> CableState:
-    arcs = measure_arcs(list_net_points(problem, state.net_nodes))
+    arcs = measure_arcs(join_points(state.net_nodes, problem.head))
     return build_cable_state(arcs, np.minimum(state.lengths, arcs), problem.stiffness)
 
 
@@ -198,7 +195,7 @@ def _respond(
     problem: TransientProblem, state: TransientState, cable: CableState
 ) -> NetResponse:
     """The net as it is, its forces taken as they are."""
-    points = list_net_points(problem, state.net_nodes)
+    points = join_points(state.net_nodes, problem.head)
     return pull_nodes(points, keep_lengths(cable.unstressed_lengths, cable.tensions))
 
 
@@ -223,7 +220,7 @@ def _follow(
         stress=instant.stress,
         base_shear=instant.base_shear,
     )
-    points = list_net_points(problem, moved.net_nodes)
+    points = join_points(moved.net_nodes, problem.head)
     increment = advance_increment(
         cable,
         measure_arcs(points),

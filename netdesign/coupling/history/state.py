@@ -8,8 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats, Ints, Signs
@@ -109,26 +107,6 @@ class TransientState:
     def net_nodes(self) -> Floats:
         """Positions (2, n) of the vertices that are nodes of the net [thickness]."""
         return self.body.vertices[:, self.carried]
-
-
-def list_net_points(problem: TransientProblem, nodes: Floats) -> Floats:
-    """Foot, nodes and head of the net.
-
-    Parameters
-    ----------
-    problem : TransientProblem
-        What stays the same.
-    nodes : ndarray, shape (2, n)
-        Of the net, foot and head left out [thickness].
-
-    Returns
-    -------
-    ndarray, shape (2, n + 2)
-        [thickness].
-    """
-    points = np.zeros((2, nodes.shape[1] + 2))
-    points[:, 1:-1], points[:, -1] = nodes, problem.head
-    return points
 
 
 def build_problem(

@@ -162,13 +162,10 @@ class StepEquations:
             vertices[:, -1] = self.top_axis * (self.top_axis @ velocity[:, top])
         held = velocity.copy()
         held[:, template.net] = vertices @ _spread(template.net.size).T
-        unknowns = np.zeros(self._count_unknowns())
+        is_mixed = self.problem.snow.element == "mixed"
+        unknowns = np.zeros(held.size + is_mixed * template.n_vertices)
         unknowns[: held.size] = held.T.ravel()
         return unknowns
-
-    def _count_unknowns(self) -> int:
-        is_mixed = self.problem.snow.element == "mixed"
-        return self.load.weight.size + is_mixed * self.template.n_vertices
 
     def pull_vertices(self, forces: Floats) -> Floats:
         """Forces at the net's vertices, with those of the midpoints between them.

@@ -185,9 +185,7 @@ class _Walk:
     solves: int = 0
     rejected: int = 0
     failure: SolveError | None = None
-    plateau: Plateau = field(
-        default_factory=lambda: Plateau(reached=False, time=None, index=None)
-    )
+    plateau: Plateau = field(default_factory=lambda: Plateau(reached=False))
 
     @property
     def is_over(self) -> bool:
@@ -282,12 +280,7 @@ class _Walk:
         self, instant: Instant, state: TransientState, fallen: float, step: float
     ) -> None:
         moment, self.way = record_moment(
-            self.problem,
-            state,
-            instant,
-            self.way,
-            self.moments[-1].strain if self.moments else 0.0,
-            step,
+            self.problem, state, instant, self.way, self.moments, step
         )
         self.moments.append(moment)
         self.solves += instant.linear_solves

@@ -14,7 +14,11 @@ from functools import partial
 import numpy as np
 
 from netdesign.cable.closed_form import compute_parabola_sag
-from netdesign.cable.funicular import Funicular, solve_funicular
+from netdesign.cable.funicular import (
+    Funicular,
+    share_uniform_load,
+    solve_funicular,
+)
 from netdesign.cable.parted import CableParts, find_part_lengths
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
@@ -134,20 +138,11 @@ def start_net(problem: SteadyProblem, hang: Hang | None = None) -> NetEquilibriu
     pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
     rises = _cut(problem).rises
     per_height = problem.length / rises.sum()
-    shares = pressure * per_height * _share_load(problem.template)
+    heights = np.diff(problem.template.net_fractions[::2])
+    shares = pressure * per_height * share_uniform_load(heights)
     on_net = outward[:, None] * shares
     hang = hang or partial(hang_net, problem)
     return hang(on_net, pull, rises * per_height)
-
-
-def _share_load(template: MeshTemplate) -> Floats:
-    """Shares of the nodes in a uniform load per height, shape (n_net,)."""
-    lengths = np.diff(template.net_fractions[::2])
-    shares = np.zeros(2 * lengths.size + 1)
-    shares[1::2] = 4.0 / 6.0 * lengths
-    shares[:-1:2] += lengths / 6.0
-    shares[2::2] += lengths / 6.0
-    return shares
 
 
 def find_contact_curve(problem: SteadyProblem, net: NetEquilibrium) -> Floats:

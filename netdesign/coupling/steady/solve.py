@@ -8,7 +8,7 @@ forces per metre of width in rho g d^2.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -107,15 +107,9 @@ def find_net_equilibrium(
     SolveError
         If the mesh gives no converged solution.
     """
-    problem = _build_problem(scene, _require_net(scene), size)
+    problem = _build_problem(scene, size)
     _, net, _ = _finish(couple(problem, settings, None, is_first=True))
     return problem, net
-
-
-def _require_net(scene: Scene) -> Net:
-    if not isinstance(scene.net, Net):
-        raise ModelError(say("steady.needs_net"))
-    return scene.net
 
 
 def _solve(scene: Scene, settings: SolverSettings) -> Solution:
@@ -161,7 +155,7 @@ def _solve_levels(
     scene: Scene, settings: SolverSettings
 ) -> tuple[list[CoupledState], list[Estimate]]:
     """Meshes until two agree; those before the one that fails, if they are two."""
-    first = _build_problem(scene, _require_net(scene), settings.levels[0])
+    first = _build_problem(scene, settings.levels[0])
     solved: dict[MeshSize, CoupledState] = {}
 
     def solve(size: MeshSize, coarse: CoupledState | None) -> CoupledState:
@@ -205,8 +199,10 @@ def _require_pressure(end: CoupledState) -> None:
         raise SuctionError(suction)
 
 
-def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
-    thickness = scene.snowpack.thickness
+def _build_problem(scene: Scene, size: MeshSize) -> SteadyProblem:
+    net, thickness = scene.net, scene.snowpack.thickness
+    if not isinstance(net, Net):
+        raise ModelError(say("steady.needs_net"))
     return SteadyProblem(
         snow=scene.steady_flow_problem,
         template=_build_template(scene, size),
@@ -315,19 +311,12 @@ def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> PullBound | N
     -----------
     tests/coupling/steady/test_bound.py
     """
-    for tauter in _list_tauter(scene):
-        solution = solve_steady(tauter, settings)
-        if isinstance(solution, Solution):
-            assert isinstance(tauter.net, Net)
-            return PullBound(
-                slack=tauter.net.slack, foot=solution.foot, head=solution.head
-            )
-    return None
-
-
-def _list_tauter(scene: Scene) -> Iterator[Scene]:
     net = scene.net
     if not isinstance(net, Net) or net.slack == 0.0:
-        return
-    for share in _SLACK_SHARES:
-        yield replace(scene, net=replace(net, slack=share * net.slack))
+        return None
+    for slack in (share * net.slack for share in _SLACK_SHARES):
+        tauter = replace(scene, net=replace(net, slack=slack))
+        solution = solve_steady(tauter, settings)
+        if isinstance(solution, Solution):
+            return PullBound(slack=slack, foot=solution.foot, head=solution.head)
+    return None

@@ -7,7 +7,11 @@ import math
 import numpy as np
 
 from netdesign.cable.closed_form import compute_capstan_ratio, compute_parabola_sag
-from netdesign.cable.funicular import Funicular, solve_funicular
+from netdesign.cable.funicular import (
+    Funicular,
+    share_uniform_load,
+    solve_funicular,
+)
 from netdesign.cable.incremental import advance_increment, build_cable_state
 from netdesign.cable.sliding import solve_sliding
 from netdesign.cable.tension import (
@@ -178,10 +182,7 @@ def _solve_uniform(
 ) -> Funicular:
     """Straight unstressed cable along Y under a load along X."""
     lengths = np.full(count, chord / count)
-    shares = np.zeros(2 * count + 1)
-    shares[1::2] = 4.0 / 6.0 * lengths
-    shares[:-1:2] += lengths / 6.0
-    shares[2::2] += lengths / 6.0
+    shares = share_uniform_load(lengths)
     sag = compute_parabola_sag(load, chord, stiffness, 0.0)
     start = np.array([load * chord / 2.0, load * chord**2 / (8.0 * sag)])
     forces = load * np.array([shares, 0.0 * shares])

@@ -17,7 +17,7 @@ SETTINGS = SolverSettings(accuracy=0.005)
 def smooth(a_scene):
     """A smooth net on the first mesh: all its snow slips."""
     scene = a_scene(friction_deg=0.0, inclination_deg=27.0, slack=0.013)
-    return _build_problem(scene, scene.net, MESH_LEVELS[0])
+    return _build_problem(scene, MESH_LEVELS[0])
 
 
 def test_snow_that_slips_everywhere_needs_no_second_plain_round(smooth, monkeypatch):
