@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign.cable.net import Net
@@ -17,7 +16,7 @@ from netdesign.snow.snowpack import (
     GravityMode,
     Layer,
     Snowpack,
-    build_layered_snowpack,
+    compute_mean_density,
 )
 from netdesign.snow.wall import Wall
 
@@ -56,8 +55,17 @@ def build_scene(
         ``full`` or ``parallel``.
     """
     thickness = sum(thickness for thickness, _ in snow)
+    layers = tuple(Layer(thickness=high, density=density) for high, density in snow)
+    is_layered = len(layers) > 1
     return Scene(
-        snowpack=_build_snow(snow, thickness, slope, length, gravity),
+        snowpack=Snowpack(
+            slope_angle=math.radians(slope),
+            thickness=thickness,
+            upslope_length=length,
+            density=compute_mean_density(layers) if is_layered else layers[0].density,
+            layers=layers if is_layered else (),
+            gravity=gravity,
+        ),
         ground=ground,
         net=Net(
             height_normal=thickness if height is None else height,
@@ -66,30 +74,6 @@ def build_scene(
             slack=slack,
             friction_angle=math.radians(friction),
         ),
-    )
-
-
-def _build_snow(
-    snow: Sequence[tuple[float, float]],
-    thickness: float,
-    slope: float,
-    length: float,
-    gravity: GravityMode,
-) -> Snowpack:
-    if len(snow) > 1:
-        return build_layered_snowpack(
-            tuple(Layer(thickness=high, density=density) for high, density in snow),
-            slope_angle=math.radians(slope),
-            upslope_length=length,
-            gravity=gravity,
-        )
-    ((_, density),) = snow
-    return Snowpack(
-        slope_angle=math.radians(slope),
-        thickness=thickness,
-        upslope_length=length,
-        density=density,
-        gravity=gravity,
     )
 
 

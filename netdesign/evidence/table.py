@@ -35,21 +35,19 @@ _ANSWERS = ("bench.yes", "bench.no")
 Row = Mapping[str, Any]
 
 
-def show_document(
-    document: Row, console: Console, words: Words, area: str = AREA
-) -> None:
+def show_document(document: Row, console: Console, words: Words) -> None:
     """Print the numbers of a document, then each of its lists of rows as a table."""
     from rich.text import Text
 
     lists = {key: value for key, value in document.items() if _is_table(value)}
     for key, value in document.items():
-        if key not in lists and _is_named(area, key):
-            line = Text(f"  {words(f'{area}.{key}'):{_WIDTH}} ")
-            console.print(line + _show(key, value, words, area), soft_wrap=True)
+        if key not in lists and _is_named(AREA, key):
+            line = Text(f"  {words(f'{AREA}.{key}'):{_WIDTH}} ")
+            console.print(line + _show(key, value, words, AREA), soft_wrap=True)
     for key, rows in lists.items():
-        if rows and _is_named(area, key):
-            show_lines([words(f"{area}.{key}")], console)
-            show_rows(rows, console, words, area)
+        if rows and _is_named(AREA, key):
+            show_lines([words(f"{AREA}.{key}")], console)
+            show_rows(rows, console, words)
 
 
 def show_rows(

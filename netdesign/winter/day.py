@@ -19,7 +19,7 @@ from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.envelope.support_bands import spread_out
 from netdesign.outcome import ModelError, require_within
 from netdesign.snow.creep_law import ICE_DENSITY
-from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
+from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snowpack.pack import DayPack
 from netdesign.solving.runner import Runner
 from netdesign.structure.layout import SupportLayout
@@ -356,13 +356,7 @@ def build_day_scene(scene: Scene, day: RowDay) -> Scene:
             gravity=pack.gravity,
         )
     else:
-        snow = Snowpack(
-            slope_angle=pack.slope_angle,
-            thickness=day.thickness,
-            upslope_length=pack.upslope_length,
-            density=day.density,
-            gravity=pack.gravity,
-        )
+        snow = replace(pack, thickness=day.thickness, density=day.density, layers=())
     return replace(scene, snowpack=snow)
 
 

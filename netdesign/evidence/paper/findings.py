@@ -14,7 +14,6 @@ import numpy as np
 from netdesign.evidence.paper.runs import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,
-    MIDDLE_FRICTION_DEG,
     NORMAL_NET_DEG,
     PAPER_TIME,
     RELATIVE_DENSITY,
@@ -169,10 +168,9 @@ def _grow_histories(
     known = [track for track in tracks if track is not None]
     if len(known) < len(tracks):
         return []
-    time = min(
-        max(_begin(track.times, track.plateau) for track in known),
-        min(float(track.times[-1]) for track in known),
-    )
+    ends = [float(track.times[-1]) for track in known]
+    begins = [run.plateau_time or end for run, end in zip(runs, ends, strict=True)]
+    time = min(max(begins), min(ends))
     found = [
         Growth(
             method=method,
@@ -200,10 +198,6 @@ def _grow_histories(
 def _read_node(track: Track, node: str, time: float) -> tuple[float, float]:
     x, y = (float(np.interp(time, track.times, part)) for part in getattr(track, node))
     return x, y
-
-
-def _begin(times: Floats, plateau: int | None) -> float:
-    return float(times[-1 if plateau is None else plateau])
 
 
 def _decide_growth(study: PaperStudy) -> Finding:
@@ -254,8 +248,8 @@ def _decide_oscillation(study: PaperStudy) -> Finding:
             "exchange_swings": swings,
             "history_swings": count_swings(history.track.foot[is_settled]),
             "settled": settled,
-            "exchange_plateau": _plateau_time(exchange),
-            "history_plateau": _plateau_time(history),
+            "exchange_plateau": exchange.plateau_time or math.nan,
+            "history_plateau": history.plateau_time or math.nan,
             "swings_until": last_swing(exchange) or 0.0,
             "largest_drag": trend[0].drag,
             "smallest_drag": trend[-1].drag,
@@ -263,14 +257,6 @@ def _decide_oscillation(study: PaperStudy) -> Finding:
             "swings_last": last,
         },
     )
-
-
-def _plateau_time(run: PaperRun) -> float:
-    """Begin of the plateau [s]; NaN without one."""
-    track = run.track
-    if track is None or track.plateau is None:
-        return float("nan")
-    return float(track.times[track.plateau])
 
 
 def _decide_settlement(study: PaperStudy) -> Finding:
@@ -340,8 +326,8 @@ def _decide_densification(study: PaperStudy) -> Finding:
     for start in ("straight", "sagged"):
         case = replace(find_history(NORMAL_NET_DEG), start=start)
         dense, loose = study[case], study[replace(case, densifies=False)]
-        begin = _plateau_time(dense)
-        if dense.track is None or loose.track is None or not np.isfinite(begin):
+        begin = dense.plateau_time
+        if dense.track is None or loose.track is None or begin is None:
             return Finding(key="densification", call="not decided")
         begins.append(begin)
         effects.append(
@@ -384,9 +370,9 @@ def _decide_swelling(study: PaperStudy) -> Finding:
 
 def _decide_seconds(study: PaperStudy) -> Finding:
     """The plateau has to begin within the 8 s that the paper computed."""
-    run = study[find_history(NORMAL_NET_DEG, MIDDLE_FRICTION_DEG)]
-    begin = _plateau_time(run)
-    if run.track is None or run.foot is None or not np.isfinite(begin):
+    run = study[find_history(NORMAL_NET_DEG)]
+    begin = run.plateau_time
+    if run.track is None or run.foot is None or begin is None:
         return Finding(key="seconds", call="not decided")
     return Finding(
         key="seconds",

@@ -206,10 +206,10 @@ def _compare_ways(study: PaperStudy, net: float, words: Words) -> Panel:
         x = [min(line.x[0] for line in lines), max(line.x[-1] for line in lines)]
         label, level = words("paper_plate.steady"), [steady / 1e3] * 2
         lines.append(Line(label=label, x=x, y=level, is_accent=True))
-    track = study[straight].track
-    if track is not None and track.plateau is not None:
-        begin = day_from_second(float(track.times[track.plateau]))
-        marks.append(Mark(x=begin, label=words("solved.plateau_from")))
+    begin = study[straight].plateau_time
+    if begin is not None:
+        label = words("solved.plateau_from")
+        marks.append(Mark(x=day_from_second(begin), label=label))
     title = words("paper_plate.foot_at", inclination=net)
     return Panel(title=title, lines=lines, marks=marks)
 

@@ -148,9 +148,9 @@ def find_trend(settings: PaperSettings) -> list[PaperCase]:
     ]
 
 
-def find_paper_time(friction_deg: float = MIDDLE_FRICTION_DEG) -> PaperCase:
+def find_paper_time() -> PaperCase:
     """History that ends where the paper's computations did."""
-    return replace(find_history(NORMAL_NET_DEG, friction_deg), until=PAPER_TIME)
+    return replace(find_history(NORMAL_NET_DEG), until=PAPER_TIME)
 
 
 def list_cases(settings: PaperSettings) -> list[PaperCase]:
@@ -284,6 +284,13 @@ class PaperRun:
     head_error: float = 0.0
     track: Track | None = None
     shape: Shape | None = None
+
+    @property
+    def plateau_time(self) -> float | None:
+        """Begin of the plateau [s]; None without one."""
+        if self.track is None or self.track.plateau is None:
+            return None
+        return float(self.track.times[self.track.plateau])
 
 
 def run_case(case: PaperCase, settings: PaperSettings) -> PaperRun:

@@ -125,7 +125,7 @@ def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
                     *(run.head, run.head_error if has_error else None),
                     _change(run.foot, steady),
                     None if run.track is None else float(run.track.foot.max()),
-                    _plateau_begin(run),
+                    run.plateau_time,
                 )
             )
     return _list("plateau", words("paper_table.plateau"), columns, rows, words)
@@ -217,7 +217,7 @@ def _tabulate_drift(study: PaperStudy, words: Words) -> Listed:
 
 
 def _list_drift(run: PaperRun) -> tuple[object, ...]:
-    case, track, begin = run.case, run.track, _plateau_begin(run)
+    case, track, begin = run.case, run.track, run.plateau_time
     last = None if track is None else float(track.foot[-1])
     end = None if track is None else float(track.times[-1])
     drift = None
@@ -257,13 +257,6 @@ def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
             )
         )
     return _list("runs", words("paper_table.runs"), columns, rows, words)
-
-
-def _plateau_begin(run: PaperRun) -> float | None:
-    track = run.track
-    if track is None or track.plateau is None:
-        return None
-    return float(track.times[track.plateau])
 
 
 def _foot_at(run: PaperRun, time: float) -> float | None:

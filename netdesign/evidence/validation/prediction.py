@@ -150,7 +150,7 @@ def predict(structures: Sequence[Structure], made: str) -> Prediction:
     ModelError
         If a force is given already, or no case of a structure has a result.
     """
-    if any(is_measured(one) for one in _list_measured(structures)):
+    if any(is_measured(force) for one in structures for force in one.measured):
         raise ModelError(say("prediction.too_late"))
     return Prediction(
         schema=SCHEMA,
@@ -285,8 +285,3 @@ def write_hits(hits: Sequence[Hit], prediction: Prediction) -> dict[str, Any]:
 def is_measured(force: Measurement) -> bool:
     """The form has a value for it."""
     return not math.isnan(force.value)
-
-
-def _list_measured(structures: Sequence[Structure]) -> Iterator[Measurement]:
-    for one in structures:
-        yield from one.measured

@@ -80,10 +80,8 @@ MODELS = (
 )
 
 
-def compute_viscosity(
-    law: CreepLaw, density: float, stress: float, fluidity: float = PAPER_FLUIDITY
-) -> float:
-    """Apparent compaction viscosity of a creep law [Pa s].
+def compute_viscosity(law: CreepLaw, density: float, stress: float) -> float:
+    """Apparent compaction viscosity of a creep law of the paper's fluidity [Pa s].
 
     Parameters
     ----------
@@ -93,13 +91,13 @@ def compute_viscosity(
         [kg/m3].
     stress : float
         Across the layer, positive [Pa].
-    fluidity : float
-        B [Pa^-3 s^-1].
     """
     relative = density / ICE_DENSITY
     a, b = compute_shear_factor(law, relative), compute_bulk_factor(law, relative)
     n = law.exponent
-    rate = fluidity * stress**n * (4.0 / (3.0 * a) + 1.0 / b) ** (-(n + 1.0) / 2.0)
+    rate = (
+        PAPER_FLUIDITY * stress**n * (4.0 / (3.0 * a) + 1.0 / b) ** (-(n + 1.0) / 2.0)
+    )
     return float(stress / rate)
 
 

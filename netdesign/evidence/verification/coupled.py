@@ -11,6 +11,7 @@ from netdesign.coupling.history.run import Run
 from netdesign.coupling.history.settings import (
     TRANSIENT_LEVELS,
     StaggeredSettings,
+    Start,
     TransientSettings,
 )
 from netdesign.coupling.history.staggered import run_exchange
@@ -263,10 +264,8 @@ def list_histories() -> list[VerificationCase]:
     """Steady state met, balance of all steps, smooth pulls, staggered trend."""
     found: dict[str, float | Found] = {}
     for inclination in (0, 30):
-        scene, name = (
-            build_paper_scene(inclination=inclination),
-            f"history-{inclination}",
-        )
+        scene = build_paper_scene(inclination=inclination)
+        name = f"history-{inclination}"
         run = _run(scene, start="sagged", densifies=False, level=1)
         found |= _compare_with_steady(scene, run, name)
         found |= _check_steps(run, name)
@@ -280,11 +279,9 @@ def _check_steps(run: Run, name: str) -> dict[str, float]:
     return {f"{name}-balance": residual, f"{name}-smooth": _largest_return(run)}
 
 
-def _run(scene: Scene, *, start: str, densifies: bool, level: int) -> Run:
+def _run(scene: Scene, *, start: Start, densifies: bool, level: int) -> Run:
     settings = TransientSettings(
-        start="straight" if start == "straight" else "sagged",
-        densifies=densifies,
-        stops_at_plateau=densifies is False,
+        start=start, densifies=densifies, stops_at_plateau=not densifies
     )
     return run_history(scene, TRANSIENT_LEVELS[level], settings, _HORIZON)
 
