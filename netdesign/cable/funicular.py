@@ -56,8 +56,6 @@ def solve_funicular(
     stiffness: float,
     head: Floats,
     start: Floats,
-    *,
-    tolerance: float = CLOSED,
 ) -> Funicular:
     """Curve and tensions of a cable hung from the origin to ``head``.
 
@@ -74,8 +72,6 @@ def solve_funicular(
         Upper end, in the unit of the lengths.
     start : ndarray, shape (2,)
         Guess of the tension vector near the foot.
-    tolerance : float
-        Gap at the head, over the total length, that counts as closed.
 
     Returns
     -------
@@ -95,7 +91,7 @@ def solve_funicular(
         ends, slopes = reach_ends(cable, pull[:, None])
         return ends[:, 0] - head / total, slopes[..., 0]
 
-    minimum = minimise_convex(gap_at_head, start, tolerance=tolerance)
+    minimum = minimise_convex(gap_at_head, start, tolerance=CLOSED)
     converged = minimum.outcome is Outcome.CONVERGED
     pull = minimum.point
     return Funicular(

@@ -113,11 +113,6 @@ class _Problem:
     old: Floats
     bounds: Floats
 
-    @property
-    def elongation(self) -> float:
-        """Length that is left to stretch; the part is slack without it."""
-        return float(self.final.sum() - self.old.sum())
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Point:
@@ -137,7 +132,7 @@ class _Part:
 
 
 def _solve_part(problem: _Problem, max_iterations: int) -> _Part:
-    if problem.elongation <= 0.0:
+    if problem.final.sum() - problem.old.sum() <= 0.0:  # no length to stretch
         return _slacken(problem)
     point = _start_uniform(problem)
     for iteration in range(max_iterations + 1):

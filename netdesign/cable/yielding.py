@@ -206,22 +206,15 @@ def settle_net(
         net = _place_net(given, guess.place, guess.slides)
         guess = replace(guess, place=_take_up(given, net, guess.slides).place)
     settle = _settle if find_core() is None else _settle_compiled
-    end = settle(given, guess)
+    end, lengths, tensions = settle(given, guess)
     sliding = SlidingStep(
-        outcome=Outcome.CONVERGED,
-        lengths=end.lengths,
-        tensions=end.tensions,
-        slides=end.guess.slides,
+        outcome=Outcome.CONVERGED, lengths=lengths, tensions=tensions, slides=end.slides
     )
-    return pull_nodes(join_points(end.guess.place, head), sliding), end.guess
+    return pull_nodes(join_points(end.place, head), sliding), end
 
 
-class _Settled(NamedTuple):
-    """Net and nodes in equilibrium."""
-
-    guess: NetGuess  # to go on from
-    lengths: Floats
-    tensions: Floats
+# Net and nodes in equilibrium: state to go on from, lengths and tensions of segments.
+_Settled = tuple[NetGuess, Floats, Floats]
 
 
 def _settle(given: _Given, guess: NetGuess) -> _Settled:
@@ -241,7 +234,7 @@ def _settle(given: _Given, guess: NetGuess) -> _Settled:
         is_last = part == 1.0 and moved <= _LAST_WAY * chord
         if is_last and net.tensions.min() >= 0.0:
             end = NetGuess(place=net.place, slides=slides, slide_signs=signs)
-            return _Settled(end, net.lengths, net.tensions)
+            return end, net.lengths, net.tensions
     raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
@@ -280,7 +273,7 @@ def _call_core(
     library = find_core()
     assert library is not None
     code = require_sound(library.nd_settle(ctypes.byref(argument), int(may_push)))
-    return code, _Settled(end, lengths, tensions)
+    return code, (end, lengths, tensions)
 
 
 def _loosen(given: _Given, guess: NetGuess) -> NetGuess:

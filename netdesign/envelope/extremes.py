@@ -62,8 +62,6 @@ def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:
     Converged means by outcome, never by arithmetic on missing numbers.
     """
     converged = [result for result in results if result.is_converged]
-    if not converged:
-        return {}
     members = dict.fromkeys(one for result in converged for one in result.member_forces)
     return {member: find_extreme(member, converged) for member in members}
 

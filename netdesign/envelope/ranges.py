@@ -109,16 +109,15 @@ class Ranges:
     @property
     def is_grid(self) -> bool:
         """Some range has a sample count, or none of them is a range at all."""
-        wide = [span for _, span in self.intervals if span.low < span.high]
-        return not wide or any(span.count is not None for span in wide)
+        counts = [self[name].count for name in self.axes]
+        return not counts or any(count is not None for count in counts)
 
     @property
     def grid_cases(self) -> int:
         """Number of cases of the grid; 0 for ranges that are searched."""
         if not self.is_grid:
             return 0
-        wide = [span for _, span in self.intervals if span.low < span.high]
-        return math.prod(span.count or _USUAL_COUNT for span in wide)
+        return math.prod(self[name].count or _USUAL_COUNT for name in self.axes)
 
     @property
     def axes(self) -> tuple[str, ...]:

@@ -45,16 +45,6 @@ class MeasuredPulls:
     source: str = ""
     air_temperatures: tuple[tuple[datetime, float], ...] = ()
 
-    def list_days(self, series: HeightSeries) -> tuple[float, ...]:
-        """Moment of each reading as days since a series began, shape (n,) [d].
-
-        Parameters
-        ----------
-        series : HeightSeries
-            Of the station.
-        """
-        return tuple(map(series.place, self.moments))
-
     def average_days(self, series: HeightSeries) -> Mapping[int, float]:
         """Mean force of each day [N], by its place in a station's series.
 
@@ -217,7 +207,12 @@ def compare_season(
     """
     first, last = season.days.start, season.days.stop
     within = _cut(pulls, series, first, last)
-    warmth = [*_list_station(series), *_list_readings(within, series)]
+    warmth = [
+        (place + _NOON, kelvin)
+        for place, kelvin in enumerate(series.air_temperatures)
+        if kelvin is not None
+    ]
+    warmth += [(series.place(moment), one) for moment, one in within.air_temperatures]
     computed = tuple(
         one
         for day in season.curve
@@ -240,36 +235,17 @@ def _cut(
 ) -> MeasuredPulls:
     """Readings on the days from first to before last."""
 
-    def holds(moment: float) -> bool:
-        return first <= moment < last
+    def holds(moment: datetime) -> bool:
+        return first <= series.place(moment) < last
 
-    kept = [holds(time) for time in pulls.list_days(series)]
-    chosen = [k for k, is_kept in enumerate(kept) if is_kept]
-    air = tuple(
-        (moment, kelvin)
-        for moment, kelvin in pulls.air_temperatures
-        if holds(series.place(moment))
-    )
+    chosen = [k for k, moment in enumerate(pulls.moments) if holds(moment)]
+    air = tuple(one for one in pulls.air_temperatures if holds(one[0]))
     return replace(
         pulls,
         moments=tuple(pulls.moments[k] for k in chosen),
         forces=tuple(pulls.forces[k] for k in chosen),
         air_temperatures=air,
     )
-
-
-def _list_station(series: HeightSeries) -> list[tuple[float, float]]:
-    return [
-        (place + _NOON, kelvin)
-        for place, kelvin in enumerate(series.air_temperatures)
-        if kelvin is not None
-    ]
-
-
-def _list_readings(
-    pulls: MeasuredPulls, series: HeightSeries
-) -> list[tuple[float, float]]:
-    return [(series.place(moment), kelvin) for moment, kelvin in pulls.air_temperatures]
 
 
 def _compute(
@@ -322,7 +298,7 @@ def _count_inside(
     """Share of the readings between force less swing and force plus swing."""
     if not computed:
         return None
-    times = np.array(pulls.list_days(series))
+    times = np.array([series.place(moment) for moment in pulls.moments])
     places = np.array([one.index + _NOON for one in computed])
     known = (times >= places[0]) & (times <= places[-1])
     if not known.any():
