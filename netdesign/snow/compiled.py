@@ -33,7 +33,7 @@ class Described(NamedTuple):
     Attributes
     ----------
     kept : tuple of ndarray, each of any shape
-        Arrays whose addresses the others are.
+        Arrays whose addresses the others are; the plan is the last.
     counts : tuple of int
         Of nodes, triangles, the net's nodes, edges on the ground.
     numbers : tuple of int
@@ -63,13 +63,15 @@ def describe_template(
     library : PyDLL
         The core.
     """
-    plan = plan_template(template, library)
+    nodes = np.ascontiguousarray(template.nodes, dtype=np.float64)
+    triangles = np.ascontiguousarray(template.triangles.T, dtype=np.int32)
+    net = np.ascontiguousarray(template.net, dtype=np.int32)
+    plan = build_plan(library, triangles, nodes, net)
     if plan is None:
         return None
-    triangles = _list_triangles(template)
     numbers = (
         triangles,
-        np.ascontiguousarray(template.net, dtype=np.int32),
+        net,
         np.ascontiguousarray(template.ground, dtype=np.int32),
         _find_edges(template, triangles),
     )
@@ -80,25 +82,6 @@ def describe_template(
         numbers=tuple(locate_all(*numbers)),
         plan=locate(plan),
     )
-
-
-def plan_template(template: MeshTemplate, library: ctypes.PyDLL) -> Words | None:
-    """Plan of a template, of shape (n_words,); None where it is too large.
-
-    Parameters
-    ----------
-    template : MeshTemplate
-        Reference mesh.
-    library : PyDLL
-        The core.
-    """
-    nodes = np.ascontiguousarray(template.nodes, dtype=np.float64)
-    net = np.ascontiguousarray(template.net, dtype=np.int32)
-    return build_plan(library, _list_triangles(template), nodes, net)
-
-
-def _list_triangles(template: MeshTemplate) -> Words:
-    return np.ascontiguousarray(template.triangles.T, dtype=np.int32)
 
 
 def _find_edges(template: MeshTemplate, triangles: Words) -> Words:

@@ -21,6 +21,7 @@ from netdesign.solving.workers import (
     ProcessPool,
     Workers,
     build_workers,
+    find_in_turn,
 )
 from netdesign.words.message import Message, say
 
@@ -100,7 +101,10 @@ class Runner:
             if any(batch.keys().isdisjoint(known) for batch in missing):
                 # else it would be asked for for ever
                 raise KeyError("workers lost a batch")
-        found = [_follow(batch, known) for batch in named]
+        found = [
+            find_in_turn([name for name, _ in batch], known.__getitem__)
+            for batch in named
+        ]
         self.counts.reused += sum(map(len, found)) - (self.counts.solved - solved)
         return found
 
@@ -155,16 +159,6 @@ class Runner:
 
 
 _Named = list[tuple[str, Job]]
-
-
-def _follow(batch: _Named, known: dict[str, CaseEnd]) -> Ends:
-    """Ends of a batch whose cases are known."""
-    ends: Ends = []
-    for name, _ in batch:
-        ends.append(known[name])
-        if is_stuck(ends[-1]):
-            break
-    return ends
 
 
 def _list_missing(

@@ -135,13 +135,22 @@ def _solve(job: Job) -> CaseEnd:
 
 def solve_batch(batch: Batch) -> Ends:
     """Solve the cases of a batch in turn."""
-    return _solve_in_turn(batch, solve_job)
+    return find_in_turn(batch, solve_job)
 
 
-def _solve_in_turn(batch: Batch, solve: Callable[[Job], CaseEnd]) -> Ends:
+def find_in_turn(items: Sequence[Item], find: Callable[[Item], CaseEnd]) -> Ends:
+    """Ends of the cases of a batch up to the first whose snow sticks.
+
+    Parameters
+    ----------
+    items : sequence
+        What stands for each case.
+    find : callable
+        Gives its end.
+    """
     ends: Ends = []
-    for job in batch:
-        ends.append(solve(job))
+    for item in items:
+        ends.append(find(item))
         if is_stuck(ends[-1]):
             break
     return ends
@@ -326,7 +335,7 @@ class DaskCluster:
             except KilledWorker:
                 suspects.append(places[future])
         for place in sorted(suspects):
-            yield place, _solve_in_turn(batches[place], self._try_alone)
+            yield place, find_in_turn(batches[place], self._try_alone)
 
     def _try_alone(self, job: Job) -> CaseEnd:
         from distributed import KilledWorker, as_completed
@@ -446,7 +455,7 @@ def _try_job_by_job(suspects: Sequence[tuple[int, Batch]]) -> Iterator[Arrival]:
 
     try:
         for place, batch in suspects:
-            yield place, _solve_in_turn(batch, try_alone)
+            yield place, find_in_turn(batch, try_alone)
     finally:
         if pool is not None:
             _stop(pool)

@@ -5,7 +5,7 @@ import pytest
 
 from netdesign.core.library import find_core
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow.compiled import plan_template
+from netdesign.snow.compiled import describe_template
 from netdesign.snow.mesh import build_template
 
 HEAD, RECORD = 9, 5  # words, as in core.h
@@ -14,7 +14,7 @@ NEEDS_CORE = pytest.mark.skipif(find_core() is None, reason="no compiled core")
 
 def read_fronts(template):
     """Pivots, size, and triangles of each front; nodes have two unknowns."""
-    plan = plan_template(template, find_core())
+    plan = describe_template(template, find_core()).kept[-1]
     records = plan[HEAD : HEAD + RECORD * plan[4]].reshape(-1, RECORD)
     return records[:, [0, 1, 3]].T
 

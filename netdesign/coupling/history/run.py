@@ -19,6 +19,7 @@ from netdesign.coupling.moments import (
     largest_pull,
     select_counted,
 )
+from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
 from netdesign.numerics.arrays import Floats, Mask
@@ -172,8 +173,7 @@ def scale_history(run: Run, scene: Scene) -> History:
 def build_solution(
     scene: Scene,
     runs: Sequence[Run],
-    foot: EndPull,
-    head: EndPull,
+    pulls: Sequence[Estimate],
     method: Method,
     balance_tolerance: float,
     friction_tolerance: float | None = None,
@@ -186,8 +186,8 @@ def build_solution(
         What was solved.
     runs : sequence of Run
         Of all meshes; the finest is the last.
-    foot, head : EndPull
-        Largest pulls with their errors.
+    pulls : sequence of Estimate
+        Largest on foot and head, with their errors [rho g d^2].
     method : str
         ``transient`` or ``staggered``.
     balance_tolerance : float
@@ -201,6 +201,7 @@ def build_solution(
         If a balance is not met.
     """
     run = runs[-1]
+    foot, head = (EndPull.of_estimate(one, scene.force_scale) for one in pulls)
     thickness, body = scene.snowpack.thickness, run.state.body
     template = body.topology.template
     vertices = body.vertices

@@ -44,7 +44,6 @@ from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
-    EndPull,
     FailedSolution,
     OnFailure,
     Solution,
@@ -111,19 +110,9 @@ def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
 def _halve(scene: Scene, settings: StaggeredSettings) -> Solution:
     half = replace(settings, step_share=settings.step_share / 2.0)
     runs = [run_exchange(scene, settings), run_exchange(scene, half)]
-    foot, head = (
-        EndPull.of_estimate(one, scene.force_scale)
-        for one in _ERROR.estimate([measure_run(run) for run in runs])
-    )
-    return build_solution(
-        scene,
-        runs,
-        foot,
-        head,
-        "staggered",
-        _BALANCE_TOLERANCE,
-        _FRICTION_TOLERANCE,
-    )
+    pulls = _ERROR.estimate([measure_run(run) for run in runs])
+    tolerances = _BALANCE_TOLERANCE, _FRICTION_TOLERANCE
+    return build_solution(scene, runs, pulls, "staggered", *tolerances)
 
 
 def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:

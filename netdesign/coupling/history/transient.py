@@ -38,7 +38,6 @@ from netdesign.coupling.moments import (
 from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
-    EndPull,
     FailedSolution,
     OnFailure,
     Solution,
@@ -330,12 +329,5 @@ def _refine(scene: Scene, settings: TransientSettings) -> Solution:
         _ERROR,
     )
     # the largest pulls come first
-    foot, head = (EndPull.of_estimate(one, scene.force_scale) for one in estimates[:2])
-    return build_solution(
-        scene,
-        runs,
-        foot,
-        head,
-        "transient",
-        _WHOLE_BALANCE * settings.balance_tolerance,
-    )
+    tolerance = _WHOLE_BALANCE * settings.balance_tolerance
+    return build_solution(scene, runs, estimates[:2], "transient", tolerance)

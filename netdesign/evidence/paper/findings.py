@@ -124,13 +124,13 @@ def list_findings(study: PaperStudy) -> list[Finding]:
     ]
 
 
-def count_swings(values: Floats, least: float = LEAST_SWING) -> int:
-    """Times that a force turns back by more than ``least`` of its largest size.
+def count_swings(values: Floats) -> int:
+    """Times that a force turns back by more than ``LEAST_SWING`` of its largest size.
 
     >>> count_swings(np.array([0.0, 1.0, 0.5, 1.0, 0.999, 1.0]))
     2
     """
-    amount = least * float(np.abs(values).max(initial=0.0))
+    amount = LEAST_SWING * float(np.abs(values).max(initial=0.0))
     swings, direction, extreme = 0, 0, float(values[0])
     for value in values.tolist():
         if direction >= 0 and value < extreme - amount:

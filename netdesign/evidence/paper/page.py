@@ -247,7 +247,7 @@ def render_paper(study: PaperStudy, language: Language = "en") -> dict[str, byte
     files |= {f"{listed.name}.csv": listed.render() for listed in tables}
     for run in study.runs.values():
         if run.track is not None:
-            files[f"{name_history(run)}.csv"] = write_track(run)
+            files[f"{name_history(run)}.csv"] = write_track(run.track)
     return files
 
 
@@ -268,11 +268,8 @@ def name_history(run: PaperRun) -> str:
     return "-".join(part for part in parts if part)
 
 
-def write_track(run: PaperRun) -> bytes:
+def write_track(track: Track) -> bytes:
     """History of a run: pulls, forces of the net on two nodes, largest density."""
-    track = run.track
-    if track is None:
-        return b""
     low, high = (f"{height:.2f}m" for height in track.heights)
     columns = (
         track.times,
