@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from netdesign.coupling.scene import Scene
-    from netdesign.coupling.steady.solve import PullBound
+    from netdesign.coupling.solution import Solution
     from netdesign.files.scene import GivenScene
     from netdesign.report.page.solution_page import Solved
     from netdesign.solving.solve import Settings
@@ -114,7 +114,7 @@ def _resolve_support(
 
 def _bound_refused(
     scene: Scene, settings: Settings, solution: object
-) -> PullBound | None:
+) -> Solution | None:
     """Bound on the pulls of a net without a steady state; None if it has one."""
     from netdesign.coupling.scene import SolverSettings
     from netdesign.coupling.solution import FailedSolution

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from netdesign import __version__
+from netdesign.cable.net import Net
 from netdesign.core.library import name_core
 from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
@@ -33,9 +34,6 @@ from netdesign.units import (
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
-if TYPE_CHECKING:
-    from netdesign.coupling.steady.solve import PullBound
-
 SOLUTION_SCHEMA = "netdesign.solution/1"
 _NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
 
@@ -44,7 +42,7 @@ def write_solution_document(
     solution: Solution | WallSolution | FailedSolution,
     settings: Settings,
     wall_s: float,
-    bound: PullBound | None = None,
+    bound: Solution | None = None,
     language: Language = "en",
     support: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
@@ -87,11 +85,12 @@ def write_solution_document(
     }
 
 
-def _write_bound(bound: PullBound) -> dict[str, float]:
+def _write_bound(bound: Solution) -> dict[str, float]:
     """Pulls that a refused net stays below: those of the same net with this slack."""
+    assert isinstance(bound.scene.net, Net)
     ends = {"foot": bound.foot, "head": bound.head}
     return {
-        "slack": bound.slack,
+        "slack": bound.scene.net.slack,
         **{
             f"{end}_kN_per_m": kilonewton_from_newton(pull.size + pull.error)
             for end, pull in ends.items()

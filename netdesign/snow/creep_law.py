@@ -427,6 +427,31 @@ def compute_fluidity(temperature: float) -> float:
     return 2.0 * rate_factor * math.exp(-energy / (_GAS_CONSTANT * temperature))
 
 
+def compute_confined_softness(law: CreepLaw, density: float) -> float:
+    """Share of (N25) that the set has: strain rate over B and the stress to the n.
+
+    Parameters
+    ----------
+    law : CreepLaw
+        Set of a(D), b(D), n.
+    density : float
+        [kg/m3].
+
+    Returns
+    -------
+    float
+        Of snow that shortens in one direction alone [-].
+
+    Raises
+    ------
+    ModelError
+        If the density is not that of snow.
+    """
+    relative = density / ICE_DENSITY
+    a, b = compute_shear_factor(law, relative), compute_bulk_factor(law, relative)
+    return float((4.0 / (3.0 * a) + 1.0 / b) ** (-(law.exponent + 1.0) / 2.0))
+
+
 def compute_settling_fluidity(law: CreepLaw, density: float, stress: float) -> float:
     """Fluidity at which snow under a stress settles as at stations, (N25) = (N26).
 
@@ -451,8 +476,6 @@ def compute_settling_fluidity(law: CreepLaw, density: float, stress: float) -> f
     """
     require_positive("density", density, "kg/m3")
     require_positive("stress", stress, "Pa")
-    relative = density / ICE_DENSITY
-    a, b = compute_shear_factor(law, relative), compute_bulk_factor(law, relative)
-    softness = (4.0 / (3.0 * a) + 1.0 / b) ** (-(law.exponent + 1.0) / 2.0)
+    softness = compute_confined_softness(law, density)
     rate = stress / (_SETTLING_VISCOSITY * math.exp(_STIFFENING * density))
     return float(rate / (stress**law.exponent * softness))

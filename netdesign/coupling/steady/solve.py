@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -273,27 +273,10 @@ def _build_solution(
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PullBound:
-    """Pulls of the same net with less slack; its own are smaller.
+def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> Solution | None:
+    """A refused scene with the most slack that is solved: its own pulls are smaller.
 
     Less slack is less sag, and a flatter net pulls more: coupling/THEORY.md, section 2.
-
-    Attributes
-    ----------
-    slack : float
-        Of the net that was solved [-].
-    foot, head : EndPull
-        Its pulls.
-    """
-
-    slack: float
-    foot: EndPull
-    head: EndPull
-
-
-def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> PullBound | None:
-    """Pulls of a refused scene with the most slack that is solved.
 
     Parameters
     ----------
@@ -304,7 +287,7 @@ def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> PullBound | N
 
     Returns
     -------
-    PullBound or None
+    Solution or None
         None if the net has no slack, or none of the tautened nets is solved.
 
     Verified by
@@ -314,9 +297,9 @@ def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> PullBound | N
     net = scene.net
     if not isinstance(net, Net) or net.slack == 0.0:
         return None
-    for slack in (share * net.slack for share in _SLACK_SHARES):
-        tauter = replace(scene, net=replace(net, slack=slack))
-        solution = solve_steady(tauter, settings)
+    for share in _SLACK_SHARES:
+        tauter = replace(net, slack=share * net.slack)
+        solution = solve_steady(replace(scene, net=tauter), settings)
         if isinstance(solution, Solution):
-            return PullBound(slack=slack, foot=solution.foot, head=solution.head)
+            return solution
     return None

@@ -29,6 +29,7 @@ from netdesign.outcome import SolveError
 from netdesign.snow.creep_law import ICE_DENSITY, PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import GravityMode
+from netdesign.snow.triangulation import measure_twice_areas
 from netdesign.units import second_from_day
 from netdesign.words.message import Message, say
 
@@ -252,9 +253,7 @@ class Shape:
     @property
     def mean_density(self) -> float:
         """Mean density over the snow's area [kg/m3]."""
-        first, second, third = self.nodes[:, self.triangles].transpose(1, 0, 2)
-        one, other = second - first, third - first
-        areas = np.abs(one[0] * other[1] - one[1] * other[0])
+        areas = np.abs(measure_twice_areas(self.nodes.T[self.triangles.T]))
         return float((self.density * areas).sum() / areas.sum())
 
 

@@ -19,8 +19,7 @@ from netdesign.snow.creep_law import (
     ICE_DENSITY,
     PAPER_FLUIDITY,
     CreepLaw,
-    compute_bulk_factor,
-    compute_shear_factor,
+    compute_confined_softness,
 )
 from netdesign.snow.ground import GroundKind, GroundLaw
 from netdesign.snowpack.hs2swe import Hs2swe
@@ -92,13 +91,8 @@ def compute_viscosity(law: CreepLaw, density: float, stress: float) -> float:
     stress : float
         Across the layer, positive [Pa].
     """
-    relative = density / ICE_DENSITY
-    a, b = compute_shear_factor(law, relative), compute_bulk_factor(law, relative)
-    n = law.exponent
-    rate = (
-        PAPER_FLUIDITY * stress**n * (4.0 / (3.0 * a) + 1.0 / b) ** (-(n + 1.0) / 2.0)
-    )
-    return float(stress / rate)
+    softness = compute_confined_softness(law, density)
+    return float(stress / (PAPER_FLUIDITY * stress**law.exponent * softness))
 
 
 def find_middle(density: float) -> float:
