@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
     from netdesign.numerics.arrays import Floats
     from netdesign.study.layout import GivenZone, Proposed
-    from netdesign.study.parts import Prices
     from netdesign.study.records import Study
     from netdesign.terrain.grid import Grid
 
