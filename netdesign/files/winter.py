@@ -37,29 +37,12 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 
-def write_measured(
-    site: Site,
-    row_id: str,
-    compared: Sequence[Comparison],
-    series: HeightSeries,
-    language: Language = "en",
+def _write_measured(
+    run: WinterRun, row_id: str, compared: Sequence[Comparison], language: Language
 ) -> dict[str, Any]:
-    """Parts ``measured`` and ``not_compared`` of a row of the winter document.
-
-    Parameters
-    ----------
-    site : Site
-        With what was measured.
-    row_id : str
-        Of the row.
-    compared : sequence of Comparison
-        Of the row.
-    series : HeightSeries
-        Of the station.
-    language : str
-        Of the sentences.
-    """
-    unused = explain_unused(site, row_id, compared)
+    """Parts ``measured`` and ``not_compared`` of a row, by its comparisons."""
+    series = run.winter.series
+    unused = explain_unused(run.site, row_id, compared)
     return {
         "measured": [_write_compared(one, series) for one in compared if one.computed],
         "not_compared": [render(one, language) for one in unused],
@@ -178,7 +161,7 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
         "air_temperatures_C": _write_temperatures(station),
         "rows": [
             _write_row(row, result, run, language)
-            | write_measured(run.site, row.id, compared, station.series, language)
+            | _write_measured(run, row.id, compared, language)
             for row, result, compared in zip(
                 run.rows, run.results, run.compared, strict=True
             )
