@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -185,17 +186,13 @@ def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
     try:
         return build_given(SceneFile.model_validate(tables), method)
     except ValidationError as error:
-        lines = [
-            say("text.at_place", place=str(path), text=_describe(fault))
-            for fault in error.errors()
-        ]
-        raise SceneFileError(list_faults(lines)) from None
+        faults: Sequence[Message | str] = [_describe(fault) for fault in error.errors()]
     except ModelError as error:
         told = error.message
         given = told.arguments.get("lines") if told.key == "text.lines" else None
-        several = given if isinstance(given, tuple) else (told,)
-        lines = [say("text.at_place", place=str(path), text=one) for one in several]
-        raise SceneFileError(list_faults(lines)) from None
+        faults = given if isinstance(given, tuple) else (told,)
+    lines = [say("text.at_place", place=str(path), text=one) for one in faults]
+    raise SceneFileError(list_faults(lines))
 
 
 def build_given(file: SceneFile, method: Method | None = None) -> GivenScene:
