@@ -127,6 +127,7 @@ def _measure(
     asked: Mapping[str, Any],
 ) -> None:
     """Measure the rows, tell what was found, and write it."""
+    from netdesign.terrain.geojson import list_row_features
     from netdesign.terrain.measure import measure_plan
     from netdesign.terrain.plan import read_plan
     from netdesign.terrain.site_lines import write_workbook
@@ -139,7 +140,7 @@ def _measure(
             ground, plan, most=asked["most"], on_row=on_row
         )
     coverage = _cover(surface, plan, measured, asked["standard"])
-    features = _list_features(grid, plan, measured)
+    features = list_row_features(measured, plan.zones, grid.name, _hash_grid(grid))
     if asked["as_json"]:
         print_document(_describe(features, coverage, surface.noise))
     else:
@@ -173,14 +174,6 @@ def _hash_grid(grid: Path) -> str:
     return hashlib.sha256(grid.read_bytes()).hexdigest()
 
 
-def _list_features(
-    grid: Path, plan: Plan, measured: Sequence[MeasuredRow]
-) -> list[Feature]:
-    from netdesign.terrain.geojson import list_row_features
-
-    return list_row_features(measured, plan.zones, grid.name, _hash_grid(grid))
-
-
 def render_measured(
     grid: Path,
     crs: str,
@@ -191,12 +184,13 @@ def render_measured(
 ) -> dict[str, bytes]:
     """Map and page of rows measured on a grid, by the names of their files."""
     from netdesign.report.page.terrain_page import PAGE_FILE, render_terrain
-    from netdesign.terrain.geojson import write_features
+    from netdesign.terrain.geojson import list_row_features, write_features
 
     origin = (grid.name, _hash_grid(grid))
+    features = list_row_features(measured, plan.zones, *origin)
     shown = (surface, plan, measured, coverage, origin, speak())
     return {
-        ROWS_FILE: write_features(_list_features(grid, plan, measured), crs),
+        ROWS_FILE: write_features(features, crs),
         PAGE_FILE: render_terrain(*shown),
     }
 
