@@ -103,8 +103,8 @@ def _write_parameters(fitted: SeasonFit) -> list[dict[str, Any]]:
             "name": one.name,
             "unit": _UNITS.get(one.name, ""),
             "deviation_of": "logarithm" if one.name in LOGARITHMIC else "value",
-            "prior": _show(one.name, one.mean),
-            "prior_deviation": _scale(one, one.deviation),
+            "prior": _in_unit(one.name, show_value(one.name, one.mean)),
+            "prior_deviation": _in_unit(one.name, one.deviation),
             **_write_posterior(fitted, one, float(value), float(deviation)),
             "is_constrained": fitted.is_fitted and one.name not in loose,
         }
@@ -119,21 +119,15 @@ def _write_posterior(
     if not fitted.is_fitted:
         return {"posterior": None, "posterior_deviation": None, "is_at_end": False}
     return {
-        "posterior": _show(one.name, value),
-        "posterior_deviation": _known(_scale(one, deviation)),
+        "posterior": _in_unit(one.name, show_value(one.name, value)),
+        "posterior_deviation": _known(_in_unit(one.name, deviation)),
         "is_at_end": one.is_at_end(value),
     }
 
 
-def _show(name: str, value: float) -> float:
-    shown = show_value(name, value)
-    return degree_from_radian(shown) if _UNITS.get(name) == "deg" else shown
-
-
-def _scale(one: Parameter, deviation: float) -> float:
-    """Deviation in the unit of the value; of a logarithm as it is."""
-    is_angle = _UNITS.get(one.name) == "deg"
-    return degree_from_radian(deviation) if is_angle else deviation
+def _in_unit(name: str, value: float) -> float:
+    """Value or deviation in the unit that is shown; of a logarithm as it is."""
+    return degree_from_radian(value) if _UNITS.get(name) == "deg" else value
 
 
 def _write_correlations(fitted: SeasonFit) -> list[list[float]]:
