@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, freeze
 from netdesign.numerics.newton import minimise_convex
 from netdesign.outcome import Outcome
 
@@ -148,9 +148,7 @@ def linearise_curve(
 def _offset_units(count: int) -> Floats:
     """Offsets of a unit force at each node, shape (2 n_nodes, 2, 2, n_elements)."""
     loads = np.eye(2 * count).reshape(2 * count, 2, count)
-    offsets = tension_offsets(loads, -0.75 * loads[..., 1::2])
-    offsets.setflags(write=False)
-    return offsets
+    return freeze(tension_offsets(loads, -0.75 * loads[..., 1::2]))
 
 
 def tension_offsets(forces: Floats, bend: Floats) -> Floats:

@@ -29,7 +29,7 @@ from netdesign.cable.sliding import SlidingStep
 from netdesign.cable.tension import join_points
 from netdesign.core.arguments import YieldingArgument, locate_all, to_floats
 from netdesign.core.library import find_core, require_sound
-from netdesign.numerics.arrays import Floats, Mask, Signs
+from netdesign.numerics.arrays import Floats, Mask, Signs, freeze
 from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
 
@@ -317,9 +317,7 @@ def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
 @lru_cache(maxsize=64)
 def _difference(count: int) -> Floats:
     """Differences (count + 1, count) over segments of what foot and head do not do."""
-    matrix = np.eye(count + 1, count) - np.eye(count + 1, count, -1)
-    matrix.setflags(write=False)
-    return matrix
+    return freeze(np.eye(count + 1, count) - np.eye(count + 1, count, -1))
 
 
 def _find_slack(stretch: Floats, share: Floats) -> Mask:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from netdesign.cable.net import Net
@@ -176,11 +177,8 @@ class Scene:
     @property
     def layer_tops(self) -> tuple[float, ...]:
         """Heights of the interfaces between layers over the thickness."""
-        tops, height = [], 0.0
-        for layer in self.snowpack.layers[:-1]:
-            height += layer.thickness
-            tops.append(height / self.snowpack.thickness)
-        return tuple(tops)
+        heights = accumulate(layer.thickness for layer in self.snowpack.layers[:-1])
+        return tuple(height / self.snowpack.thickness for height in heights)
 
     @property
     def flow_problem(self) -> FlowProblem:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,23 @@ Mask = NDArray[np.bool_]
 Signs = NDArray[np.int8]  # 1, 0 or -1
 # One number, or an array of them: what a formula takes that stands once for both.
 Number = TypeVar("Number", float, Floats)
+
+
+def freeze(array: NDArray[Any]) -> NDArray[Any]:
+    """The array itself, which nobody can change any more: it is kept for many.
+
+    Parameters
+    ----------
+    array : ndarray, any shape
+        Any unit.
+
+    Returns
+    -------
+    ndarray, of that shape
+        In that unit.
+    """
+    array.setflags(write=False)
+    return array
 
 
 def gather(places: Ints, values: Floats, size: int) -> Floats:

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.numerics.arrays import Floats, Ints, Mask, freeze
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
@@ -125,9 +125,7 @@ def may_lift(template: MeshTemplate) -> Mask:
         Of the ground's nodes but the foot.
     """
     end = max(template.aspect - 1.0, template.aspect / 2.0)
-    lifts = np.asarray(template.nodes[0, template.ground[1:]] < end)
-    lifts.setflags(write=False)  # many states share it
-    return lifts
+    return freeze(template.nodes[0, template.ground[1:]] < end)
 
 
 def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Contact:

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.arrays import Floats, Ints, freeze
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.shared_mesh import find_once
 
@@ -155,8 +155,7 @@ def list_dofs(template: MeshTemplate, element: Element) -> Ints:
     if element == "mixed":
         pressures = 2 * template.nodes.shape[1] + template.triangles[:3].T
         dofs = np.hstack([dofs, pressures])
-    dofs.setflags(write=False)
-    return dofs
+    return freeze(dofs)
 
 
 def add_pressure_rows(strain: Floats) -> Floats:

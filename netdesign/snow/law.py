@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, freeze
 from netdesign.snow.element import Element, interpolate_reference
 from netdesign.snow.ground import GroundKind
 from netdesign.snow.mesh import MeshTemplate
@@ -158,15 +158,12 @@ def sample_material(problem: FlowProblem, template: MeshTemplate | None) -> Mate
     tops = np.array([layer.top for layer in problem.layers[:-1]])
     index = np.searchsorted(tops, interpolate_reference(template)[1])
     fields = ("bulk_ratio", "fluidity_ratio", "density")
-    sampled = Material(
+    return Material(
         *(
-            np.array([getattr(layer, name) for layer in problem.layers])[index]
+            freeze(np.array([getattr(layer, name) for layer in problem.layers])[index])
             for name in fields
         )
     )
-    for values in sampled:
-        np.asarray(values).setflags(write=False)  # many states share them
-    return sampled
 
 
 def linearise_creep(

@@ -13,12 +13,10 @@ from collections import defaultdict
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.numerics.arrays import Floats, Ints, Mask, freeze
 from netdesign.outcome import require_positive, require_within
 from netdesign.snow.triangulation import (
     Triangulation,
@@ -233,14 +231,14 @@ def _build_mesh(
     nodes[1, ground], nodes[0, upstream] = 0.0, aspect
     nodes[1, surface], nodes[0, net] = 1.0, 0.0
     return MeshTemplate(
-        nodes=_frozen(nodes),
-        triangles=_frozen(mesh.triangles),
-        orientation=_frozen(orientation),
-        edges=_frozen(mesh.edges),
-        net=_frozen(net[::-1].copy()),
-        ground=_frozen(ground),
-        surface=_frozen(surface[::-1].copy()),
-        upstream=_frozen(upstream),
+        nodes=freeze(nodes),
+        triangles=freeze(mesh.triangles),
+        orientation=freeze(orientation),
+        edges=freeze(mesh.edges),
+        net=freeze(net[::-1].copy()),
+        ground=freeze(ground),
+        surface=freeze(surface[::-1].copy()),
+        upstream=freeze(upstream),
         aspect=aspect,
         interfaces=interfaces,
     )
@@ -315,7 +313,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
 def follow_net(template: MeshTemplate) -> Floats:
     """Share of the net's displacement that each node takes, shape (n_nodes,)."""
     reach = min(NET_FOLLOWED, template.aspect)
-    return _frozen(np.maximum(0.0, 1.0 - template.nodes[0] / reach))
+    return freeze(np.maximum(0.0, 1.0 - template.nodes[0] / reach))
 
 
 def edge_triples(chain: Ints) -> tuple[Ints, Ints, Ints]:
@@ -404,7 +402,7 @@ def _column_points(
 @lru_cache(maxsize=256)
 def _divide(below: float, above: float, rows: int) -> Floats:
     """Heights of so many equal rows, without the lowest."""
-    return _frozen(np.linspace(below, above, rows + 1)[1:])
+    return freeze(np.linspace(below, above, rows + 1)[1:])
 
 
 def _sort_out(points: Floats) -> Floats:
@@ -487,8 +485,3 @@ def _is_clear(points: Floats, line: Floats) -> Mask:
     off = np.abs(points[:, 1] - line[0, 1])
     radius = radii[nearest]
     return np.asarray((distance > radius * (1.0 + 1e-9)) & (off > _LEAST_OFF * radius))
-
-
-def _frozen(array: NDArray[Any]) -> NDArray[Any]:
-    array.setflags(write=False)
-    return array

@@ -12,7 +12,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Ints, gather
+from netdesign.numerics.arrays import Floats, Ints, freeze, gather
 from netdesign.snow.element import (
     Element,
     add_pressure_rows,
@@ -258,8 +258,7 @@ def _weigh_tangents(count: int) -> Floats:
     weights = np.zeros((count, count))
     for first in range(0, count - 2, 2):
         weights[first : first + 3, first : first + 3] += EDGE_TANGENT
-    weights.setflags(write=False)
-    return weights
+    return freeze(weights)
 
 
 def _build_base(template: MeshTemplate, nodes: Floats) -> BaseEdges:
@@ -278,6 +277,4 @@ def _list_edges(template: MeshTemplate) -> tuple[Ints, Ints]:
         np.column_stack(edge_triples(chain))
         for chain in (template.net, template.ground)
     )
-    along = 2 * ground
-    along.setflags(write=False)
-    return net, along
+    return net, freeze(2 * ground)

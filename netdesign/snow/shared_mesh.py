@@ -15,6 +15,7 @@ from typing import Concatenate, ParamSpec, TypeVar, cast
 
 import numpy as np
 
+from netdesign.numerics.arrays import freeze
 from netdesign.snow.mesh import (
     BESIDE,
     MeshSize,
@@ -92,8 +93,7 @@ def stretch_template(template: MeshTemplate, aspect: float) -> MeshTemplate:
     nodes[0, template.upstream] = aspect
     start, end = template.edges
     nodes[0, template.n_vertices :] = (nodes[0, start] + nodes[0, end]) / 2.0
-    nodes.setflags(write=False)
-    return replace(template, nodes=nodes, aspect=aspect, source=template.origin)
+    return replace(template, nodes=freeze(nodes), aspect=aspect, source=template.origin)
 
 
 def find_once(

@@ -21,7 +21,7 @@ from netdesign.coupling.history.snow import (
     SnowIterate,
 )
 from netdesign.coupling.history.state import TransientProblem, TransientState
-from netdesign.numerics.arrays import Floats, Ints, Mask, gather
+from netdesign.numerics.arrays import Floats, Ints, Mask, freeze, gather
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.body import SnowBody, build_material
 from netdesign.snow.element import reference_element
@@ -217,8 +217,7 @@ def _spread(count: int) -> Floats:
     spread[2 * vertices, vertices] = 1.0
     spread[2 * vertices[1:] - 1, vertices[1:]] = 0.5
     spread[2 * vertices[1:] - 1, vertices[:-1]] = 0.5
-    spread.setflags(write=False)
-    return spread
+    return freeze(spread)
 
 
 class NetAnswer(NamedTuple):
