@@ -9,7 +9,6 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from statistics import quantiles
-from types import TracebackType
 from typing import TypeVar
 
 import numpy as np
@@ -44,12 +43,7 @@ class Clock:
         self._wall, self._cpu = time.perf_counter(), _read_cpu()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Stop."""
         self.wall_s = time.perf_counter() - self._wall
         self.cpu_s = _read_cpu() - self._cpu

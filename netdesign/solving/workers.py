@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -317,8 +317,15 @@ class DaskCluster:
         ClusterError
             If the connection to the scheduler is lost, or it has no workers.
         """
-        with _naming_loss(self._address):
+        from distributed import CancelledError
+        from distributed.comm import CommClosedError
+
+        try:
             yield from self._solve(batches)
+        except (CancelledError, CommClosedError) as error:  # Dask cancels its tasks
+            kind = type(error).__name__
+            lost = say("cluster.lost", address=self._address, kind=kind)
+            raise ClusterError(lost) from None
 
     def _solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         from distributed import KilledWorker, as_completed
@@ -407,20 +414,6 @@ def _require_answer(address: str) -> None:
         socket.create_connection((host.strip("[]"), int(port)), _REACH_S).close()
     except (OSError, ValueError) as error:
         raise _name_silence(address, error) from None
-
-
-@contextmanager
-def _naming_loss(address: str) -> Iterator[None]:
-    """Raise a ClusterError where the scheduler is gone: Dask just cancels its tasks."""
-    from distributed import CancelledError
-    from distributed.comm import CommClosedError
-
-    try:
-        yield
-    except (CancelledError, CommClosedError) as error:
-        raise ClusterError(
-            say("cluster.lost", address=address, kind=type(error).__name__)
-        ) from None
 
 
 def _name_silence(address: str, error: Exception) -> ClusterError:
