@@ -344,6 +344,24 @@ def end_solve(
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
 
 
+def require_solved(solution: Found | FailedSolution) -> Found:
+    """The solution itself, if it is one.
+
+    Parameters
+    ----------
+    solution : Solution, WallSolution or FailedSolution
+        Of any solve.
+
+    Raises
+    ------
+    SolveError
+        With outcome and reason of the failure.
+    """
+    if isinstance(solution, FailedSolution):
+        raise SolveError(solution.outcome, solution.reason)
+    return solution
+
+
 def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:
     """Snow density of the triangles of a mesh that has not moved [kg/m3].
 

@@ -7,10 +7,9 @@ from dataclasses import replace
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
+from netdesign.coupling.solution import Solution, WallSolution, require_solved
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.outcome import SolveError
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import (
     GravityMode,
@@ -85,9 +84,7 @@ def solve(scene: Scene, settings: SolverSettings) -> Solution:
     SolveError
         If it has none.
     """
-    solution = solve_steady(scene, settings, on_failure="raise")
-    assert isinstance(solution, Solution)
-    return solution
+    return require_solved(solve_steady(scene, settings, on_failure="raise"))
 
 
 def solve_wall(
@@ -114,7 +111,4 @@ def solve_wall(
         inclination=scene.net.inclination,
         friction_angle=friction_angle,
     )
-    solution = solve_rigid(replace(scene, net=wall), settings)
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
-    return solution
+    return require_solved(solve_rigid(replace(scene, net=wall), settings))

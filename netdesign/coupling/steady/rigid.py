@@ -24,6 +24,7 @@ from netdesign.coupling.solution import (
     WallSolution,
     end_solve,
     list_skipped,
+    require_solved,
     triangle_density,
 )
 from netdesign.outcome import Outcome, SolveError
@@ -196,7 +197,4 @@ def _wall_force(law: CreepLaw, ground: GroundLaw) -> float:
         net=Wall(height_normal=_THICKNESS),
         creep_law=law,
     )
-    solution = solve_rigid(scene, _FINE)
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
-    return solution.force.x
+    return require_solved(solve_rigid(scene, _FINE)).force.x

@@ -25,7 +25,7 @@ from netdesign import __version__
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.coupling.history.transient import solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.solution import FailedSolution, Solution, require_solved
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.benchmark import reference_path
 from netdesign.evidence.benchmark.truth import (
@@ -42,7 +42,6 @@ from netdesign.evidence.runner import (
     summarise_times,
 )
 from netdesign.evidence.table import show_document, show_rows
-from netdesign.outcome import SolveError
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -158,9 +157,7 @@ def _measure(
 
 def _observe(solve: Solve) -> tuple[Solution, float]:
     """Solution, and the memory that a second, warm solve takes [MB]."""
-    solution = solve()
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
+    solution = require_solved(solve())
     tracemalloc.start()
     try:
         solve()

@@ -10,7 +10,12 @@ from numpy.typing import NDArray
 from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    EndPull,
+    FailedSolution,
+    Solution,
+    require_solved,
+)
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize
@@ -98,19 +103,9 @@ def _solve_finest(scene: Scene, settings: SolverSettings) -> Truth:
         if refusal.held is None:
             raise
         solution = refusal.held
-    truth = build_truth(solution)
-    assert isinstance(solution, Solution)
-    _require_finest(solution, settings.levels[-1])
-    return truth
-
-
-def _require_finest(solution: Solution, size: MeshSize) -> None:
-    """A result that was left to a coarser mesh is no truth."""
-    template = share_template(
-        solution.scene.modelled_aspect, size, solution.scene.layer_tops
-    )
-    if solution.cost.elements != template.triangles.shape[1]:
-        raise SolveError(Outcome.MAX_ITERATIONS)
+    if not _is_on(settings.levels[-1], require_solved(solution)):
+        raise SolveError(Outcome.MAX_ITERATIONS)  # left to a coarser mesh
+    return build_truth(solution)
 
 
 def build_truth(solution: Solution | FailedSolution) -> Truth:
@@ -121,9 +116,8 @@ def build_truth(solution: Solution | FailedSolution) -> Truth:
     SolveError
         If it has failed.
     """
-    if isinstance(solution, FailedSolution):
-        raise SolveError(solution.outcome, solution.reason)
-    return Truth(foot=_vector(solution.foot), head=_vector(solution.head))
+    solved = require_solved(solution)
+    return Truth(foot=_vector(solved.foot), head=_vector(solved.head))
 
 
 def refine_size(size: MeshSize, times: int) -> MeshSize:
@@ -133,12 +127,14 @@ def refine_size(size: MeshSize, times: int) -> MeshSize:
 
 def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:
     """Level whose mesh a solution was found on, by its number of triangles."""
-    aspect = solution.scene.modelled_aspect
-    for level in levels:
-        template = share_template(aspect, level, solution.scene.layer_tops)
-        if template.triangles.shape[1] == solution.cost.elements:
-            return level
-    return levels[-1]
+    return next((one for one in levels if _is_on(one, solution)), levels[-1])
+
+
+def _is_on(size: MeshSize, solution: Solution) -> bool:
+    """A mesh of this size has as many triangles as that of a solution."""
+    scene = solution.scene
+    template = share_template(scene.modelled_aspect, size, scene.layer_tops)
+    return bool(template.triangles.shape[1] == solution.cost.elements)
 
 
 def state_error(solution: Solution) -> float:
