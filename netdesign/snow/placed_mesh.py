@@ -164,7 +164,10 @@ class PlacedMesh:
     @cached_property
     def base(self) -> BaseEdges:
         """Quadrature on the ground."""
-        return _build_base(self.template, self.nodes)
+        ends = self.nodes[0, self.template.ground[::2]]
+        half = np.abs(ends[1:] - ends[:-1]) / 2.0
+        dofs = _list_edges(self.template)[1]
+        return BaseEdges(dofs=dofs, weights=half[:, None] * EDGE_WEIGHTS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -259,15 +262,6 @@ def _weigh_tangents(count: int) -> Floats:
     for first in range(0, count - 2, 2):
         weights[first : first + 3, first : first + 3] += EDGE_TANGENT
     return freeze(weights)
-
-
-def _build_base(template: MeshTemplate, nodes: Floats) -> BaseEdges:
-    ends = nodes[0, template.ground[::2]]
-    half = np.abs(ends[1:] - ends[:-1]) / 2.0
-    return BaseEdges(
-        dofs=_list_edges(template)[1],
-        weights=half[:, None] * EDGE_WEIGHTS,
-    )
 
 
 @find_once

@@ -80,7 +80,10 @@ def correct_round(
     """
     if last is not None and last.may_halve and taken.moved > last.moved:
         return last.halve()
-    tangent = _find_tangent(problem, taken) if carried is None else carried
+    tangent = carried
+    if tangent is None:
+        with suppress(SingularError):
+            tangent = linearise_round(problem, taken)
     return Correction(
         curve=taken.curve,
         moved=taken.moved,
@@ -112,12 +115,6 @@ def carry_tangent(tangent: Floats, known: Floats, wanted: Floats) -> Floats:
 def _interpolate(known: Floats, wanted: Floats) -> Floats:
     """Values at wanted places of hats about the known ones, (wanted, known)."""
     return np.array([np.interp(wanted, known, hat) for hat in np.eye(known.size)]).T
-
-
-def _find_tangent(problem: SteadyProblem, taken: RoundResult) -> Floats | None:
-    with suppress(SingularError):
-        return linearise_round(problem, taken)
-    return None
 
 
 def _find_step(tangent: Floats | None, miss: Floats) -> Floats:

@@ -162,7 +162,10 @@ def _measure(element: Element) -> dict[str, list[float]]:
 
 def exact_pressure(x: Any, y: Any) -> Any:
     """Mean pressure of the velocity."""
-    strain = exact_strain(x, y)
+    return _press(exact_strain(x, y))
+
+
+def _press(strain: Vector) -> Any:
     size = _dot(strain, linear_stress(strain))
     return -BULK_RATIO * (strain[0] + strain[1]) * size ** _power(strain)
 
@@ -170,9 +173,7 @@ def exact_pressure(x: Any, y: Any) -> Any:
 def _pressure(flow: PrescribedFlow) -> Floats:
     if flow.stress.shape[-1] == 4:
         return np.asarray(flow.stress[..., 3])
-    strain = tuple(np.moveaxis(flow.strain, -1, 0))
-    size = _dot(strain, linear_stress(strain))
-    return np.asarray(-BULK_RATIO * (strain[0] + strain[1]) * size ** _power(strain))
+    return np.asarray(_press(tuple(np.moveaxis(flow.strain, -1, 0))))
 
 
 def _error(mesh: PlacedMesh, got: Floats, exact: Floats) -> float:
