@@ -112,7 +112,7 @@ def compute_support_forces(
     if problem.ground != "no-slip":
         on_ground[0] = 0.0
     if state.base_shear is not None:
-        on_ground[0] = float((mesh.base.weights * state.base_shear).sum())
+        on_ground[0] = float((mesh.base_weights * state.base_shear).sum())
     free = free_unknowns(problem, mesh, state.contact)
     free[net_components(mesh)[1]] = False  # friction, tested on its own
     free[mesh.n_velocities :] = False

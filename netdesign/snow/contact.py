@@ -326,6 +326,6 @@ def rest(problem: FlowProblem, mesh: PlacedMesh) -> FlowState:
         unknowns=np.zeros(mesh.n_dofs),
         reaction=np.zeros(mesh.n_dofs),
         stress=np.zeros((*mesh.weights.shape, 4 if mesh.is_mixed else 3)),
-        base_shear=np.zeros_like(mesh.base.weights) if slides else None,
+        base_shear=np.zeros_like(mesh.base_weights) if slides else None,
         contact=start_contact(mesh),
     )

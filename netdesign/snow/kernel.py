@@ -184,9 +184,8 @@ def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
     ndarray, shape (n_dofs,)
         In node axes [rho g d^2].
     """
-    base = mesh.base
-    forces = (base.weights * shear) @ EDGE_SHAPE
-    return gather(base.dofs, forces, mesh.n_dofs)
+    forces = (mesh.base_weights * shear) @ EDGE_SHAPE
+    return gather(mesh.base_dofs, forces, mesh.n_dofs)
 
 
 def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Matrix:
@@ -204,10 +203,9 @@ def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Matrix:
     sparse matrix, shape (n_dofs, n_dofs)
         In node axes.
     """
-    base = mesh.base
-    weighted = base.weights * modulus
+    weighted = mesh.base_weights * modulus
     values = np.einsum("eq,qi,qj->eij", weighted, EDGE_SHAPE, EDGE_SHAPE)
-    return sum_blocks(base.dofs, values, mesh.n_dofs)
+    return sum_blocks(mesh.base_dofs, values, mesh.n_dofs)
 
 
 def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
@@ -225,4 +223,4 @@ def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
     ndarray, shape (n_edges, n_points)
         [velocity scale].
     """
-    return np.asarray(velocity[mesh.base.dofs] @ EDGE_SHAPE.T)
+    return np.asarray(velocity[mesh.base_dofs] @ EDGE_SHAPE.T)

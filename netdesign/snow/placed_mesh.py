@@ -161,29 +161,17 @@ class PlacedMesh:
         pairs = unknowns[: self.n_velocities].reshape(-1, 2)[net]
         return _turn(self.axes[:, net], *pairs.T)
 
+    @property
+    def base_dofs(self) -> Ints:
+        """Unknowns along the ground of its edges' nodes, shape (n_edges, 3)."""
+        return _list_edges(self.template)[1]
+
     @cached_property
-    def base(self) -> BaseEdges:
-        """Quadrature on the ground."""
+    def base_weights(self) -> Floats:
+        """Weights of the quadrature on the ground, shape (n_edges, n_points)."""
         ends = self.nodes[0, self.template.ground[::2]]
         half = np.abs(ends[1:] - ends[:-1]) / 2.0
-        dofs = _list_edges(self.template)[1]
-        return BaseEdges(dofs=dofs, weights=half[:, None] * EDGE_WEIGHTS)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class BaseEdges:
-    """Quadrature on the edges that lie on the ground; ``EDGE_SHAPE`` at its points.
-
-    Attributes
-    ----------
-    dofs : ndarray, shape (n_edges, 3)
-        Components of the velocity along the ground.
-    weights : ndarray, shape (n_edges, n_points)
-        Quadrature weights times the length element.
-    """
-
-    dofs: Ints
-    weights: Floats
+        return np.asarray(half[:, None] * EDGE_WEIGHTS)
 
 
 def _turn(axes: Floats, first: Floats, second: Floats) -> Floats:

@@ -44,7 +44,7 @@ def draw_case(number):
     stress = rng.normal(size=(*mesh.weights.shape, 3)) * rng.choice([0.01, 0.3, 2.0])
     shear = None
     if problem.ground == "sliding":
-        shear = rng.normal(size=mesh.base.weights.shape) * 0.3
+        shear = rng.normal(size=mesh.base_weights.shape) * 0.3
     state = FlowState(
         unknowns=np.zeros(mesh.n_dofs),
         reaction=rng.normal(size=mesh.n_dofs),

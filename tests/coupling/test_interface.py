@@ -43,7 +43,7 @@ def test_signs(case):
 def test_drag_of_a_sliding_ground_is_its_integrated_shear(case):
     law, mesh, state, forces = case
     if law.ground == "sliding":
-        drag = (mesh.base.weights * state.base_shear).sum()
+        drag = (mesh.base_weights * state.base_shear).sum()
         assert forces.on_ground[0] == pytest.approx(drag, rel=1e-14)
 
 

@@ -199,7 +199,7 @@ def test_power_of_gravity_is_spent(inclined, a_flow_problem, ground, slip_ratio)
     on_ground = 0.0
     if state.base_shear is not None:
         along = kernel.compute_base_velocity(inclined, state.unknowns)
-        on_ground = (inclined.base.weights * state.base_shear * along).sum()
+        on_ground = (inclined.base_weights * state.base_shear * along).sum()
     _, drag = forces_on_net(inclined, state)
     friction = (drag * slip_velocity(inclined, state)).sum()
     assert friction >= 0.0

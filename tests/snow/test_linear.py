@@ -52,7 +52,7 @@ def test_it_is_the_dense_solution(problem, slips, columns, ground):
     mesh, matrix, force, (free, friction) = problem
     if ground == "slides":
         free[2 * mesh.template.ground[1:]] = True
-        modulus = np.full(mesh.base.weights.shape, 0.3)
+        modulus = np.full(mesh.base_weights.shape, 0.3)
         matrix = matrix + assemble_base_stiffness(mesh, modulus)
     forces = np.stack([force * (k + 1.0) for k in range(columns)], axis=1)
     found = solve_matrix(

@@ -215,7 +215,7 @@ class PlainSnow:
         force[: self.load.weight.size] -= self.load.weight
         if not self.load.slides:
             return _Linear(matrix, force, tangent, strain, None, None)
-        shear = np.zeros_like(mesh.base.weights) if base_shear is None else base_shear
+        shear = np.zeros_like(mesh.base_weights) if base_shear is None else base_shear
         base = linearise_sliding(snow, shear, self.load.bottom[:, None])
         base_velocity = compute_base_velocity(mesh, iterate.unknowns)
         shear = base.intercept + base.modulus * base_velocity

@@ -133,7 +133,7 @@ def _base_velocity(mesh: PlacedMesh, unknowns: Floats) -> Floats:
     along = np.asarray(base.basis.interpolate(unknowns[: mesh.n_velocities])[0])
     in_order = np.empty(along.size)
     in_order[base.order] = along.ravel()
-    return in_order.reshape(mesh.base.weights.shape)
+    return in_order.reshape(mesh.base_weights.shape)
 
 
 def _solve(
@@ -187,7 +187,7 @@ def _build_base_basis(mesh: PlacedMesh) -> _Base:
         intorder=_BASE_DEGREE,
     )
     places = np.asarray(basis.global_coordinates())[0].ravel()
-    ends = mesh.nodes[0, mesh.base.dofs // 2]
+    ends = mesh.nodes[0, mesh.base_dofs // 2]
     own = (ends @ EDGE_SHAPE.T).ravel()
     order = np.empty(own.size, dtype=np.int64)
     order[np.argsort(places)] = np.argsort(own)
