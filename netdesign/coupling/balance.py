@@ -77,7 +77,7 @@ def measure_balance(
         smallest_tension=(
             None if tension is None else float(tension.min()) * force_scale
         ),
-        suction_share=measure_suction(mesh, forces.on_net),
+        suction_share=negative_share(normal),
         ground_tension_share=negative_share(forces.ground_normal),
     )
 

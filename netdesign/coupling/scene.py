@@ -127,12 +127,8 @@ class Scene:
             require_one_of(name, getattr(self, name), ("two-sided", "one-sided"))
         if self.ground_contact == "one-sided" and self.snowpack.gravity == "parallel":
             raise ModelError(say("scene.nothing_presses"))
-        require_within(
-            "upslope length over snow thickness",
-            self.snowpack.upslope_length / thickness,
-            0.25,
-            200.0,
-        )
+        aspect = self.snowpack.aspect
+        require_within("upslope length over snow thickness", aspect, 0.25, 200.0)
         if self.creep_law.exponent != FLUIDITY_EXPONENT and self._has_temperatures:
             raise ModelError(
                 say(
@@ -215,17 +211,14 @@ class Scene:
     @property
     def modelled_aspect(self) -> float:
         """Upslope length over thickness that a steady solve has to model."""
-        aspect = self.snowpack.upslope_length / self.snowpack.thickness
+        aspect = self.snowpack.aspect
         hands_on = self.ground.kind == "free" and self.ground_contact == "two-sided"
         return MODELLED_ASPECT if hands_on and aspect > _CUT_FROM else aspect
 
     @property
     def steady_flow_problem(self) -> FlowProblem:
         """``flow_problem`` with the exact load of the snow that is not modelled."""
-        beyond = (
-            self.snowpack.upslope_length / self.snowpack.thickness
-            - self.modelled_aspect
-        )
+        beyond = self.snowpack.aspect - self.modelled_aspect
         problem = self.flow_problem
         if not beyond:
             return problem

@@ -90,10 +90,8 @@ class Snowpack:
             self._require_layers_add_up()
 
     def _require_layers_add_up(self) -> None:
-        thickness, density = (
-            _sum_thickness(self.layers),
-            compute_mean_density(self.layers),
-        )
+        thickness = _sum_thickness(self.layers)
+        density = compute_mean_density(self.layers)
         for name, total, given, unit in (
             ("layer thicknesses", thickness, self.thickness, "m"),
             ("mean layer density", density, self.density, "kg/m3"),
@@ -115,6 +113,11 @@ class Snowpack:
             THINNEST_LAYER,
             1.0,
         )
+
+    @property
+    def aspect(self) -> float:
+        """Upslope length over thickness [-]."""
+        return self.upslope_length / self.thickness
 
     @property
     def relative_density(self) -> float:

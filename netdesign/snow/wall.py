@@ -37,6 +37,5 @@ class Wall:
     @property
     def friction(self) -> float:
         """Tan phi [-]; infinite for adhesion."""
-        return (
-            math.inf if self.friction_angle is None else math.tan(self.friction_angle)
-        )
+        angle = self.friction_angle
+        return math.inf if angle is None else math.tan(angle)

@@ -133,7 +133,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     if scene.ground.kind == "no-slip":
         raise ModelError(say("staggered.base_drag"))
     problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
-    aspect = scene.snowpack.upslope_length / scene.snowpack.thickness
+    aspect = scene.snowpack.aspect
     template = build_template(aspect, settings.size, scene.layer_tops)
     start = find_start(scene, settings.size, settings.start)
     state = build_start(problem, template, start)

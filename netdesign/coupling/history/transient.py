@@ -143,11 +143,7 @@ def run_history(
         If not even the first step succeeds.
     """
     problem = build_problem(scene, densifies=settings.densifies)
-    template = build_template(
-        scene.snowpack.upslope_length / scene.snowpack.thickness,
-        size,
-        scene.layer_tops,
-    )
+    template = build_template(scene.snowpack.aspect, size, scene.layer_tops)
     first = _FIRST_SAGGED
     if settings.start == "straight":
         first = _FIRST_STRAIGHT * size.corner**2

@@ -169,18 +169,9 @@ def list_cases(settings: PaperSettings) -> list[PaperCase]:
         ]
     exchanges = [find_exchange(NORMAL_NET_DEG, settings, phi) for phi in FRICTIONS_DEG]
     exchanges.append(find_exchange(DESIGN_NET_DEG, settings))
+    others = [find_paper_time(), *find_trend(settings)]
     steady = [find_steady(case) for case in histories]
-    return list(
-        dict.fromkeys(
-            [
-                *exchanges,
-                *histories,
-                find_paper_time(),
-                *find_trend(settings),
-                *steady,
-            ]
-        )
-    )
+    return list(dict.fromkeys([*exchanges, *histories, *others, *steady]))
 
 
 def horizon_of(case: PaperCase, settings: PaperSettings) -> float:

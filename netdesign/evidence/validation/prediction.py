@@ -182,8 +182,8 @@ def _predict(structure: Structure) -> StructurePrediction:
 
 def _find_band(member: str, cases: Sequence[CaseForces]) -> MemberPrediction:
     found = [case.values[member] for case in cases if member in case.values]
-    ends = (float(f"{one:.{_FIGURES}g}") for one in np.percentile(found, _BAND))
-    low, middle, high = ends
+    shares = np.percentile(found, _BAND)
+    low, middle, high = (float(f"{one:.{_FIGURES}g}") for one in shares)
     return MemberPrediction(member=member, low=low, middle=middle, high=high)
 
 
