@@ -9,7 +9,7 @@ condensed by scikit-fem, solved by SciPy's sparse direct solver. Pass ``advance`
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sparse
@@ -105,9 +105,8 @@ def _assemble_force(
     if problem.element == "velocity":
         return force
     pressure = build_basis(mesh).with_element(skfem.ElementTriP1())
-    kept = skfem.LinearForm(_pressure_power).assemble(
-        pressure, intercept=DiscreteField(tangent.intercept[..., 3])
-    )
+    form = skfem.LinearForm(lambda q, at: at.intercept * q)
+    kept = form.assemble(pressure, intercept=DiscreteField(tangent.intercept[..., 3]))
     return np.concatenate([force, kept])
 
 
@@ -198,7 +197,3 @@ def _on_base(base: _Base, values: Floats) -> DiscreteField:
     """Values of the kernel's points at scikit-fem's."""
     shape = base.basis.dx.shape
     return DiscreteField(values.ravel()[base.order].reshape(shape))
-
-
-def _pressure_power(q: Any, at: Any) -> Any:
-    return at.intercept * q

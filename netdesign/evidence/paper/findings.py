@@ -12,8 +12,8 @@ from typing import Literal
 import numpy as np
 
 from netdesign.evidence.paper.runs import (
-    DESIGN_NET_DEG,
     FRICTIONS_DEG,
+    NETS_DEG,
     NORMAL_NET_DEG,
     PAPER_TIME,
     RELATIVE_DENSITY,
@@ -91,7 +91,7 @@ class Finding:
 def judge_growth(study: PaperStudy) -> list[Growth]:
     """Forces against friction, by method and inclination."""
     found = []
-    for inclination in (NORMAL_NET_DEG, DESIGN_NET_DEG):
+    for inclination in NETS_DEG:
         runs = [study[find_history(inclination, phi)] for phi in FRICTIONS_DEG]
         found += _grow_histories("transient", inclination, runs)
         steady = [study[find_steady(run.case)] for run in runs]
@@ -262,7 +262,7 @@ def _decide_oscillation(study: PaperStudy) -> Finding:
 def _decide_settlement(study: PaperStudy) -> Finding:
     """Full gravity against that along the slope, in the paper's scene."""
     numbers: dict[str, float] = {}
-    for inclination in (NORMAL_NET_DEG, DESIGN_NET_DEG):
+    for inclination in NETS_DEG:
         full = find_history(inclination)
         pairs = {"history": full, "steady": find_steady(full)}
         for name, case in pairs.items():
@@ -349,7 +349,7 @@ def _decide_densification(study: PaperStudy) -> Finding:
 def _decide_swelling(study: PaperStudy) -> Finding:
     """Sag of the net at the end against friction."""
     numbers: dict[str, float] = {}
-    for inclination in (NORMAL_NET_DEG, DESIGN_NET_DEG):
+    for inclination in NETS_DEG:
         shapes = [
             study[find_history(inclination, phi)].shape
             for phi in (FRICTIONS_DEG[0], FRICTIONS_DEG[-1])

@@ -17,6 +17,7 @@ from netdesign.evidence.paper.runs import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,
     LENGTH,
+    NETS_DEG,
     NORMAL_NET_DEG,
     RELATIVE_DENSITY,
     THICKNESS,
@@ -52,7 +53,6 @@ from netdesign.units import day_from_second, kilonewton_from_newton
 from netdesign.words.catalogue import Language
 
 _NODES = ("lower", "upper")
-_NETS = (NORMAL_NET_DEG, DESIGN_NET_DEG)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -169,7 +169,7 @@ def _name_mesh(case: PaperCase, track: Track, words: Words) -> str:
 
 
 def _plate_methods(study: PaperStudy, words: Words) -> Plate | None:
-    panels = [_compare_ways(study, net, words) for net in _NETS]
+    panels = [_compare_ways(study, net, words) for net in NETS_DEG]
     if not any(panel.lines for panel in panels):
         return None
     heading = words("paper_plate.methods")

@@ -41,6 +41,7 @@ PAPER_TIME = 8.0  # [s] that its computations covered
 FRICTIONS_DEG = (15.0, 30.0, 45.0)
 INCLINATIONS_DEG = (25.0, 30.0, 35.0)
 NORMAL_NET_DEG, DESIGN_NET_DEG = 0.0, 30.0
+NETS_DEG = (NORMAL_NET_DEG, DESIGN_NET_DEG)
 MIDDLE_FRICTION_DEG = 30.0
 
 
@@ -156,10 +157,9 @@ def find_paper_time() -> PaperCase:
 
 def list_cases(settings: PaperSettings) -> list[PaperCase]:
     """All runs of the study, the long ones first, each once."""
-    nets = (NORMAL_NET_DEG, DESIGN_NET_DEG)
-    histories = [find_history(net, phi) for net in nets for phi in FRICTIONS_DEG]
+    histories = [find_history(net, phi) for net in NETS_DEG for phi in FRICTIONS_DEG]
     histories += [find_history(net) for net in INCLINATIONS_DEG]
-    for net in nets:
+    for net in NETS_DEG:
         middle = find_history(net)
         histories += [
             replace(middle, start="sagged"),

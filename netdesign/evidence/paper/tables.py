@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from netdesign.coupling.history.settings import Start
 from netdesign.evidence.paper.findings import judge_growth, last_swing
 from netdesign.evidence.paper.runs import (
-    DESIGN_NET_DEG,
     FRICTIONS_DEG,
     INCLINATIONS_DEG,
+    NETS_DEG,
     NORMAL_NET_DEG,
     PaperCase,
     PaperRun,
@@ -39,7 +39,6 @@ from netdesign.report.blocks import Table, text_cell, write_csv
 from netdesign.report.words import MISSING, Words
 from netdesign.units import day_from_second
 
-_NETS = (NORMAL_NET_DEG, DESIGN_NET_DEG)
 _STARTS: tuple[Start, ...] = ("sagged", "straight")
 
 
@@ -106,7 +105,7 @@ def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
         "plateau_from_s": ("paper_table.plateau_from", TIMES),
     }
     rows = []
-    for net in _NETS:
+    for net in NETS_DEG:
         straight = find_history(net)
         ways = {
             "steady": find_steady(straight),
@@ -164,7 +163,7 @@ def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
         "steady_head_kN_per_m": ("paper_table.steady_head", FORCES),
     }
     cases = [find_history(net) for net in (NORMAL_NET_DEG, *INCLINATIONS_DEG)]
-    cases += [replace(find_history(net), gravity="parallel") for net in _NETS]
+    cases += [replace(find_history(net), gravity="parallel") for net in NETS_DEG]
     rows = []
     for case in cases:
         history, steady = study[case], study[find_steady(case)]
@@ -209,7 +208,7 @@ def _tabulate_drift(study: PaperStudy, words: Words) -> Listed:
     }
     rows = [
         _list_drift(study[replace(find_history(net), start=start, densifies=densifies)])
-        for net in _NETS
+        for net in NETS_DEG
         for start in _STARTS
         for densifies in (True, False)
     ]
