@@ -215,7 +215,7 @@ def _scan_layout(sheet: Any) -> _Layout:
             elif tag == "row":
                 row = _follow_row(element, row)
                 if any(len(cell) for cell in element):
-                    layout.last_row = row  # rows ascend
+                    layout.last_row = max(layout.last_row, row)
                     if _is_true(element.get("hidden")):
                         layout.hidden_rows.add(row)
                 element.clear()
