@@ -238,7 +238,6 @@ def render_outputs(
 ) -> dict[Path, bytes]:
     """Contents of all files; ``begun`` are those of `begin_outputs`."""
     from netdesign.report.files import render_files
-    from netdesign.report.page.comparison_page import render_comparison
 
     style = outputs.style
     files = render_files(studies, outputs.of_studies, style, begun)
@@ -246,6 +245,8 @@ def render_outputs(
         if what_if is not None:
             files |= render_files([what_if], [paths], style)
     for place in outputs.together:
+        from netdesign.report.page.comparison_page import render_comparison
+
         files[place] = render_comparison(studies, style.language)
     return files
 

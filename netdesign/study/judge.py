@@ -56,6 +56,7 @@ from netdesign.study.records import (
     SCHEMA,
     CheckRecord,
     ModelFormRecord,
+    MonitoringRecord,
     ReliabilityRecord,
     RowStudy,
     Study,
@@ -63,10 +64,8 @@ from netdesign.study.records import (
     merge_rows,
 )
 from netdesign.study.row_checks import RowChecks, check_row, detail_shown, distrust
-from netdesign.study.row_reliability import record_reliability
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
-from netdesign.study.winter_row import record_monitoring
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
@@ -174,7 +173,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
         questions=list(row.questions),
-        monitoring=record_monitoring(task.site, row),
+        monitoring=_record_monitoring(task.site, row),
         anchors=anchors,
         pulls=list(known.pulls),
         head=head,
@@ -194,12 +193,23 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     )
 
 
+def _record_monitoring(site: Site, row: NetRow) -> list[MonitoringRecord]:
+    """Measured series of a row; the winters' code is loaded where there are some."""
+    if not site.monitoring:
+        return []
+    from netdesign.study.winter_row import record_monitoring
+
+    return record_monitoring(site, row)
+
+
 def _find_reliability(
     task: RowToCheck, found: RowChecks, run: CheckRun
 ) -> ReliabilityRecord | None:
     """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
         return None
+    from netdesign.study.row_reliability import record_reliability
+
     worst = find_worst(found.records)
     by_case = found.by_case.get(worst.id) if worst else None
     solver = CaseSolver(run.settings, run.creep_law)
