@@ -152,13 +152,9 @@ _FORMER = {
 }
 # Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and
 # a net below its snow are no matter of proof.
-_OF_GEOMETRY = (
-    ("net", "inclination"),
-    ("net", "spacing"),
-    ("net", "gap"),
-    ("net", "ends"),
-    ("net", "anchors"),
-    ("net", "cover"),
+_OF_GEOMETRY = tuple(
+    ("net", mode)
+    for mode in ("inclination", "spacing", "gap", "ends", "anchors", "cover")
 )
 _OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"))  # of no support
 _ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)

@@ -201,12 +201,12 @@ def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
     """Cover sheet: each line a name and, beside it, its value; no headings."""
     starts = [cells[0].column for row in sheet.rows if len(cells := sheet.row(row)) > 1]
     first = max(set(starts), key=starts.count, default=1)
-    keys = [field.key for field in plan.fields]
     return Table(
         sheet=sheet,
         plan=plan,
         columns={
-            key: Column(number=first + n, unit="") for n, key in enumerate(keys[:2])
+            field.key: Column(number=number, unit="")
+            for number, field in enumerate(plan.fields, first)
         },
     )
 

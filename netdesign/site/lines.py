@@ -171,16 +171,11 @@ def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:
     """Refuse neighbours of a row that are no other net rows of the sheet."""
     ids = {row["id"].word for row in rows}
     for row in rows:
-        for name in _list_neighbours(row):
+        named = row["neighbour"].word.replace(";", ",").split(",")
+        for name in filter(None, map(str.strip, named)):
             if name not in ids or name == row["id"].word:
                 rule = say("nets.no_neighbour", id=name)
                 refuse(row["neighbour"], rule, say("nets.other_ids"), findings)
-
-
-def _list_neighbours(row: Row) -> list[str]:
-    """Ids of the rows that a line says it goes on into."""
-    text = row["neighbour"].word.replace(";", ",")
-    return [one.strip() for one in text.split(",") if one.strip()]
 
 
 SiteWide = Mapping[str, Reading]  # by key of a column of sheet Nets

@@ -46,21 +46,16 @@ def ask(
             sheet, value = say("sheet.Declared"), show_value(reading.cell)
             how = say("plausible.settle", sheet=sheet, place=reading.place, value=value)
             refuse(reading, rule, how, findings, severity="question")
-            asked[reading.place] = _name_question(reading, rule)
+            asked[reading.place] = say(
+                "plausible.asked",
+                place=reading.place,
+                field=reading.field.name,
+                text=quote(reading.text),
+                rule=rule,
+            )
         for row in rows:
             by_row[row][asked[reading.place]] = None
     return {row: tuple(questions) for row, questions in by_row.items()}
-
-
-def _name_question(reading: Reading, rule: Message) -> Message:
-    """The question as the check of a net row has it."""
-    return say(
-        "plausible.asked",
-        place=reading.place,
-        field=reading.field.name,
-        text=quote(reading.text),
-        rule=rule,
-    )
 
 
 _Group = list[tuple[list[str], Row]]  # lines, each with the net rows that rest on it

@@ -129,10 +129,8 @@ def _choose(
     if not others and (word in ("", line["ground"].word) or not line["ground"].word):
         return named
     known = tuple(one["ground"].text for one in of_type.values() if one["ground"].word)
-    rule = say("nets.other_ground", id=quote(named.word), ground=quote(word))
-    if not word:
-        rule = say("nets.no_ground", id=quote(named.word))
-    elif ground:
+    rule = say("nets.no_ground", id=quote(named.word))
+    if ground and word:
         rule = say("nets.other_ground", id=quote(named.word), ground=ground.text)
     refuse(named, rule, say("nets.grounds", grounds=known), findings)
     return replace(named, state="faulty")

@@ -324,10 +324,6 @@ def guard_archive(file: str, content: bytes) -> None:
             _forbid_entities(archive, entry)
 
 
-class _AtRootError(Exception):
-    """The first element of a part: nothing can be declared behind it."""
-
-
 def _forbid_entities(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
     """Refuse a part that declares entities.
 
@@ -346,14 +342,14 @@ def _forbid_entities(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
     def forbid(name: str, _: bool, value: str | None, *place: str | None) -> None:
         raise EntitiesForbidden(name, value, *place)
 
-    def stop(*_: object) -> None:
-        raise _AtRootError
-
+    elements: list[str] = []
     parser = ParserCreate()
-    parser.EntityDeclHandler, parser.StartElementHandler = forbid, stop
-    with archive.open(entry) as part, suppress(_AtRootError, ExpatError):
-        # what is no XML at all is told by whoever reads the part
-        while chunk := part.read(_CHUNK):
+    parser.EntityDeclHandler = forbid
+    parser.StartElementHandler = lambda name, _: elements.append(name)
+    with archive.open(entry) as part, suppress(ExpatError):
+        # what is no XML at all is told by whoever reads the part; nothing can be
+        # declared behind the first element
+        while not elements and (chunk := part.read(_CHUNK)):
             parser.Parse(chunk)
 
 

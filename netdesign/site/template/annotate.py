@@ -125,10 +125,7 @@ def _list_texts(finding: Finding, language: Language) -> tuple[str, ...]:
     field, rule, accepted = (
         render(one, language) for one in (finding.field, finding.rule, finding.accepted)
     )
-    return (
-        *(severity, finding.sheet, finding.cell, field),
-        *(finding.text, rule, accepted),
-    )
+    return severity, finding.sheet, finding.cell, field, finding.text, rule, accepted
 
 
 def _remove_old_marks(workbook: OpenWorkbook) -> None:

@@ -394,25 +394,13 @@ def _write_quantities(sheet: Worksheet, workbook: Workbook, language: Language) 
     fields = [field for field in NETS.fields if not field.refers_to]
     fields += sorted(USUAL_QUANTITIES, key=lambda field: bool(field.symbol))
     for number, field in enumerate(fields, start=row + 1):
-        _write_quantity(sheet, number, field, language, symbol, cell)
-
-
-def _write_quantity(
-    sheet: Worksheet,
-    row: int,
-    field: Field,
-    language: Language,
-    symbol: Format,
-    cell: Format,
-) -> None:
-    sheet.write_string(row, 0, field.symbol, symbol)
-    accepted = describe_accepted(field, language)
-    note = field.notes[language]
-    texts = (field.label_in(language), ", ".join(field.units), accepted, note)
-    for column, text in enumerate(texts, start=1):
-        sheet.write_string(row, column, text, cell)
-    longest = zip(texts, _WIDTHS[1:], strict=True)
-    sheet.set_row(row, _LINE * max(count_lines(text, width) for text, width in longest))
+        sheet.write_string(number, 0, field.symbol, symbol)
+        accepted = describe_accepted(field, language)
+        note = field.notes[language]
+        told = (field.label_in(language), ", ".join(field.units), accepted, note)
+        for column, text in enumerate(told, start=1):
+            sheet.write_string(number, column, text, cell)
+        sheet.set_row(number, _LINE * max(map(count_lines, told, _WIDTHS[1:])))
 
 
 def count_lines(text: str, width: float) -> int:
