@@ -235,7 +235,7 @@ def _meet(one: Declaration, other: Declaration) -> bool:
 def _read_line(
     line: Row, places: Mapping[str, str], findings: list[Finding]
 ) -> Declaration | None:
-    check, day, count = line["check"], line["date"], len(findings)
+    check = line["check"]
     subject = list_check_names().get(normalise(check.word))
     if check.word and subject is None:
         shown = tuple(name_check(*one) for one in DECLARABLE)
@@ -243,7 +243,7 @@ def _read_line(
         accepted = say("declared.accepted", checks=shown, end=end)
         refuse(check, say("declared.unknown"), accepted, findings)
     is_faulty = any(reading.state == "faulty" for reading in line.values())
-    if subject is None or is_faulty or len(findings) > count:
+    if subject is None or is_faulty:
         return None
     return Declaration(
         row_id="" if _is_of_all(line["row"], places) else line["row"].word,
@@ -253,7 +253,7 @@ def _read_line(
         proof=Proof(
             document=line["document"].word,
             author=line["author"].word,
-            date=day.word,
+            date=line["date"].word,
             cell=check.place,
         ),
     )

@@ -249,7 +249,9 @@ def _read_line(
         _read_end(cell, key, field, settled, findings, span)
         for key, cell in zip(("low", "high"), ends, strict=True)
     )
-    if field in FURTHER_QUANTITIES and _is_empty(low, high):
+    if low is None or high is None:  # the missing heading is a finding already
+        return
+    if field in FURTHER_QUANTITIES and low.state == high.state == "blank":
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
         built = _read_range(field, low, high, samples, settled, findings)
@@ -289,10 +291,6 @@ def _find_typed(ends: _Ends | None, meaning: Meaning) -> str:
     return meaning.unit or (units.pop() if len(units) == 1 else "")
 
 
-def _is_empty(low: Reading | None, high: Reading | None) -> bool:
-    return low is not None and high is not None and low.state == high.state == "blank"
-
-
 def settle_unit(
     name: Reading, unit: Reading, field: Field, typed: str, findings: list[Finding]
 ) -> str:
@@ -320,17 +318,13 @@ def settle_unit(
 
 def _read_range(
     field: Field,
-    low: Reading | None,
-    high: Reading | None,
+    low: Reading,
+    high: Reading,
     samples: Reading,
     unit: str,
     findings: list[Finding],
 ) -> _Range | None:
-    if (
-        low is None
-        or high is None
-        or "faulty" in (low.state, high.state, samples.state)
-    ):
+    if "faulty" in (low.state, high.state, samples.state):
         return None
     if low.state == high.state == "blank":
         return _make_default(field, _DEFAULT_INCLINATION)
@@ -354,7 +348,7 @@ def _read_end(
     span: Cell | None,
 ) -> Reading | None:
     """Reading of one end; where one cell holds both, it shows that cell."""
-    if cell is None:  # the missing heading is a finding already
+    if cell is None:
         return None
     count = len(findings)
     reading = read_cell(cell, _name_end(field, key), unit, findings)

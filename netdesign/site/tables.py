@@ -217,23 +217,20 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
             findings.append(cell.finding(rule, say("accepted.single_cells")))
     if sheet.is_hidden:
         findings.append(sheet.finding(say("table.hidden_sheet"), severity="note"))
-    hidden = [
-        *(
-            (sheet.row(row)[0], rule)
-            for rule, rows in (
-                (say("table.hidden_row"), sheet.hidden_rows),
-                (say("table.struck_row"), sheet.struck_rows),
-            )
-            for row in table.rows
-            if row in rows
-        ),
-        *(
-            (sheet.cell(table.heading_row, number), say("table.hidden_column"))
-            for number in read
-            if number in sheet.hidden_columns
-        ),
-    ]
-    findings.extend(cell.finding(rule, severity="note") for cell, rule in hidden)
+    marked = (
+        (say("table.hidden_row"), sheet.hidden_rows),
+        (say("table.struck_row"), sheet.struck_rows),
+    )
+    for rule, hidden in marked:
+        first = (sheet.row(row)[0] for row in table.rows if row in hidden)
+        findings.extend(cell.finding(rule, severity="note") for cell in first)
+    rule = say("table.hidden_column")
+    headings = (sheet.cell(table.heading_row, number) for number in read)
+    findings.extend(
+        cell.finding(rule, severity="note")
+        for cell in headings
+        if cell.column in sheet.hidden_columns
+    )
     findings.extend(_note_lines_above(table))
     _judge_columns_without_heading(table, findings)
 
