@@ -303,7 +303,8 @@ def _name_field(table: Table, column: int, language: Language) -> str:
 def _begin(
     path: Path, workbook: Workbook, mark: str, language: Language
 ) -> Iterator[str]:
-    yield from _comment(say("map.head", file=path.name), language)
+    for line in render(say("map.head", file=path.name), language).splitlines():
+        yield f"# {line}".rstrip()
     yield f'schema = "{SCHEMA}"'
     yield f"workbook = {_quote(path.name)}"
     given = {",": "comma", ".": "point"}.get(workbook.answers.decimal_mark)
@@ -378,11 +379,6 @@ def _line(question: Question, language: Language) -> str:
     hints = "; ".join(render(one, language) for one in question.hints)
     comment = " ".join(make_printable(hints).split())
     return f"{_quote(question.asked)} = {_quote(question.answer)}  # {comment}"
-
-
-def _comment(message: Message, language: Language) -> Iterator[str]:
-    for line in render(message, language).splitlines():
-        yield f"# {line}".rstrip()
 
 
 def _quote(text: str) -> str:

@@ -255,15 +255,10 @@ def _read_line(
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
         built = _read_range(field, low, high, samples, settled, findings)
-        found[field.key] = _justify(built, field, why)
-
-
-def _justify(built: _Range | None, field: Field, why: Reading) -> _Range | None:
-    """Range with its justification among its inputs, where one is given."""
-    if built is None or why.state != "given":
-        return built
-    named = say("column.justification_of", name=field.name)
-    return replace(built, inputs=(*built.inputs, why.echo(named)))
+        if built and why.state == "given":
+            named = say("column.justification_of", name=field.name)
+            built = replace(built, inputs=(*built.inputs, why.echo(named)))
+        found[field.key] = built
 
 
 def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:

@@ -99,10 +99,8 @@ from netdesign.site.type_resistances import (
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say
 
-_LAWS = tuple(CREEP_LAWS)
 # Headings of sheet Nets, at least, on a sheet that holds net rows.
 _LEAST_KNOWN = 4
-_TYPE_PLANS = (ANCHORS, ROPES, POSTS)
 
 
 def read_site(
@@ -326,7 +324,7 @@ def _read_lines(
         types={sheet: found or {} for sheet, found in types.items()},
         absent=[
             plan.name
-            for plan in _TYPE_PLANS
+            for plan in (ANCHORS, ROPES, POSTS)
             if not (list_meant(workbook, plan) or list_near(workbook, plan))
         ],
         unreadable=[sheet for sheet, found in types.items() if found is None],
@@ -421,9 +419,8 @@ def _read_project(
             site_wide[field.key] = read_once(table.sheet, pair, beside, findings)
             cells[field.key] = value.place
         elif field.key == "accepted_law" and value.word not in CREEP_LAWS:
-            refuse(
-                value, say("item.no_law"), say("accepted.words", words=_LAWS), findings
-            )
+            accepted = say("accepted.words", words=tuple(CREEP_LAWS))
+            refuse(value, say("item.no_law"), accepted, findings)
         else:
             values[field.key], cells[field.key] = value.word, value.place
     refuse_unused_answers(table, findings)
