@@ -83,32 +83,28 @@ def replace_cells(
     told: list[ReplacedCell] = []
     if not instead:
         return workbook, ()
-    # two of one name are refused where they are read
-    first = {sheet.name: sheet for sheet in reversed(workbook.sheets)}
-    sheets = dict(first)
-    names = {name.casefold(): name for name in sheets}
+    sheets = list(workbook.sheets)
+    # two of one name are refused where they are read; here the first counts
+    numbers = {one.name: n for n, one in reversed(list(enumerate(sheets)))}
+    by_name = {name.casefold(): number for name, number in numbers.items()}
     for place, text in instead.items():
         typed, _, address = place.rpartition("!")
-        name = names.get(typed.casefold())
-        if name is None:
-            accepted = say("accepted.words", words=tuple(sheets))
+        number = by_name.get(typed.casefold())
+        if number is None:
+            accepted = say("accepted.words", words=tuple(numbers))
             rule = say("what_if.no_sheet", sheet=typed)
             findings.append(workbook.finding(rule, accepted))
             continue
-        cell = find_cell(sheets[name], address)
+        cell = find_cell(sheets[number], address)
         if cell.text == text:
             accepted = say("what_if.another_text")
             findings.append(cell.finding(say("what_if.same"), accepted))
             continue
-        sheets[name] = _put(sheets[name], replace(cell, value=text, formula=""))
+        sheets[number] = _put(sheets[number], replace(cell, value=text, formula=""))
         told.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
     if findings:
         raise SiteDataError(findings)
-    changed = tuple(
-        sheets[sheet.name] if sheet is first[sheet.name] else sheet
-        for sheet in workbook.sheets
-    )
-    return replace(workbook, sheets=changed), tuple(told)
+    return replace(workbook, sheets=tuple(sheets)), tuple(told)
 
 
 def find_cell(sheet: Sheet, address: str) -> Cell:

@@ -77,11 +77,11 @@ from netdesign.site.tables import (
 )
 from netdesign.site.titles import (
     give_answers,
+    is_absent,
     is_meant,
     is_near,
     judge_answers,
     list_meant,
-    list_near,
     read_answers,
 )
 from netdesign.site.type_lines import (
@@ -101,6 +101,7 @@ from netdesign.words.message import Message, say
 
 # Headings of sheet Nets, at least, on a sheet that holds net rows.
 _LEAST_KNOWN = 4
+_TYPE_PLANS = (ANCHORS, ROPES, POSTS)
 
 
 def read_site(
@@ -322,11 +323,7 @@ def _read_lines(
         ends=index_lines(ends, "row", say("ends.one_line"), findings),
         snow=snow,
         types={sheet: found or {} for sheet, found in types.items()},
-        absent=[
-            plan.name
-            for plan in (ANCHORS, ROPES, POSTS)
-            if not (list_meant(workbook, plan) or list_near(workbook, plan))
-        ],
+        absent=[plan.name for plan in _TYPE_PLANS if is_absent(workbook, plan)],
         unreadable=[sheet for sheet, found in types.items() if found is None],
         ranges=ranges,
         links=read_rows(tables[LINKS.name], findings),

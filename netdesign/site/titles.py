@@ -368,6 +368,11 @@ def list_near(workbook: Workbook, plan: SheetPlan) -> list[str]:
     return [name for name in unread if is_near(name, plan)]
 
 
+def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
+    """A workbook has no sheet of the plan's name, nor of a name near to it."""
+    return not (list_meant(workbook, plan) or list_near(workbook, plan))
+
+
 def give_answers(workbook: Workbook, answers: Answers) -> Workbook:
     """Workbook whose sheets know what was answered."""
     sheets = tuple(
