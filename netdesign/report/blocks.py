@@ -127,11 +127,6 @@ class Table:
         return replace(self, look=look, symbols=symbols or self.symbols)
 
 
-def text_column(heading: str) -> Column:
-    """Column of texts."""
-    return Column(heading=heading)
-
-
 def number_column(key: str, heading: str) -> Column:
     """Column of the quantity ``key``."""
     return Column(heading=heading, quantity=key, is_number=True)
@@ -162,11 +157,6 @@ def key_columns(
 def text_cell(text: str) -> Cell:
     """Text on one line, never empty."""
     return Cell(text=show_text(text))
-
-
-def rich_cell(content: Content) -> Cell:
-    """Text in several looks."""
-    return Cell(content=content)
 
 
 def number_cell(words: Words, key: str, value: float | None) -> Cell:
@@ -220,11 +210,10 @@ class Items:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pair:
-    """Name, and what stands beside it: a text, and sentences below it."""
+    """Name, and the text that stands beside it."""
 
     name: str
-    text: Text = ""
-    items: tuple[str, ...] = ()
+    text: Text
     look: str = ""
 
 

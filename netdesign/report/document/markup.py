@@ -11,6 +11,7 @@ from typing import Any
 from netdesign.edge.given_files import make_printable
 from netdesign.report.blocks import (
     SMALL,
+    STRONG,
     Badge,
     Piece,
     Text,
@@ -43,17 +44,7 @@ def parse(markup: str) -> Any:
     return parse_xml(f"<w:body {NAMESPACE}>{markup}</w:body>")[0]
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
-    """Text in one look; a new line at each of its line ends."""
-
-    text: str
-    is_bold: bool = False
-    is_small: bool = False
-    has_symbols: bool = False  # E_d has a lowered d
-
-
-Runs = tuple[Run, ...]
+Runs = tuple[Piece, ...]  # what stands in a paragraph or a cell
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,37 +60,37 @@ class Grid:
 
 
 def list_runs(text: Text, *, has_symbols: bool = False) -> Runs:
-    """Runs of a block's text; sketches are for pages."""
-    runs: list[Run] = []
+    """Pieces of a block's text, small ones on lines of their own; no sketches."""
+    runs: list[Piece] = []
     for piece in list_pieces(text, has_symbols=has_symbols):
         if isinstance(piece, Badge):
             shown = piece.verdict
             word = "" if piece.look == "sign" else shown.word
-            runs.append(Run(f"{shown.symbol}\u00a0{word}", is_bold=True))
+            runs.append(Piece(f"{shown.symbol}\u00a0{word}", STRONG))
         elif isinstance(piece, Piece):
             is_small = piece.look == SMALL
             begins = is_small and runs and not runs[-1].text.endswith("\n")
-            begun = f"\n{piece.text}" if begins else piece.text
-            is_bold = piece.look in _BOLD
-            runs.append(Run(begun, is_bold, is_small, piece.has_symbols))
+            runs.append(replace(piece, text=f"\n{piece.text}") if begins else piece)
     return tuple(runs)
 
 
-def write_runs(runs: Runs) -> str:
-    """Runs as WordprocessingML."""
-    return "".join(map(_write_looks, runs))
-
-
-def _write_looks(piece: Run) -> str:
-    look = "<w:b/>" if piece.is_bold else ""
-    look += f'<w:sz w:val="{round(2 * SMALLEST_PT)}"/>' if piece.is_small else ""
-    parts = _SUBSCRIPT.split(piece.text) if piece.has_symbols else [piece.text]
-    lowered = look + '<w:vertAlign w:val="subscript"/>'
-    return "".join(
-        _write_run(part, lowered if place % 2 else look)
-        for place, part in enumerate(parts)
-        if part
-    )
+def write_runs(
+    runs: Runs, *, is_bold: bool = False, is_small: bool | None = None
+) -> str:
+    """Pieces as WordprocessingML; all of them are small, or none, if that is said."""
+    written = ""
+    for one in runs:
+        look = "<w:b/>" if is_bold or one.look in _BOLD else ""
+        if is_small or (is_small is None and one.look == SMALL):
+            look += f'<w:sz w:val="{round(2 * SMALLEST_PT)}"/>'
+        lowered = look + '<w:vertAlign w:val="subscript"/>'
+        parts = _SUBSCRIPT.split(one.text) if one.has_symbols else [one.text]
+        written += "".join(
+            _write_run(part, lowered if place % 2 else look)
+            for place, part in enumerate(parts)
+            if part
+        )
+    return written
 
 
 def _write_run(text: str, look: str) -> str:
@@ -190,19 +181,15 @@ def _write_line(
     spans = len(cells) == 1 < len(widths)
     taken = [sum(widths)] if spans else widths
     spanned = f'<w:gridSpan w:val="{len(widths)}"/>' if spans else ""
+    is_small = is_tight if is_head or is_tight else None
     inside = ""
     for cell, width, is_number in zip(cells, taken, grid.numbers, strict=False):
-        runs = cell
-        if is_head or is_tight:
-            runs = tuple(
-                Run(one.text, one.is_bold or is_head, is_tight, one.has_symbols)
-                for one in cell
-            )
+        runs = write_runs(cell, is_bold=is_head, is_small=is_small)
         look = "<w:keepNext/>" if is_head else ""
         look += '<w:jc w:val="right"/>' if is_number and not spans else ""
         inside += (
             f'<w:tc><w:tcPr><w:tcW w:w="{width}" w:type="dxa"/>{spanned}</w:tcPr>'
-            f"{write_paragraph(write_runs(runs), style, look)}</w:tc>"
+            f"{write_paragraph(runs, style, look)}</w:tc>"
         )
     repeated = "<w:tblHeader/>" if is_head else ""
     return f"<w:tr><w:trPr><w:cantSplit/>{repeated}</w:trPr>{inside}</w:tr>"
@@ -222,7 +209,7 @@ def _measure_columns(
 def _measure_tight(grid: Grid) -> tuple[list[float], list[float]]:
     """The same where words of headings have to break, before any number does."""
     wanted, _ = _measure_columns(grid, is_tight=True)
-    headings = tuple((Run(_PART),) for _ in grid.headings)
+    headings = tuple((Piece(_PART),) for _ in grid.headings)
     least, _ = _measure_columns(replace(grid, headings=headings), is_tight=True)
     return [_WIDE_FONT * one for one in least], wanted
 

@@ -9,30 +9,30 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Sequence
 from copy import deepcopy
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.given_files import make_printable
 from netdesign.report.blocks import (
+    STRONG,
     Block,
     Cell,
     Contents,
     Figure,
     Heading,
     Items,
-    Pair,
     Pairs,
     Paragraph,
     Part,
+    Piece,
     Table,
 )
 from netdesign.report.document import styles
 from netdesign.report.document.markup import (
     POINT,
     Grid,
-    Run,
     Runs,
     list_runs,
     parse,
@@ -187,7 +187,7 @@ class Writer:
         for number, item in enumerate(block.items, 1):
             runs = list_runs(item)
             if block.look == "numbered":
-                self._add_paragraph((Run(f"{number}. "), *runs), styles.TEXT)
+                self._add_paragraph((Piece(f"{number}. "), *runs), styles.TEXT)
             else:
                 self._add_paragraph(runs, styles.ITEM)
 
@@ -215,10 +215,10 @@ class Writer:
         self.begins_page = False
 
     def _write_text(self, block: Paragraph) -> None:
-        runs = list_runs(block.text)
-        if block.look in _SMALL_LOOKS:
-            runs = tuple(replace(one, is_small=True) for one in runs)
-        self._add_paragraph(runs, _STYLES.get(block.look, styles.TEXT))
+        is_small = True if block.look in _SMALL_LOOKS else None
+        runs = write_runs(list_runs(block.text), is_small=is_small)
+        style = _STYLES.get(block.look, styles.TEXT)
+        self._add(write_paragraph(runs, self._ids[style]))
 
     def _write_table(self, table: Table) -> None:
         if table.rows:
@@ -265,7 +265,7 @@ class Writer:
     def _add_grid(self, caption: Runs, grid: Grid) -> None:
         """Table below its caption; tables never touch, or a reader would join them."""
         named = any(one.text for one in caption)
-        self._add_paragraph(caption if named else (Run("\u00a0"),), styles.CAPTION)
+        self._add_paragraph(caption if named else (Piece("\u00a0"),), styles.CAPTION)
         both = (self._ids[styles.TABLE], self._ids[styles.CELL])
         self._add(write_table(grid, both, self.width_pt))
 
@@ -290,17 +290,9 @@ def _list_pairs(block: Pairs) -> Grid:
     return Grid(
         numbers=(False, False),
         lines=tuple(
-            ((Run(pair.name, is_bold=True),), _list_pair(pair)) for pair in block.pairs
+            ((Piece(pair.name, STRONG),), list_runs(pair.text)) for pair in block.pairs
         ),
     )
-
-
-def _list_pair(pair: Pair) -> Runs:
-    runs = list_runs(pair.text)
-    items = "\n".join(pair.items)
-    if not items:
-        return runs
-    return (*runs, Run(f"\n{items}" if runs else items))
 
 
 def _list_cells(table: Table) -> Grid:
@@ -323,11 +315,11 @@ def _list_cell(cell: Cell, table: Table) -> Runs:
     if cell.content:
         return list_runs(cell.content)
     if table.symbols == "cells":
-        return (Run(cell.text, has_symbols=True),)
+        return (Piece(cell.text, has_symbols=True),)
     starts = tuple(f"{one} " for one in _VERDICTS)
     is_verdict = cell.text in _VERDICTS or cell.text.startswith(starts)
     shown = cell.text.replace(" ", "\u00a0", int(is_verdict))
-    return (Run(shown, is_bold=is_verdict),)
+    return (Piece(shown, STRONG if is_verdict else ""),)
 
 
 def _field(kind: str, more: str = "") -> str:

@@ -73,9 +73,10 @@ class LabelBoard:
 
     def avoid(self, points: Sequence[Point]) -> None:
         """Keep labels off a line where there is room elsewhere."""
-        for start, end in pairwise(points):
-            count = max(1, round(math.dist(start, end) / _STEP))
-            self.lines += [_between(start, end, k / count) for k in range(count + 1)]
+        for (x0, y0), (x1, y1) in pairwise(points):
+            count = max(1, round(math.dist((x0, y0), (x1, y1)) / _STEP))
+            shares = [k / count for k in range(count + 1)]
+            self.lines += [(x0 + s * (x1 - x0), y0 + s * (y1 - y0)) for s in shares]
 
     def draw(self, sketch: Chart, label: Label) -> None:
         """Write a label where it is free."""
@@ -154,10 +155,3 @@ def _share(part: float) -> float:
     if part > 0.35:
         return 0.0
     return 1.0 if part < -0.35 else 0.5
-
-
-def _between(start: Point, end: Point, share: float) -> Point:
-    return (
-        start[0] + share * (end[0] - start[0]),
-        start[1] + share * (end[1] - start[1]),
-    )

@@ -128,7 +128,7 @@ def draw_meshes(pictures: Sequence[MeshPicture], words: Words = ENGLISH) -> str:
 
 def _show_range(key: str, values: Floats, words: Words) -> str:
     """Least and largest of some values under their name."""
-    text = words.show_range(values.tolist())
+    text = words.show_range([float(values.min()), float(values.max())])
     return words("show.label", label=words(key), text=text)
 
 

@@ -63,14 +63,12 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
         return ""
     sketch = Chart(language=words.language)
     views = [_place_view(drawn, part, place) for place, part in enumerate((1, 0))]
-    bottoms = [bottom for _, bottom in views]
-    height = max(bottoms)
+    height = max(bottom for _, bottom in views)
     board = LabelBoard(width=_WIDTH, height=height)
     for place, title in enumerate(_TITLES):
         _write_title(sketch, board, words(title), place * _PLACE)
-    for (view, bottom), is_named in zip(views, (True, False), strict=True):
-        if is_named:
-            _name_supports(sketch, board, bottom, words)
+    _name_supports(sketch, board, views[0][1], words)
+    for view, _ in views:
         _draw_view(sketch, view, drawn)
         _draw_forces(sketch, board, view, drawn, words)
     return sketch.write(height, _describe(panel, drawn, words), _WIDTH)

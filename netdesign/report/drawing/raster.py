@@ -104,12 +104,10 @@ def _trace(paper: _Paper, kind: str, look: Look) -> Path:
     if kind == "path":
         return _place(paper, _follow(look["d"]))
     points = _list_corners(kind, look)
-    if kind != "polyline":
+    is_closed = kind != "polyline"
+    if is_closed:
         points.append(points[0])
-    codes = [Path.MOVETO] + [Path.LINETO] * (len(points) - 1)
-    if kind != "polyline":
-        codes[-1] = Path.CLOSEPOLY
-    return _place(paper, Path(points, codes))
+    return _place(paper, Path(points, closed=is_closed))
 
 
 def _list_corners(kind: str, look: Look) -> list[tuple[float, float]]:

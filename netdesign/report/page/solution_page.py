@@ -68,14 +68,11 @@ def list_solution_files(
     method: str, *, is_wall: bool, has_panel: bool = False
 ) -> list[str]:
     """Names of all files that a solution of this kind may become."""
-    drawings = [f"{name}.svg" for name in _DRAWINGS]
-    names = [SOLUTION_FILE, PAGE_FILE, *drawings]
-    if not has_panel:
-        names.remove("panel.svg")
-    if method == "steady" or is_wall:
-        names.remove("history.svg")
-        return names
-    return [*names, HISTORY_FILE]
+    has_history = method != "steady" and not is_wall
+    is_there = {"panel": has_panel, "history": has_history}
+    drawings = [f"{name}.svg" for name in _DRAWINGS if is_there.get(name, True)]
+    tables = [HISTORY_FILE] if has_history else []
+    return [SOLUTION_FILE, PAGE_FILE, *drawings, *tables]
 
 
 def render_solution(

@@ -11,6 +11,7 @@ from typing import Any
 from netdesign.report.blocks import (
     Block,
     Cell,
+    Column,
     Part,
     Table,
     notes,
@@ -18,7 +19,6 @@ from netdesign.report.blocks import (
     number_column,
     section,
     text_cell,
-    text_column,
 )
 from netdesign.report.words import Words, show_member
 from netdesign.structure.members import SOLVED_MEMBERS, Member
@@ -74,7 +74,7 @@ def _build_forces(support: Mapping[str, Any], words: Words) -> Table:
     return Table(
         caption=words("support_view.forces"),
         columns=(
-            text_column(words("heading.member")),
+            Column(heading=words("heading.member")),
             number_column("max_kN", words("panel_view.by_section")),
             number_column("max_kN", words("support_view.error")),
             number_column("max_kN", words("panel_view.by_panel")),
@@ -111,7 +111,7 @@ def _build_vectors(support: Mapping[str, Any], words: Words) -> Table:
     return Table(
         caption=words("support_view.vectors"),
         columns=(
-            text_column(words("support_view.pull")),
+            Column(heading=words("support_view.pull")),
             *(number_column("max_kN", words(key)) for key in _PARTS.values()),
         ),
         rows=tuple(
@@ -129,7 +129,7 @@ def _build_ropes(panel: Mapping[str, Any], words: Words) -> Table:
     return Table(
         caption=words("support_view.ropes"),
         columns=(
-            text_column(words("panel_view.rope")),
+            Column(heading=words("panel_view.rope")),
             number_column("along_kN", words("panel_view.along")),
             number_column("tension_kN", words("panel_view.tension")),
         ),

@@ -152,15 +152,11 @@ def _tabulate_correlations(fit: Mapping[str, Any], words: Words) -> Table:
         caption=words("fit_page.correlations_caption"),
         columns=name_columns(headings, numbers=names),
         rows=tuple(
-            (text_cell(name), *(fixed_cell(words, _unsigned(one), 2) for one in line))
+            # none that is shown as 0 keeps its sign
+            (text_cell(name), *(fixed_cell(words, round(x, 2) or 0.0, 2) for x in line))
             for name, line in zip(names, fit["correlations"], strict=False)
         ),
     )
-
-
-def _unsigned(value: float) -> float:
-    """Correlation without the sign of one that is shown as 0."""
-    return round(value, 2) or 0.0
 
 
 def _tabulate_residuals(fit: Mapping[str, Any], words: Words) -> Table:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
+    Column,
     Items,
     Pair,
     Pairs,
@@ -16,7 +17,6 @@ from netdesign.report.blocks import (
     key_columns,
     section,
     text_cell,
-    text_column,
 )
 from netdesign.report.sections.basis import (
     DEFAULT,
@@ -125,7 +125,7 @@ def _build_symbols(study: Study, words: Words) -> Table:
     ]
     return Table(
         caption=words("caption.symbols"),
-        columns=(text_column(words("heading.symbols")),),
+        columns=(Column(heading=words("heading.symbols")),),
         rows=((text_cell(words.join(told)),),) if told else (),
         empty=words("show.none"),
     )

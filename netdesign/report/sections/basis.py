@@ -8,6 +8,7 @@ from dataclasses import replace
 from netdesign.report.blocks import (
     Block,
     Cell,
+    Column,
     Heading,
     Items,
     Pair,
@@ -20,7 +21,6 @@ from netdesign.report.blocks import (
     section,
     symbols,
     text_cell,
-    text_column,
 )
 from netdesign.report.words import (
     MISSING,
@@ -67,13 +67,12 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
 
 def show_inputs(study: Study, words: Words) -> Part:
     """Section of all rows' inputs as understood, a column for each row."""
-    starts = range(0, len(study.rows), _ACROSS)
+    starts = range(0, max(len(study.rows), 1), _ACROSS)
     tables = [_build_inputs(study.rows[k : k + _ACROSS], words) for k in starts]
-    shown = tables or [_build_inputs([], words)]
     return section(
         "inputs",
         words("heading.inputs_of_rows"),
-        *(one.shown("site-inputs") for one in shown),
+        *(one.shown("site-inputs") for one in tables),
         look="wide",
     )
 
@@ -89,7 +88,7 @@ def _build_inputs(rows: Sequence[RowStudy], words: Words) -> Table:
         caption=words("caption.site_inputs"),
         columns=(
             *key_columns(words, "heading.", ("input", "column_of", "unit")),
-            *(text_column(show_text(row.id)) for row in rows),
+            *(Column(heading=show_text(row.id)) for row in rows),
         ),
         rows=tuple(
             (
@@ -395,8 +394,8 @@ def name_cases(study: Study, words: Words) -> str:
     return words("show.legend_further", legend=legend, names=" / ".join(names))
 
 
-def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], list[str]]:
-    """Net rows, or the ranges, by the value that they left empty.
+def list_defaults(study: Study, words: Words) -> list[str]:
+    """Values that nobody typed, what they were taken as, and where.
 
     A range without a number of samples is searched: that is no value.
     """
@@ -413,17 +412,6 @@ def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], list[st
             elif echo.label == _ALTITUDE and echo.value == "":
                 shown = words("show.largest_altitude_factor")
                 found.setdefault((label, shown), []).append(place)
-    return found
-
-
-def count_defaults(study: Study, words: Words) -> int:
-    """Values that nobody typed."""
-    return len(_group_defaults(study, words))
-
-
-def list_defaults(study: Study, words: Words) -> list[str]:
-    """Values that nobody typed, what they were taken as, and where."""
-    found = _group_defaults(study, words)
     return [
         words(
             "show.default_taken",

@@ -15,7 +15,6 @@ from netdesign.report.blocks import (
     Paragraph,
     Piece,
     Sketch,
-    rich_cell,
 )
 from netdesign.report.words import (
     MISSING,
@@ -48,7 +47,7 @@ MANY_UNSAID = "check.unsaid_many"
 
 def badge_cell(verdict: Verdict, words: Words) -> Cell:
     """Symbol and word of a verdict."""
-    return rich_cell((Badge(show_verdict(verdict, words)),))
+    return Cell(content=(Badge(show_verdict(verdict, words)),))
 
 
 def describe_resistance(check: CheckRecord, words: Words) -> str:
@@ -247,14 +246,13 @@ class CheckLine:
             if _find_key(one.reason) not in (*_PLAIN, "check.fails")
         }
         shown = list(dict.fromkeys(told.values()))
-        if len(shown) > 1 or len(told) < len(self.checks):
-            places = {False: words("heading.inside"), True: words("heading.at_end")}
-            if len(self.checks) > 1:
-                return [
-                    words("show.label", label=places[is_end], text=text)
-                    for is_end, text in told.items()
-                ]
-        return shown
+        if len(self.checks) == 1 or (len(told) > 1 and len(shown) == 1):
+            return shown
+        places = {False: words("heading.inside"), True: words("heading.at_end")}
+        return [
+            words("show.label", label=places[is_end], text=text)
+            for is_end, text in told.items()
+        ]
 
 
 def list_lines(checks: Sequence[CheckRecord]) -> Iterator[CheckLine]:

@@ -23,7 +23,6 @@ from netdesign.report.blocks import (
     key_columns,
     masthead,
     name_columns,
-    rich_cell,
     section,
     strong,
     text_cell,
@@ -32,10 +31,10 @@ from netdesign.report.sections.basis import (
     DEFAULT,
     anchor_rows,
     count_assumed,
-    count_defaults,
     describe_floor,
     has_other_floor,
     label_rows,
+    list_defaults,
     name_profile,
     name_rows,
 )
@@ -150,9 +149,9 @@ def _tabulate_rows(study: Study, words: Words, *, has_rows: bool) -> Block:
 def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
     check = find_governing(row.checks)
     named = show_check(words, check) if check else words("heading.no_check")
-    used = rich_cell(show_used(check, words)) if check else text_cell(MISSING)
+    used = Cell(content=show_used(check, words)) if check else text_cell(MISSING)
     return (
-        rich_cell((Piece(show_text(row.id), "name", link=anchor),)),
+        Cell(content=(Piece(show_text(row.id), "name", link=anchor),)),
         badge_cell(row.verdict, words),
         text_cell(named),
         used,
@@ -220,7 +219,7 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     yield from _list_rising(study, words)
     if any(_is_assumed_stiffness(echo) for echo in study.range_inputs):
         yield words("todo.stiffness")
-    defaults = count_defaults(study, words)
+    defaults = len(list_defaults(study, words))
     if defaults:
         yield words("todo.defaults", count=defaults)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from netdesign.report.blocks import (
     Block,
     Cell,
+    Column,
     Figure,
     Paragraph,
     Part,
@@ -14,7 +15,6 @@ from netdesign.report.blocks import (
     number_cell,
     section,
     text_cell,
-    text_column,
 )
 from netdesign.report.drawing.chain_figure import draw_loads
 from netdesign.report.words import Words
@@ -22,7 +22,6 @@ from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.records import RowStudy, Study, find_input
 
 _LOAD_CASES = ("load_case_1", "load_case_2")
-_Compared = tuple[RowStudy, GuidelineRecord, float]  # and the ratio of both forces
 
 
 def show_difference(study: Study, words: Words) -> Part | None:
@@ -30,15 +29,12 @@ def show_difference(study: Study, words: Words) -> Part | None:
 
     None where no net row has both.
     """
-    compared = [
-        (row, row.guideline, ratio)
-        for row in study.rows
-        if row.guideline and (ratio := _compare(row.guideline))
-    ]
+    compared = [row for row in study.rows if _compare(row)]
     if not compared:
         return None
-    worst, record, _ = max(compared, key=lambda one: one[2])
-    ratios = [ratio for _, _, ratio in compared]
+    worst = max(compared, key=lambda row: _compare(row) or 0.0)
+    record = worst.guideline
+    ratios = [one for row in compared if (one := _compare(row))]
     lead = words(
         "why_more.lead",
         low=words.show_fixed(min(ratios), 2),
@@ -46,19 +42,22 @@ def show_difference(study: Study, words: Words) -> Part | None:
     )
     blocks: list[Block] = [Paragraph(text=lead), _tabulate(compared, words)]
     height = find_input(worst, "net_height")
-    svg = draw_loads(record, height, words) if height else ""
-    if svg:
+    svg = draw_loads(record, height, words) if record and height else ""
+    if record and svg:
         caption = words("why_more.caption", row=worst.id)
         blocks.append(Figure(svg=svg, caption=caption))
-    text = words("show.label", label=worst.id, text=words.show(record.sentence))
-    blocks.append(Paragraph(text=text))
+    if record:
+        label, text = worst.id, words.show(record.sentence)
+        blocks.append(Paragraph(text=words("show.label", label=label, text=text)))
     return section("why-more", words("why_more.heading"), *blocks)
 
 
-def _compare(record: GuidelineRecord) -> float | None:
+def _compare(row: RowStudy) -> float | None:
     """Coupled force of the foot anchor over the largest of the guideline's cases."""
-    least = _find_largest(record)
-    return record.solved_foot_anchor_kN / least if least else None
+    least = _find_largest(row.guideline) if row.guideline else None
+    if row.guideline is None or not least:
+        return None
+    return row.guideline.solved_foot_anchor_kN / least
 
 
 def _find_largest(record: GuidelineRecord) -> float | None:
@@ -66,30 +65,30 @@ def _find_largest(record: GuidelineRecord) -> float | None:
     return max((one for one in forces if one is not None), default=None)
 
 
-def _tabulate(compared: list[_Compared], words: Words) -> Table:
+def _tabulate(rows: list[RowStudy], words: Words) -> Table:
     """Foot anchor of each row: coupled, by the guideline, by its law in equal snow."""
     keys = ("coupled", "guideline", "ratio", "same_snow", "model")
     return Table(
         caption=words("why_more.table"),
         columns=(
-            text_column(words("heading.net_row")),
+            Column(heading=words("heading.net_row")),
             *key_columns(words, "why_more.", keys, numbers=keys),
         ),
-        rows=tuple(_show(*one, words) for one in compared),
+        rows=tuple(_show(row, words) for row in rows),
     )
 
 
-def _show(
-    row: RowStudy, record: GuidelineRecord, ratio: float, words: Words
-) -> tuple[Cell, ...]:
-    coupled = record.solved_foot_anchor_kN
-    forces = {one.name: one.foot_anchor_kN for one in record.cases}
-    same = forces.get("same_snow")
+def _show(row: RowStudy, words: Words) -> tuple[Cell, ...]:
+    record = row.guideline
+    coupled = record.solved_foot_anchor_kN if record else None
+    least = _find_largest(record) if record else None
+    cases = record.cases if record else []
+    same = next((one.foot_anchor_kN for one in cases if one.name == "same_snow"), None)
     return (
         text_cell(row.id),
         number_cell(words, "foot_anchor_kN", coupled),
-        number_cell(words, "foot_anchor_kN", _find_largest(record)),
-        fixed_cell(words, ratio, 2),
+        number_cell(words, "foot_anchor_kN", least),
+        fixed_cell(words, _compare(row), 2),
         number_cell(words, "foot_anchor_kN", same),
-        fixed_cell(words, coupled / same if same else None, 2),
+        fixed_cell(words, coupled / same if coupled and same else None, 2),
     )

@@ -22,7 +22,6 @@ from netdesign.report.blocks import (
     quantity_column,
     section,
     text_cell,
-    text_column,
 )
 from netdesign.report.sections.basis import group_notes, label_rows
 from netdesign.report.words import (
@@ -87,11 +86,11 @@ def _build_quality(study: Study, words: Words) -> Table:
     return Table(
         caption=words("caption.quality"),
         columns=(
-            text_column(words("heading.net_row")),
+            Column(heading=words("heading.net_row")),
             *key_columns(words, "heading.", counts, numbers=counts),
             number_column("balance_residual", words("heading.largest_residual")),
             number_column("error_percent", error),
-            text_column(words("heading.independent_checks")),
+            Column(heading=words("heading.independent_checks")),
         ),
         rows=tuple(_quality_row(row, words) for row in study.rows),
         empty=words("show.none"),
@@ -170,8 +169,7 @@ def build_cases(row: RowStudy, words: Words) -> Table:
         columns=(
             *list_case_columns(words, row),
             *(quantity_column(words, key) for key in keys),
-            text_column(words("heading.outcome")),
-            text_column(words("heading.reason")),
+            *key_columns(words, "heading.", ("outcome", "reason")),
         ),
         rows=tuple(
             (
@@ -203,7 +201,7 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
     return Table(
         caption=words("caption.extremes"),
         columns=(
-            text_column(words("heading.member")),
+            Column(heading=words("heading.member")),
             quantity_column(words, "max_kN"),
             *(number_column("max_kN", add_unit(f"{band} {end}", "kN")) for end in ends),
             *list_case_columns(words, row),
@@ -255,14 +253,13 @@ def build_bounds(row: RowStudy, words: Words) -> Table:
     return Table(
         caption=words("caption.bounds"),
         columns=(
-            text_column(words("heading.member")),
+            Column(heading=words("heading.member")),
             quantity_column(words, "max_kN"),
             number_column("max_kN", above),
             *name_columns((gap,), numbers=(gap,)),
             number_column("max_kN", again),
             *name_columns((difference,), numbers=(difference,)),
-            text_column(words("heading.solved_again_by")),
-            text_column(words("heading.case")),
+            *key_columns(words, "heading.", ("solved_again_by", "case")),
         ),
         rows=tuple(_bound_row(bound, words) for bound in _list_bounds(row)),
         empty=words("heading.grid_without_bound"),
@@ -310,8 +307,8 @@ def _build_drivers(row: RowStudy, words: Words) -> Table:
     return Table(
         caption=words("caption.driver_table"),
         columns=(
-            text_column(words("heading.member")),
-            *(text_column(name_heading(words, one.key)) for one in drivers),
+            Column(heading=words("heading.member")),
+            *(Column(heading=name_heading(words, one.key)) for one in drivers),
         ),
         rows=tuple(
             (
@@ -396,9 +393,9 @@ def build_opinions(study: Study, words: Words) -> Table:
     return Table(
         caption=words("opinion.caption"),
         columns=(
-            text_column(words("heading.net_row")),
+            Column(heading=words("heading.net_row")),
             *name_columns(headings, numbers=headings),
-            text_column(others),
+            Column(heading=others),
         ),
         rows=tuple(_opinion_row(row, words) for row in study.rows),
         empty=words("show.none"),
@@ -467,7 +464,7 @@ def _tabulate_notes(study: Study, words: Words) -> Table:
     return Table(
         caption=words("beside.caption"),
         columns=(
-            text_column(words("heading.net_row")),
+            Column(heading=words("heading.net_row")),
             *key_columns(words, "beside.", keys, numbers=keys[:5]),
         ),
         rows=tuple(
@@ -525,7 +522,7 @@ def stack_tables(
     columns = _join_columns([table for _, table in parts])
     return Table(
         caption=caption,
-        columns=(text_column(words("heading.net_row")), *columns),
+        columns=(Column(heading=words("heading.net_row")), *columns),
         rows=tuple(
             (text_cell(name), *_place_cells(part, row, columns))
             for name, part in parts

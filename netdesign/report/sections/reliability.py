@@ -12,6 +12,7 @@ from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import (
     Block,
     Cell,
+    Column,
     Figure,
     Items,
     Paragraph,
@@ -21,7 +22,6 @@ from netdesign.report.blocks import (
     key_columns,
     section,
     text_cell,
-    text_column,
 )
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import ACCENT, TEXT_PT, WIDTH, Chart
@@ -267,7 +267,7 @@ def tabulate_variables(study: Study, words: Words) -> Table:
     return Table(
         caption=words("reliability.variables"),
         columns=(
-            text_column(words("heading.quantity")),
+            Column(heading=words("heading.quantity")),
             *key_columns(words, "reliability.", names, numbers=names[1:]),
             *key_columns(words, "heading.", ("source", "net_rows")),
         ),

@@ -22,7 +22,6 @@ from netdesign.report.blocks import (
     key_columns,
     name_columns,
     number_cell,
-    rich_cell,
     section,
     small,
     symbols,
@@ -105,7 +104,7 @@ def _tabulate_routes(tested: _Tested, words: Words) -> Table:
         rows.append((kind, count, *numbers))
         remarks = words.join(_list_remarks(tests, words))
         if remarks:
-            rows.append((rich_cell((Piece(remarks, "small"),)),))
+            rows.append((Cell(content=(Piece(remarks, "small"),)),))
     counting = words.show(name("route", tested[0][1].route))
     return Table(
         caption=words("tests.by_route", route=counting),
@@ -290,7 +289,7 @@ class RowSections:
             first = line.checks[0]
             lines.append(
                 (
-                    rich_cell((verdict, Piece(line.name(t), "name"))),
+                    Cell(content=(verdict, Piece(line.name(t), "name"))),
                     text_cell(first.resistance_type),
                     number_cell(t, "resistance_kN", first.resistance_kN),
                     *self._show_place(line.inside),
@@ -299,7 +298,7 @@ class RowSections:
             )
             remarks = line.list_remarks(t)
             if remarks:
-                lines.append((rich_cell(small(remarks)),))
+                lines.append((Cell(content=small(remarks)),))
         return Table(
             caption=t("caption.checks_of_row"),
             columns=tuple(self._list_columns()),
@@ -338,7 +337,7 @@ class RowSections:
             return text_cell(MISSING), text_cell(MISSING)
         demand = number_cell(self.words, "demand_kN", check.demand_kN)
         is_near = not is_far_from_limit(check)
-        return demand, rich_cell(show_used(check, self.words, with_interval=is_near))
+        return demand, Cell(content=show_used(check, self.words, with_interval=is_near))
 
     def _show_requirements(self, checks: Sequence[CheckRecord]) -> Iterator[Block]:
         """Checks without a force: those that are met by name, the others at length."""

@@ -16,7 +16,6 @@ from netdesign.report.blocks import (
     number_cell,
     section,
     text_cell,
-    text_column,
 )
 from netdesign.report.sections.basis import name_rows
 from netdesign.report.words import (
@@ -56,7 +55,7 @@ def build_schedule(study: Study, words: Words) -> Table:
     return Table(
         caption=words("caption.schedule"),
         columns=(
-            text_column(words("heading.net_row")),
+            Column(heading=words("heading.net_row")),
             *key_columns(words, "heading.", headings),
             *name_columns(numbers, numbers=numbers),
             Column(heading=add_unit(words("heading.schedule_needed"), "kN")),

@@ -19,7 +19,6 @@ from netdesign.report.blocks import (
     Piece,
     Table,
     key_columns,
-    rich_cell,
     section,
     strong,
     symbols,
@@ -63,7 +62,7 @@ def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
     for one in check.steps:
         told = _describe_given(one, check, words)
         if told:
-            yield rich_cell(symbols(one.symbol)), text_cell(told[0]), text_cell(told[1])
+            yield Cell(content=symbols(one.symbol)), *map(text_cell, told)
         elif one.formula:
             formula = _print(one, words)
             numbers = words.write_formula(
@@ -71,11 +70,11 @@ def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
             )
             shown = known[one.symbol]
             if one.symbol == "μ":
-                shown = _add_band(words, *check.used_band, one.value, "utilisation")
+                shown = _show_used(check, one.value, words)
             yield (
-                rich_cell(symbols(f"{one.symbol} = {formula}")),
+                Cell(content=symbols(f"{one.symbol} = {formula}")),
                 text_cell(f"= {numbers}"),
-                rich_cell((Piece("= "), *strong(shown))),
+                Cell(content=(Piece("= "), *strong(shown))),
             )
 
 
@@ -101,11 +100,10 @@ def _print(step: Step, words: Words) -> str:
     return words.write_formula(translate(step.formula, PRINTED))
 
 
-def _add_band(
-    words: Words, low: float | None, high: float | None, value: float | None, key: str
-) -> str:
-    band = words.show_band(key, low, high)
-    shown = words.show_number(key, value)
+def _show_used(check: CheckRecord, used: float | None, words: Words) -> str:
+    """Utilisation with its interval, where that is known."""
+    shown = words.show_number("utilisation", used)
+    band = words.show_band("utilisation", *check.used_band)
     return shown if band == MISSING else words("show.with_band", value=shown, band=band)
 
 
@@ -221,7 +219,7 @@ def _list_groups(
             resistance = (check.resistance_cell, check.mode, check.read("R_k"))
             parts += _describe_check(check, own, words, is_told=resistance in told)
             told.add(resistance)
-        yield (rich_cell(tuple(parts)),)
+        yield (Cell(content=tuple(parts)),)
 
 
 def _name_group(group: Sequence[CheckRecord], words: Words) -> str:

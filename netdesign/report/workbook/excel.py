@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from netdesign.outcome import NetDesignError
-from netdesign.report.blocks import Table, text_cell, text_column
+from netdesign.report.blocks import Column, Table, text_cell
 from netdesign.report.gate import require_consistent
 from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
@@ -202,7 +202,7 @@ def _list_notes(book: Book, study: Study) -> Iterator[Table]:
     ):
         yield Table(
             caption=words(f"heading.{heading}"),
-            columns=(text_column(words("heading.note")),),
+            columns=(Column(heading=words("heading.note")),),
             rows=tuple((text_cell(sentence),) for sentence in sentences),
             empty=words("show.none"),
         )

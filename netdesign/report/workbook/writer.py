@@ -136,7 +136,6 @@ DEFAULT_FONT = MappingProxyType({"font_name": "Arial", "font_size": 10})
 _DIGIT_PT = 5.56  # width of a digit
 _LINE_PT = 11.5  # height of a line of text
 _DECIMAL = re.compile(r"-?\d+(?:[.,](\d+))?")  # with the mark of any language
-_WRAPPED = "text"  # no quantity: cells of words
 _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
@@ -160,8 +159,6 @@ class Book:
         self.verdicts = {verdict: show_verdict(verdict, words) for verdict in Verdict}
         self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
-        self._forms: dict[tuple[bool, str | int | None], Any] = {}
-        self._names: dict[str, str] = {}
 
     def format(self, **properties: Any) -> Any:
         """Format with the font of the workbook and these properties."""
@@ -194,9 +191,7 @@ class Book:
 
     def name(self, sheet: str) -> str:
         """Name of a sheet, by its key, in the language of the workbook."""
-        if sheet not in self._names:
-            self._names[sheet] = self.words(f"heading.{sheet}")[:_LONGEST_NAME]
-        return self._names[sheet]
+        return self.words(f"heading.{sheet}")[:_LONGEST_NAME]
 
     def refer(self, sheet: str, area: str) -> str:
         """Reference to an area of another sheet."""
@@ -244,20 +239,11 @@ class Book:
     ) -> None:
         """Write a number as a number with its format, all else as text."""
         if cell.number is None or not math.isfinite(cell.number):
-            form = self._form(column, _WRAPPED)
+            form = self.format(**_align(column), text_wrap=True)
             sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
             return
-        shown = column.quantity or _count_decimals(cell.text)
-        sheet.write_number(*place, cell.number, self._form(column, shown))
-
-    def _form(self, column: Column, shown: str | int | None) -> Any:
-        """Format of a column's cells: of a text, of a quantity, or with decimals."""
-        key = (column.is_number, shown)
-        form = self._forms.get(key)
-        if form is None:
-            form = self.format(**_align(column), **_find_look(shown))
-            self._forms[key] = form
-        return form
+        form = self.format(**_align(column), **_find_look(column.quantity, cell.text))
+        sheet.write_number(*place, cell.number, form)
 
     def write_table(
         self, sheet: Any, table: Table, top: int, widths: Sequence[float]
@@ -370,20 +356,12 @@ def _take_as_is(formula: str, *_: object) -> str:
     return formula.removeprefix("=")
 
 
-def _count_decimals(text: str) -> int | None:
-    """Digits behind the mark of a number, as many as the page shows; None of none."""
+def _find_look(quantity: str, text: str) -> dict[str, Any]:
+    """Format of a number: that of its quantity, or with as many digits as its text."""
+    if quantity:
+        return {"num_format": QUANTITIES[quantity].number_format}
     found = _DECIMAL.fullmatch(text)
-    return len(found[1] or "") if found else None
-
-
-def _find_look(shown: str | int | None) -> dict[str, Any]:
-    """Property of a format, by what `_count_decimals` or a column says of its cells."""
-    if shown is None:
-        return {}
-    if shown == _WRAPPED:
-        return {"text_wrap": True}
-    decimals = f"0.{'0' * shown}".rstrip(".") if isinstance(shown, int) else ""
-    return {"num_format": decimals or QUANTITIES[str(shown)].number_format}
+    return {"num_format": f"0.{'0' * len(found[1] or '')}".rstrip(".")} if found else {}
 
 
 def _align(column: Column) -> dict[str, Any]:
