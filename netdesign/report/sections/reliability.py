@@ -6,7 +6,7 @@ An index has one decimal, and never stands beside a verdict.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import (
@@ -23,8 +23,7 @@ from netdesign.report.blocks import (
     section,
     text_cell,
 )
-from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import ACCENT, TEXT_PT, WIDTH, Chart
+from netdesign.report.drawing.share_bars import draw_shares
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -39,9 +38,6 @@ from netdesign.study.records import ReliabilityRecord, RowStudy, Study, Variable
 _JCSS = {"minor": 3.1, "moderate": 3.3, "large": 3.7}
 _ERRORS = 2.0  # of the sampling to each end of the band
 _EDGE = 1e-9
-_LINE, _BAR = 11.0, 7.0  # from bar to bar of a share, height of a bar [pt]
-_GAP = 6.0  # beside a bar [pt]
-_NUMBER = 26.0  # room of a number [pt]
 _NONE = (text_cell(MISSING),) * 5  # beside a row without an index
 
 
@@ -192,35 +188,7 @@ def _show_shares(
     point = words.name_case(record.design_point)
     if shares:
         caption = words("reliability.design_point", title=title, case=point)
-        yield Figure(svg=_draw_shares(shares, title, words), caption=caption)
-
-
-def _draw_shares(shares: Sequence[tuple[str, float]], title: str, words: Words) -> str:
-    """SVG of the bars, the largest first.
-
-    Parameters
-    ----------
-    shares : sequence of (str, float)
-        Name and share of each, from 0 to 1.
-    title : str
-        What is shown.
-    words : Words
-        Of the language.
-    """
-    ranked = sorted(shares, key=lambda one: -one[1])
-    left = max(measure_words(label, TEXT_PT) for label, _ in ranked) + _GAP
-    room = 0.6 * WIDTH - left - _NUMBER
-    sketch, texts = Chart(language=words.language), []
-    for place, (label, share) in enumerate(ranked):
-        top = place * _LINE + 0.5 * (_LINE - _BAR)
-        base = top + 0.5 * _BAR + 0.35 * TEXT_PT
-        shown = words("reliability.percent", share=words.show_fixed(100.0 * share, 0))
-        sketch.text(left - _GAP, base, label, anchor="end")
-        sketch.rectangle(left, top, max(0.5, room * share), _BAR, ACCENT)
-        sketch.text(left + room * share + _GAP, base, shown)
-        texts.append(words("show.label", label=label, text=shown))
-    told = words("drawing.with_values", what=title, values=tuple(texts))
-    return sketch.write(len(ranked) * _LINE + 2.0, told)
+        yield Figure(svg=draw_shares(shares, title, words), caption=caption)
 
 
 def _name(variable: VariableRecord, words: Words) -> str:
