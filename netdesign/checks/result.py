@@ -26,20 +26,6 @@ class Band:
         if not (0.0 <= self.low <= self.value <= self.high < math.inf):
             raise ModelError(say("band.disorder", band=repr(self)))
 
-    def times(self, factor: float) -> Band:
-        """Multiply by a positive factor [-]."""
-        return Band(
-            low=self.low * factor, value=self.value * factor, high=self.high * factor
-        )
-
-    def over(self, divisor: float) -> Band:
-        """Divide by a positive number in the same unit."""
-        return Band(
-            low=self.low / divisor,
-            value=self.value / divisor,
-            high=self.high / divisor,
-        )
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GivenResistance:

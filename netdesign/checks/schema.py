@@ -80,7 +80,6 @@ _PAIRS = (
     (MIN_SLOPE, MAX_SLOPE),
     (LEAST_PLAUSIBLE_SLOPE, MOST_PLAUSIBLE_SLOPE),
 )
-LIMIT_IDS = tuple(LIMIT_UNITS)
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (
     ACTION_FACTOR,
@@ -218,7 +217,7 @@ class Entry(_Table):
 class LimitEntry(Entry):
     """A limit of geometry."""
 
-    id: Annotated[str, _is_one_of(LIMIT_IDS)]
+    id: Annotated[str, _is_one_of(LIMIT_UNITS)]
 
     @model_validator(mode="after")
     def _check(self) -> LimitEntry:

@@ -121,14 +121,7 @@ class CheckByCase:
     @cached_property
     def largest(self) -> float:
         """Largest force of the member over the solved cases [N]."""
-        return self._largest[self.member]
-
-    @cached_property
-    def _largest(self) -> dict[str, float]:
-        """Largest forces that the check follows, over the solved cases [N]."""
-        known = [one for one in self.results if self.has_result(one)]
-        names = (self.member, *(name for name, _ in self.beside))
-        return {name: max(self._read(one, name) for one in known) for name in names}
+        return max(self.force(one) for one in self.results if self.has_result(one))
 
     @cached_property
     def _names(self) -> tuple[str, ...]:
@@ -140,19 +133,6 @@ class CheckByCase:
     def has_result(self, result: CaseResult) -> bool:
         """All forces are known that the check follows."""
         return all(name in result.member_forces for name in self._names)
-
-    def share(self, result: CaseResult) -> float:
-        """Share of their largest values that its forces have in a case, the least [-].
-
-        1 where they have none in any case, below 0 in a case without a result.
-        """
-        if not self.has_result(result):
-            return -1.0
-        largest = self._largest
-        return min(
-            self._read(result, name) / largest[name] if largest[name] else 1.0
-            for name in largest
-        )
 
     def force(self, result: CaseResult) -> float:
         """Upper end of the member's force in a case [N]."""
@@ -170,20 +150,16 @@ class CheckByCase:
         """Slackness: the member carries nothing in any solved case."""
         return all(not self.utilisation(result) for result in self.results)
 
-    def solve(
-        self, solver: CaseSolver, cases: Sequence[Case], setting: Setting
-    ) -> list[CaseResult]:
-        """Results of some cases of the row with what is moved.
+    def solve(self, solver: CaseSolver, case: Case, setting: Setting) -> CaseResult:
+        """Result of a case of the row with what is moved.
 
         What a move leaves as it is was solved in the search: it is not solved again.
         """
-        known = {case: self._find_unmoved(case, setting) for case in cases}
-        moved = [case for case in cases if known[case] is None]
-        solved = solver.solve_all(
-            [(self.row, setting.at(case), solver.law) for case in moved]
-        )
-        found = known | dict(zip(moved, solved, strict=True))
-        return [one for case in cases if (one := found[case]) is not None]
+        known = self._find_unmoved(case, setting)
+        if known is not None:
+            return known
+        (solved,) = solver.solve_all([(self.row, setting.at(case), solver.law)])
+        return solved
 
     def _find_unmoved(self, case: Case, setting: Setting) -> CaseResult | None:
         """Result of a solved case that already has the value; None of any other."""
@@ -375,7 +351,7 @@ class CheckLine:
         """Utilisation at a value in one case, by the guideline's load too [-]."""
         setting, used = Setting(name=self.quantity, value=value), 0.0
         if not self.check.is_slack:
-            (result,) = self.check.solve(self.solver, [case], setting)
+            result = self.check.solve(self.solver, case, setting)
             known = self.check.utilisation(result, setting)
             if known is None:
                 raise NoResultError(value, result.reason or result.outcome.message)

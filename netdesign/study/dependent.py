@@ -399,20 +399,16 @@ def connect(
     found = Resistance(
         member=given.member, mode=CONNECTION, type_id=type_id, source=given.source
     )
-    factors = (
-        find_action_factor(standard).value,
-        getattr(standard.find_resistance_factor(CONNECTION, "declared"), "value", None),
-    )
-    on_action, on_resistance = factors
     if not type_id:
         return found
-    if not links or on_action is None or on_resistance is None:
-        lack = (
-            None
-            if links
-            else say("connection.no_links", type=type_id, sheet=say("sheet.Links"))
-        )
-        return replace(found, lack=lack, basis="declared" if links else "")
+    if not links:
+        lack = say("connection.no_links", type=type_id, sheet=say("sheet.Links"))
+        return replace(found, lack=lack)
+    on_action = find_action_factor(standard).value
+    factor = standard.find_resistance_factor(CONNECTION, "declared")
+    if on_action is None or factor is None:
+        return replace(found, basis="declared")
+    on_resistance = factor.value
     pulled = None if pull is None else pull.angle
     if pull is not None and not pull.is_axis_known:
         pulled = math.pi / 2
@@ -428,13 +424,13 @@ def connect(
         value=strengths[weakest],
         basis="declared",
         source=links[weakest].source,
-        derivation=_describe_link(links[weakest], pulled, factors),
+        derivation=_describe_link(links[weakest], pulled, (on_action, on_resistance)),
         dimensions=links[weakest],
     )
 
 
 def _describe_link(
-    link: Link, pulled: float | None, factors: tuple[float | None, float | None]
+    link: Link, pulled: float | None, factors: tuple[float, float]
 ) -> Message:
     """Way from a link's strength to its characteristic resistance."""
     force = kilonewton_from_newton(link.limit or link.breaking or 0.0)
@@ -445,7 +441,7 @@ def _describe_link(
         force=force,
     )
     if link.limit is not None:
-        action, resistance = (factor or 0.0 for factor in factors)
+        action, resistance = factors
         told = say("connection.limit", of=told, action=action, resistance=resistance)
     if link.kind != SHACKLE:
         return told

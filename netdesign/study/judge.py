@@ -139,6 +139,7 @@ def judge_row(
         standard=standard,
         law=run.creep_law,
         solved=solved,
+        extremes=solved.extremes,
         find_floor=cache(partial(find_row_floor, row, standard=standard)),
         bound_floor=cache(partial(bound_row_floor, row, standard=standard)),
         solver=solver,
@@ -148,10 +149,10 @@ def judge_row(
 
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
-    row, solved, extremes = task.row, task.solved, task.solved.extremes
+    row, solved, extremes = task.row, task.solved, task.extremes
     floor = task.find_floor(task.site.ranges)
-    known = know_row(task, extremes, floor)
-    found, model_form = _check_row(task, extremes, known)
+    known = know_row(task, floor)
+    found, model_form = _check_row(task, known)
     checks = found.records
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(find_worst(checks), extremes)
@@ -185,7 +186,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         model_form=model_form,
         panel=panel,
         notes=[*notes, *list_history_notes(extremes)],
-        statics=record_statics(row, solved.results, extremes, floor),
+        statics=record_statics(task, floor),
         held_sideways=known.along_row,
         tilt=known.tilt,
         envelope=_record_search(solved, checks),
@@ -217,18 +218,18 @@ def _find_reliability(
 
 
 def _check_row(
-    task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
+    task: RowToCheck, known: RowForces
 ) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
     Where the program fails in one of those, or in a detail of the check that is shown,
     it is not trusted in the checks either.
     """
-    found = check_row(task, extremes, known)
+    found = check_row(task, known)
     worst = find_worst(found.records)
     before = task.count_faults()
-    found = detail_shown(task, found, extremes)
-    form = _find_model_form(task, worst, _governing_result(worst, extremes))
+    found = detail_shown(task, found)
+    form = _find_model_form(task, worst)
     if task.count_faults() > before:
         doubted = [distrust(check) for check in found.records]
         found = replace(found, records=doubted)
@@ -287,23 +288,22 @@ def _governing_result(
 
 
 def _find_model_form(
-    task: RowToCheck, worst: CheckRecord | None, governing: CaseResult | None
+    task: RowToCheck, worst: CheckRecord | None
 ) -> ModelFormRecord | None:
-    if task.solver is None or worst is None or governing is None:
+    if task.solver is None or worst is None:
         return None
     member = _name_largest(worst)
+    governing = task.extremes[member].governing
     return record_model_form(task.solver, task.row, governing, member, worst)
 
 
-def know_row(
-    task: RowToCheck, extremes: Mapping[str, Extreme], floor: Floor | None
-) -> RowForces:
+def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
     """Knowledge of a row by its cases and the guideline's load."""
     site, row, standard = task.site, task.row, task.standard
-    results = task.solved.results
+    results, extremes = task.solved.results, task.extremes
     effects = find_effects(row, standard, site.ranges)
     head = floor.head if floor else None
-    held = find_held_sideways(row, results, extremes, standard, head)
+    held = find_held_sideways(task, head)
     return RowForces(
         site=site,
         row=row,
@@ -316,7 +316,7 @@ def know_row(
         tilt=find_tilt(
             row, (one.case.inclination for one in results if one.is_converged)
         ),
-        pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
+        pulls=tuple(list_pulls(task, effects.lateral_share, head)),
         gap=task.solved.gap,
         panel_gap=_find_failed_panel(row, results),
     )

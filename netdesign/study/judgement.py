@@ -176,7 +176,7 @@ def _judge_member(
     doubt = None
     if force is not None:
         given = find_resistance_for_force(given, known, pull)
-        doubt = _find_doubt(known, list_bringing(known, force))
+        doubt = _find_doubt(known, force)
     gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
     gap = gap or _find_unseen(force.solved if force else ())
     gap = gap or find_other_panel(row, given, width.position)
@@ -220,22 +220,16 @@ def _find_unsaid(
     return None if is_inside else find_lack(row, given)
 
 
-def list_bringing(forces: RowForces, force: MemberForce) -> list[ForceRecord]:
-    """Largest forces that a check rests on: its member's, and what adds to it.
+def _find_doubt(known: RowForces, force: MemberForce) -> Message | None:
+    """Doubt that the creep law holds for the snow of a force that a check rests on.
 
-    The net's pull on the head brings what is added, as it does the post's force.
+    That is its member's, and what adds to it: the net's pull on the head brings that,
+    as it does the post's force.
     """
-    found = list(force.solved)
-    if force.added_high > 0.0:
-        found.append(forces.largest[Member.POST])
-    return found
-
-
-def _find_doubt(basis: Basis, brings: Sequence[ForceRecord]) -> Message | None:
-    """Doubt that the creep law holds for the snow of a largest force."""
+    adding = [known.largest[Member.POST]] if force.added_high > 0.0 else []
     doubts = (
-        find_doubt(basis, density=one.case.density_kg_m3, largest=one.high_kN)
-        for one in brings
+        find_doubt(known, density=one.case.density_kg_m3, largest=one.high_kN)
+        for one in (*force.solved, *adding)
     )
     return next((one for one in doubts if one is not None), None)
 
@@ -277,13 +271,12 @@ def record_member(known: RowForces, one: MemberCheck) -> CheckRecord:
     if one.is_of_end:
         return replace(check, governs="panel")
     least = known.find_least(one.given.member)
+    load_case = least.load_case if least else ""
     return replace(
         check,
-        load_case=least.load_case if least else "",
+        load_case=load_case,
         load_inclination_deg=least.inclination_deg if least else None,
-        reason=name_governing(
-            check.reason, one.force, least.load_case if least else ""
-        ),
+        reason=name_governing(check.reason, one.force, load_case),
     )
 
 

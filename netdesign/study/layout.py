@@ -7,7 +7,7 @@ one, and its study.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -71,9 +71,7 @@ class Proposed:
     coverage: Coverage
 
 
-def propose_layout(
-    given: GivenZone, follow: Callable[[int], Followed] = lambda _: nullcontext()
-) -> Proposed:
+def propose_layout(given: GivenZone, follow: Callable[[int], Followed]) -> Proposed:
     """Rows for the zones, and the same rows as ``netdesign terrain`` measures them.
 
     ``follow`` gets the number of rows, and gives what is called after each.

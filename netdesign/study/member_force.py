@@ -388,7 +388,7 @@ def name_governing(reason: Message, force: MemberForce, load_case: str) -> Messa
 def leave_out_governing(reason: Message) -> Message:
     """The reason alone of what `name_governing` gives."""
     alone = reason.arguments.get("reason")
-    is_told = reason.key == "load.reason" and isinstance(alone, Message)
+    is_told = reason.key == "load.reason"
     return alone if is_told and isinstance(alone, Message) else reason
 
 

@@ -22,7 +22,7 @@ from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.dependent import find_snow_pressure
-from netdesign.study.effects import RowEffects, list_assumed, list_end_notes
+from netdesign.study.effects import list_assumed, list_end_notes
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import may_share
 from netdesign.study.records import CheckRecord, IndependentRecord
@@ -131,7 +131,7 @@ def list_judged_notes(
     """Notes of a row that follow from its inputs, its checks and its cases."""
     row, ranges, standard = known.row, known.site.ranges, known.standard
     return [
-        *list_row_notes(row, known.effects, known.pulls),
+        *list_row_notes(known),
         *list_end_notes(row, ranges, known.law, known.effects),
         describe_model_code(row, ranges["density"]),
         *_list_sharing_notes(row, standard),
@@ -143,14 +143,12 @@ def list_judged_notes(
     ]
 
 
-def list_row_notes(
-    row: NetRow, effects: RowEffects, pulls: Sequence[PullRecord]
-) -> list[Message]:
+def list_row_notes(known: RowForces) -> list[Message]:
     """What was taken for granted about this row."""
-    notes = []
+    row, notes = known.row, []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))
-    for width in effects.supports:
+    for width in known.effects.supports:
         if width.other_width is not None:
             wider, other = width.width, width.other_width
             told = say("row.gap_at_threshold", gap=row.gap, wider=wider, other=other)
@@ -162,7 +160,7 @@ def list_row_notes(
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
     if row.panel_assumed and row.solved_panels:
         notes.append(say("panel.assumed", names=row.panel_assumed))
-    return [*notes, *_list_pull_notes(pulls)]
+    return [*notes, *_list_pull_notes(known.pulls)]
 
 
 def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import conclude, judge, not_proven
 from netdesign.checks.schema import ROPE_ANGLE
-from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance
@@ -24,6 +23,7 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.sideways import list_states, place_row
 from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian
@@ -33,17 +33,14 @@ ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 
 
 def list_pulls(
-    row: NetRow,
-    results: Sequence[CaseResult],
-    share: float,
-    floor: HeadSpan | None = None,
+    task: RowToCheck, share: float, floor: HeadSpan | None
 ) -> list[PullRecord]:
     """Pull on every anchor over the converged cases and under the floor's load.
 
     ``share`` acts along the row. The anchors of the row's end come last, where they
     are of types of their own.
     """
-    solved = [one for one in results if one.is_converged]
+    row, solved = task.row, [one for one in task.solved.results if one.is_converged]
     points = [place_row(row, one.case.inclination) for one in solved]
     states = [state for one in solved for state in list_states(row, one)]
     feet = [force for state in states for force in state.feet]

@@ -171,7 +171,8 @@ def record_independent(
     ]
     if state.method == "steady":  # forces of a history are its largest, not its last
         checks.append(_check_capstan(state, result.case.friction_angle))
-    checks.append(_check_tension(state))
+    share = (state.balance.smallest_tension or 0.0) / state.tension_max
+    checks.append(_judge("tension_share", share))  # a net does not push
     if len(head) > 1:
         checks.append(_judge("head_balance", measure_open_head(head)))
     return checks
@@ -197,12 +198,6 @@ def _check_capstan(state: SolvedState, friction_angle: float) -> IndependentReco
     smallest = state.balance.smallest_tension or 0.0
     ratio = float(state.tension_max / smallest) if smallest > 0.0 else None
     return _judge("capstan_ratio", ratio, limit)
-
-
-def _check_tension(state: SolvedState) -> IndependentRecord:
-    """Smallest over largest tension: a net does not push."""
-    share = float((state.balance.smallest_tension or 0.0) / state.tension_max)
-    return _judge("tension_share", share)
 
 
 def measure_open_head(head: list[HeadForce]) -> float:

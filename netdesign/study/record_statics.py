@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from typing import Any, TypeVar
 
 from netdesign.coupling.solution import EndPull
-from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import hold_net, place_head
@@ -20,6 +19,7 @@ from netdesign.structure.members import Member, NetPart, RopeForce
 from netdesign.study.case_records import GuidelineLoadRecord
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import list_load
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.sideways import SupportState, list_states
 from netdesign.study.support_records import StaticsRecord
 from netdesign.units import kilonewton_from_newton
@@ -27,30 +27,23 @@ from netdesign.units import kilonewton_from_newton
 _State = TypeVar("_State")  # state of a row
 
 
-def record_statics(
-    row: NetRow,
-    results: Sequence[CaseResult],
-    extremes: Mapping[str, Extreme],
-    floor: Floor | None,
-) -> list[StaticsRecord]:
+def record_statics(task: RowToCheck, floor: Floor | None) -> list[StaticsRecord]:
     """States of a row that bring its largest forces: solved cases, then the floor's.
 
     A member that is slack in every state is left out.
     """
-    solved = [one for one in results if one.is_converged and one.anchors is not None]
-    return [*_record_cases(row, solved, extremes), *_record_floor(floor)]
+    return [*_record_cases(task), *_record_floor(floor)]
 
 
-def _record_cases(
-    row: NetRow, solved: Sequence[CaseResult], extremes: Mapping[str, Extreme]
-) -> Iterable[StaticsRecord]:
+def _record_cases(task: RowToCheck) -> Iterable[StaticsRecord]:
+    row = task.row
     found = [
         (key, state)
-        for key, one in extremes.items()
+        for key, one in task.extremes.items()
         if one.force.value > 0.0 and key not in (*RopeForce, NetPart.MESH)
         for state in _find_state(row, key, one.governing)
     ]
-    every = (state for one in solved for state in list_states(row, one))
+    every = (state for one in task.solved.results for state in list_states(row, one))
     if states := sorted(every, key=lambda one: one.panel is not None):
         found += [
             (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS

@@ -44,7 +44,7 @@ from netdesign.study.support_records import (
     PullRecord,
     StaticsRecord,
 )
-from netdesign.words.message import Message, Text
+from netdesign.words.message import Message, Text, say
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -517,8 +517,5 @@ def find_word(row: RowStudy, column: str) -> str:
 
 
 def _find(row: RowStudy, column: str) -> float | str | None:
-    for echo in row.inputs:
-        label = echo.label
-        if isinstance(label, Message) and label.key == f"column.Nets.{column}":
-            return echo.value
-    return None
+    label = say(f"column.Nets.{column}")
+    return next((one.value for one in row.inputs if one.label == label), None)

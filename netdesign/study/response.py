@@ -154,7 +154,7 @@ class Response:
         }
         if "density" in spans:
             low, high = spans["density"]
-            spans["density"] = low, _find_densest(high)
+            spans["density"] = low, max(high, min(_DENSER * high, TRIED_DENSITIES[1]))
         spans |= {line.name: (line.low, line.high) for line in self.lines}
         for name, (low, high) in spans.items():
             room = _ROUNDING * max(abs(low), abs(high))
@@ -282,11 +282,6 @@ def _solve_beside(rater: Rater, lines: Sequence[Line]) -> list[tuple[float, floa
             for one, value, rate in zip(lines, values, found, strict=True)
         ]
     raise ModelError(say("reliability.no_solve"))
-
-
-def _find_densest(high: float) -> float:
-    """Density up to which a design point may lie, of the range's high end [kg/m3]."""
-    return max(high, min(_DENSER * high, TRIED_DENSITIES[1]))
 
 
 def _fit(

@@ -56,15 +56,13 @@ class RowChecks:
     by_case: Mapping[str, CheckByCase]
 
 
-def check_row(
-    task: RowToCheck, extremes: Mapping[str, Extreme], known: RowForces
-) -> RowChecks:
+def check_row(task: RowToCheck, known: RowForces) -> RowChecks:
     """Every check of a row: the members of both supports, then the geometry.
 
-    ``extremes`` are those of its solved cases, ``known`` what these tell.
+    ``known`` is what its solved cases tell.
     """
     judged = judge_members(known)
-    followed = list_checks_by_case(task, known, judged, extremes)
+    followed = list_checks_by_case(task, known, judged)
     changes: list[list[ChangeRecord]] = []
     for place, (one, by_case) in enumerate(zip(judged, followed, strict=True)):
         before = task.count_faults()
@@ -84,9 +82,7 @@ def check_row(
     )
 
 
-def detail_shown(
-    task: RowToCheck, found: RowChecks, extremes: Mapping[str, Extreme]
-) -> RowChecks:
+def detail_shown(task: RowToCheck, found: RowChecks) -> RowChecks:
     """The check that is shown with the parts of its interval, and its margins."""
     shown = find_shown(found.records)
     judged = found.judged.get(shown.id) if shown else None
@@ -97,7 +93,7 @@ def detail_shown(
         margins = find_margins(by_case, task.solver, _list_known(shown.changes))
     detailed = replace(
         shown,
-        spreads=list_spreads(task, judged, extremes[judged.force.largest.quantity]),
+        spreads=list_spreads(task, judged),
         holds=margins,
     )
     records = [detailed if one is shown else one for one in found.records]
@@ -120,10 +116,7 @@ _SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness
 
 
 def list_checks_by_case(
-    task: RowToCheck,
-    known: RowForces,
-    judged: Sequence[MemberCheck],
-    extremes: Mapping[str, Extreme],
+    task: RowToCheck, known: RowForces, judged: Sequence[MemberCheck]
 ) -> list[CheckByCase | None]:
     """Checks as functions of a solved case; None of those that no solve may turn.
 
@@ -133,7 +126,7 @@ def list_checks_by_case(
     if task.solver is None or task.solved.gap or task.row.is_overtopped:
         return [None] * len(judged)
     return [
-        _build_check(task, known, one, extremes)
+        _build_check(task, known, one)
         if _follows_cases(one) and is_worst(one, judged)
         else None
         for one in judged
@@ -167,12 +160,7 @@ def _follows_cases(one: MemberCheck) -> bool:
     return force.largest.high_kN > 0.0 or force.added_high == 0.0
 
 
-def _build_check(
-    task: RowToCheck,
-    known: RowForces,
-    one: MemberCheck,
-    extremes: Mapping[str, Extreme],
-) -> CheckByCase:
+def _build_check(task: RowToCheck, known: RowForces, one: MemberCheck) -> CheckByCase:
     """The check as a function of a solved case and of the row.
 
     Of section and panel that one which is larger is followed, the other beside it.
@@ -194,7 +182,7 @@ def _build_check(
         beside=tuple(scales.items()),
         added=use * force.added_high,
         rise=use * force.rise,
-        governing=extremes[followed].governing.case,
+        governing=task.extremes[followed].governing.case,
         results=results,
         widen=cache(partial(_find_load, known, one, force)),
         push=_find_push(task, one, force),
@@ -263,9 +251,7 @@ def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
     return force.high_kN / at_cases if at_cases else 1.0
 
 
-def list_spreads(
-    task: RowToCheck, one: MemberCheck, extreme: Extreme
-) -> list[SpreadRecord]:
+def list_spreads(task: RowToCheck, one: MemberCheck) -> list[SpreadRecord]:
     """Parts of the interval of a utilisation, the creep law's for comparison.
 
     A floor cuts off what lies below it. What the ropes load has none, and is not
@@ -278,6 +264,7 @@ def list_spreads(
     def rate(solved: float) -> float:
         return use * force.find_high(solved / 1e3)
 
+    extreme = task.extremes[force.largest.quantity]
     largest = 1e3 * force.largest.high_kN
     scale = rate(largest) / largest if largest else use * force.share / 1e3
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.cable.net import Net
 from netdesign.checks import Standard
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
@@ -34,13 +35,15 @@ class Basis:
 class RowToCheck(Basis):
     """One net row under one profile.
 
-    ``find_floor`` gives the guideline's load over ranges in which something may be
-    moved, ``bound_floor`` two ends of it, or None where these are not known; ``solver``
-    is None where nothing beyond the solved cases is to be solved;
-    ``on_check`` is called after each check of a force.
+    ``extremes`` are the largest forces of its solved cases; ``find_floor`` gives the
+    guideline's load over ranges in which something may be moved, ``bound_floor`` two
+    ends of it, or None where these are not known; ``solver`` is None where nothing
+    beyond the solved cases is to be solved; ``on_check`` is called after each check of
+    a force.
     """
 
     solved: RowGrid | RowEnvelope
+    extremes: Mapping[str, Extreme]
     find_floor: Callable[[Ranges], Floor | None]
     bound_floor: Callable[[Ranges], tuple[FloorEnd, FloorEnd] | None]
     solver: CaseSolver | None
@@ -49,9 +52,6 @@ class RowToCheck(Basis):
     def count_faults(self) -> int:
         """Faults of the program in the solves so far."""
         return self.solver.faults if self.solver else 0
-
-
-_TWO_SIDED: Sides = "two-sided"
 
 
 def build_scene(
@@ -131,7 +131,7 @@ class CaseSolver:
         A failed one is a result too. ``contacts`` are those of their grounds; two-sided
         unless told.
         """
-        sides = contacts or (_TWO_SIDED,) * len(wanted)
+        sides: Sequence[Sides] = contacts or ["two-sided"] * len(wanted)
         keys: list[tuple[NetRow, Case, str, Sides]] = [
             (row, case, law.name, side)
             for (row, case, law), side in zip(wanted, sides, strict=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from netdesign.checks import Band, CheckResult, Standard
 from netdesign.checks.check import conclude, not_proven
@@ -25,6 +25,7 @@ from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.splay import compute_splayed_head, weigh_splay
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.units import (
     degree_from_radian,
@@ -39,28 +40,20 @@ GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
 
 
 def find_held_sideways(
-    row: NetRow,
-    results: Sequence[CaseResult],
-    extremes: Mapping[str, Extreme],
-    standard: Standard,
-    floor: HeadSpan | None = None,
+    task: RowToCheck, floor: HeadSpan | None
 ) -> HeldSidewaysRecord | Message:
     """Load along the row at its heads over the solved cases, or why it is not held.
 
     Parameters
     ----------
-    row : NetRow
-        With its guys.
-    results : sequence of CaseResult
-        Of the envelope.
-    extremes : mapping of str to Extreme
-        Largest forces of the members, with what may hide.
-    standard : Standard
-        Profile that gives the share of the load.
+    task : RowToCheck
+        Row with its guys, cases and largest forces; the profile gives the share of the
+        load.
     floor : HeadSpan or None
         What the guideline's load brings at the head; None without a floor.
     """
-    value, splay = standard.find(LATERAL_SHARE), row.guys.splay
+    row, results = task.row, task.solved.results
+    value, splay = task.standard.find(LATERAL_SHARE), row.guys.splay
     if value is None:
         return say("ends.no_lateral_load", value=LATERAL_SHARE)
     lack = find_lack(row)
@@ -71,17 +64,16 @@ def find_held_sideways(
         return describe_gap(results) or say("check.no_case_solved")
     failed = (_fail(head, value.value, splay) for head in heads)
     reason = next((one for one in failed if one is not None), None)
-    return reason or _record(row, heads, extremes, floor, (value.value, splay))
+    return reason or _record(task, heads, floor, (value.value, splay))
 
 
 def _record(
-    row: NetRow,
+    task: RowToCheck,
     heads: Sequence[SupportState],
-    extremes: Mapping[str, Extreme],
     floor: HeadSpan | None,
     load: tuple[float, float],
 ) -> HeldSidewaysRecord:
-    share, splay = load
+    row, extremes, (share, splay) = task.row, task.extremes, load
     hidden = {
         member: find_hidden(member, extremes)
         for member in (*GUYS, Member.POST)
@@ -230,10 +222,9 @@ def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
     return [
         of_section,
         *(
-            SupportState(
-                result=result,
+            replace(
+                of_section,
                 panel=one,
-                points=points,
                 anchors=one.anchors,
                 foot=one.foot,
                 head=one.head,

@@ -231,8 +231,7 @@ def _compare_grounds(
 
 def _find_column(member: str) -> Column | None:
     """Column that names the type of a member; None of the net."""
-    named: dict[str, Column] = {one: one for one in _MODES}
-    column = named.get(member)
+    column = next((one for one in _MODES if one == member), None)
     return NAMED_BY.get(column, column) if isinstance(column, Member) else column
 
 

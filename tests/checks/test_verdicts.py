@@ -172,9 +172,11 @@ def test_more_load_or_less_strength_never_makes_a_verdict_better(
     action, on_action, strength, factor, more
 ):
     order = (FAIL, OPEN, PASS)
+    low, value, high = (more * one for one in (action.low, action.value, action.high))
+    larger = Band(low=low, value=value, high=high)
     here = order.index(verdict_of(action, on_action, strength, factor))
     for worse in (
-        verdict_of(action.times(more), on_action, strength, factor),
+        verdict_of(larger, on_action, strength, factor),
         verdict_of(action, on_action * more, strength, factor),
         verdict_of(action, on_action, strength / more, factor),
         verdict_of(action, on_action, strength, factor * more),

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.checks import Band
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope import run as running
 from netdesign.envelope.confirm import build_history_settings, merge_history
@@ -239,10 +240,17 @@ def test_history_that_went_on_has_no_panel(at_rest_and_followed):
     )
 
 
+def scale(result, share):
+    return {
+        name: Band(low=share * one.low, value=share * one.value, high=share * one.high)
+        for name, one in result.member_forces.items()
+    }
+
+
 @pytest.mark.parametrize("share", [0.5, 1.5])
 def test_larger_forces_of_a_history_s_panel_count(at_rest_and_followed, share):
     steady, history = at_rest_and_followed
-    forces = {n: one.times(share) for n, one in history.member_forces.items()}
+    forces = scale(history, share)
     merged = merge_history(steady, replace(history, member_forces=forces))
     assert RowGrid(results=[merged]).gap is None
     for name in PANEL_QUANTITIES:
@@ -255,7 +263,8 @@ def test_larger_forces_of_a_history_s_panel_count(at_rest_and_followed, share):
 @pytest.mark.parametrize("share", [0.5, 1.5])
 def test_where_a_history_is_the_demand_nothing_is_known_of_the_panel(share):
     steady = solve(draw_case(np.random.default_rng(8)))
-    own = {name: steady.member_forces[name].times(share) for name in CARRYING_MEMBERS}
+    scaled = scale(steady, share)
+    own = {name: scaled[name] for name in CARRYING_MEMBERS}
     lost = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("outcome.nonfinite"))
     history = replace(steady, member_forces=own, panel=lost)
     merged = merge_history(steady, history)
@@ -276,7 +285,7 @@ def test_a_panel_that_the_steady_state_lacks_stays_a_gap(share):
     lost = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("outcome.nonfinite"))
     own = {name: whole.member_forces[name] for name in CARRYING_MEMBERS}
     steady = replace(whole, member_forces=own, panel=lost)
-    forces = {name: one.times(share) for name, one in whole.member_forces.items()}
+    forces = scale(whole, share)
     merged = merge_history(steady, replace(whole, member_forces=forces))
     assert "by the panel between posts" in str(RowGrid(results=[merged]).gap)
     for name, band in own.items():

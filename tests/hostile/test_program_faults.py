@@ -19,7 +19,7 @@ from netdesign.solving import solve as solve_module
 from netdesign.solving import workers as workers_module
 from netdesign.solving.solve import solve_scene
 from netdesign.solving.workers import ProcessPool
-from netdesign.study import cases as site_cases
+from netdesign.study import row_to_check
 from netdesign.study.row_to_check import build_scene
 from tests.short_example import write_short_example
 from tests.small_scene import SMALL_SCENE
@@ -222,14 +222,14 @@ class FaultyScene(Scene):
 def test_a_fault_in_a_process_of_the_pool_is_told_alike(
     call, site, monkeypatch, processes
 ):
-    def build(row, case, law):
-        scene = build_scene(row, case, law)
+    def build(row, case, *how):
+        scene = build_scene(row, case, *how)
         is_hit = row.id == "R1" and case.density > 350.0 and case.friction_angle > 0.6
         values = {name: getattr(scene, name) for name in scene.__dataclass_fields__}
         return FaultyScene(**values) if is_hit else scene
 
     monkeypatch.setattr(workers_module, "ProcessPool", partial(ProcessPool, worth=1))
-    monkeypatch.setattr(site_cases, "build_scene", build)
+    monkeypatch.setattr(row_to_check, "build_scene", build)
     options = ("--accuracy", "0.1", "--quiet", "--json", "--no-cache")
     ended = call("check", site, *options, "--jobs", processes)
     assert ended.code == 5

@@ -114,7 +114,7 @@ def test_bound_that_is_told_passes_and_the_next_step_fails():
 
     def at(thickness):
         setting = Setting(name="thickness", value=thickness)
-        (result,) = check.solve(MadeUpSolver(), [check.governing], setting)
+        result = check.solve(MadeUpSolver(), check.governing, setting)
         return check.utilisation(result, setting)
 
     assert at(change.bound) <= 1.0 < at(change.bound + 0.02)
@@ -325,14 +325,14 @@ def test_what_a_setting_leaves_as_it_is_is_not_solved_again():
         Setting(name="density", value=at.density),
         Setting(name="thickness", value=2.5),
     ):
-        (found,) = check.solve(solver, [at], setting)
+        found = check.solve(solver, at, setting)
         assert found == next(one for one in check.results if one.case == at)
     assert solver.count == 0
     lighter = next(one.case for one in check.results if one.case.density == 270.0)
     setting = Setting(name="density", value=at.density)
-    settingd, same = check.solve(solver, [lighter, at], setting)
-    assert (settingd.case.density, same.case, solver.count) == (at.density, at, 1)
-    (thinner,) = check.solve(solver, [at], Setting(name="thickness", value=2.4))
+    moved, same = (check.solve(solver, one, setting) for one in (lighter, at))
+    assert (moved.case.density, same.case, solver.count) == (at.density, at, 1)
+    thinner = check.solve(solver, at, Setting(name="thickness", value=2.4))
     assert thinner.case.values["thickness"] == 2.4
 
 
@@ -343,7 +343,7 @@ def test_a_case_without_its_force_is_solved_again():
         for one in check.results
     ]
     setting = Setting(name="density", value=check.governing.density)
-    replace(check, results=lost).solve(solver, [check.governing], setting)
+    replace(check, results=lost).solve(solver, check.governing, setting)
     assert solver.count == 1
 
 

@@ -26,12 +26,11 @@ GUY_OF: Mapping[str, Member] = {
     Member.UPHILL_ANCHOR: Member.UPHILL_GUY,
     Member.DOWNHILL_ANCHOR: Member.DOWNHILL_GUY,
 }
-_STEADY = "steady"
 
 
 def is_of_steady_states(study: Study) -> bool:
     """No history had a part in its forces, which need not be of one instant then."""
-    return study.provenance.settings.get("method") == _STEADY
+    return study.provenance.settings.get("method") == "steady"
 
 
 def read_number(study: Study, setting: str) -> float:

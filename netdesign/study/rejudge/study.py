@@ -10,9 +10,8 @@ from netdesign.envelope.ranges import build_cases
 from netdesign.outcome import NetDesignError, Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
-from netdesign.study.case_records import FloorRecord, GuidelineRecord
+from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.effects import (
-    RowEffects,
     find_effects,
     load_guideline,
 )
@@ -270,10 +269,7 @@ def _read_panel(
 
 def _judge_row(row: RowStudy, basis: Basis, study: Study) -> Iterator[Message]:
     """Every check from the forces of the study, as if these had just been solved."""
-    given, standard, ranges = basis.row, basis.standard, basis.site.ranges
-    effects = find_effects(given, standard, ranges)
-    floor = record_floor(find_row_floor(given, ranges, standard), given)
-    known = _know_again(row, basis, effects, floor)
+    given, known = basis.row, _know_again(row, basis)
     notes = list_judged_notes(known, row.checks, row.cases, row.panel)
     # of histories more is noted, behind these
     more = [] if is_of_steady_states(study) else row.notes[len(notes) :]
@@ -281,7 +277,7 @@ def _judge_row(row: RowStudy, basis: Basis, study: Study) -> Iterator[Message]:
         "checks": _check_again(row, known),
         "pulls": list(known.pulls),
         "notes": [*notes, *more],
-        "floor": floor,
+        "floor": known.floor,
         "slab": row.slab and _compare_slab(row.slab, given, basis.law),
         "guideline": row.guideline and _compare_guideline(row.guideline, given),
     }
@@ -289,25 +285,24 @@ def _judge_row(row: RowStudy, basis: Basis, study: Study) -> Iterator[Message]:
     yield from _compare("audit.judged_otherwise", place, row, again)
 
 
-def _know_again(
-    row: RowStudy, basis: Basis, effects: RowEffects, floor: FloorRecord | None
-) -> RowForces:
+def _know_again(row: RowStudy, basis: Basis) -> RowForces:
     """Knowledge of a row by what the study states of its solved cases."""
-    panel = row.panel
+    given, standard, ranges = basis.row, basis.standard, basis.site.ranges
+    effects, panel = find_effects(given, standard, ranges), row.panel
     is_failed = panel is not None and bool(panel.assumed) and bool(panel.failed)
     return RowForces(
         site=basis.site,
-        row=basis.row,
-        standard=basis.standard,
+        row=given,
+        standard=standard,
         law=basis.law,
         effects=effects,
         largest={one.quantity: one for one in row.forces},
-        floor=floor,
-        held=row.held_sideways or find_lack(basis.row) or _UNKNOWN_GAP,
+        floor=record_floor(find_row_floor(given, ranges, standard), given),
+        held=row.held_sideways or find_lack(given) or _UNKNOWN_GAP,
         tilt=row.tilt,
         pulls=tuple(
             build_pull(
-                *(basis.row, one.anchor, one.pulls),
+                *(given, one.anchor, one.pulls),
                 *(effects.lateral_share, one.position),
             )
             for one in row.pulls
