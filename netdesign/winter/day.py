@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -65,6 +66,19 @@ def merge_layers(
             break
         layers[place : place + 2] = [_join(layers[place], layers[place + 1])]
     return tuple(layers)
+
+
+@lru_cache(maxsize=4096)
+def _merge_pack(pack: DayPack) -> tuple[Layer, ...]:
+    """Joined layers of a station's day: all rows have them, each as thick as it is."""
+    return merge_layers(pack.heights.tolist(), pack.densities.tolist())
+
+
+def _scale_layers(layers: Sequence[Layer], factor: float) -> tuple[Layer, ...]:
+    """Layers so many times as thick; none where one is uniform snow."""
+    if len(layers) == 1:
+        return ()
+    return tuple(replace(one, thickness=factor * one.thickness) for one in layers)
 
 
 def _find_light(layers: list[Layer]) -> int | None:
@@ -296,9 +310,7 @@ class DaySolver:
         layers: tuple[Layer, ...] = ()
         thick = UNIFORM_SHARE * self.row.scene.net.height_normal
         if ending == "open" and layered and thickness >= thick:
-            shares = pack.heights * (thickness / pack.height)
-            merged = merge_layers(list(shares), list(pack.densities))
-            layers = merged if len(merged) > 1 else ()
+            layers = _scale_layers(_merge_pack(pack), thickness / pack.height)
         return RowDay(
             index=index,
             thickness=thickness,

@@ -39,12 +39,15 @@ class UniformTable:
         ln rho, ascending [rho in kg/m3].
     foot, head : ndarray, shape (n_thicknesses, n_densities)
         ln of the net's pulls [in N/m].
+    error : float
+        Of a pull that is read, relative: the largest of those that were solved [-].
     """
 
     thicknesses: Floats
     densities: Floats
     foot: Floats
     head: Floats
+    error: float
 
     def find_pulls(self, thickness: Floats, density: Floats) -> tuple[Floats, Floats]:
         """Foot and head pulls [N/m], both (n_days,); NaN outside the table.
@@ -69,8 +72,8 @@ class UniformTable:
         )
         return foot, head
 
-    def read_days(self, days: Sequence[RowDay]) -> tuple[RowDay, ...] | None:
-        """Days with their pulls, as if they were solved; None if one is outside.
+    def read_days(self, days: Sequence[RowDay]) -> tuple[RowDay, ...]:
+        """Days with their pulls, as if they were solved; without those outside.
 
         Parameters
         ----------
@@ -81,16 +84,15 @@ class UniformTable:
             np.array([day.thickness for day in days]),
             np.array([day.density for day in days]),
         )
-        if not np.isfinite(foot).all():
-            return None
         return tuple(
             replace(
                 day,
                 ending="solved",
-                foot=spread_out(float(at_foot), 0.0),
-                head=spread_out(float(at_head), 0.0),
+                foot=spread_out(float(at_foot), self.error * float(at_foot)),
+                head=spread_out(float(at_head), self.error * float(at_head)),
             )
             for day, at_foot, at_head in zip(days, foot, head, strict=True)
+            if np.isfinite(at_foot)
         )
 
     def find_density(self, thickness: float, foot: float) -> float | None:
@@ -160,6 +162,12 @@ def build_table(
         densities=np.log(rho),
         foot=foot[first:],
         head=head[first:],
+        error=max(
+            pull.high / pull.value - 1.0
+            for day in days[first * rho.size :]
+            for pull in (day.foot, day.head)
+            if pull
+        ),
     )
 
 
@@ -254,9 +262,9 @@ def find_annual_maximum(
     is_alone : bool, optional
         Nothing but the maximum is wanted: days that pull less by (Y26) are left out.
     table : UniformTable, optional
-        Of the row; a winter with a day outside is solved.
+        Of the row; days outside are solved.
     """
-    days = solver.prepare(packs, layered=False)
+    days = solver.prepare(_list_snow(packs), layered=False)
     return _find_maximum(winter, days, solver, is_alone=is_alone, table=table)
 
 
@@ -270,10 +278,13 @@ def _find_maximum(
 ) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
     """Annual maximum of days that are prepared."""
     chosen = choose_days(days, solver)
-    solved = table.read_days(chosen) if table else None
-    if solved is None:
-        table = None
-        solved = _solve_heaviest(chosen, solver) if is_alone else solver.solve(chosen)
+    read = table.read_days(chosen) if table else ()
+    inside = {day.index for day in read}
+    outside = [day for day in chosen if day.index not in inside]
+    if is_alone:
+        solved = _solve_heaviest(outside, solver, read)
+    else:
+        solved = (*read, *solver.solve(outside))
     best = find_largest(solved)
     known = _judge(winter, days, solved, solver)
     if best is None or best.foot is None or best.head is None:
@@ -286,13 +297,22 @@ def _find_maximum(
         density=best.density,
         foot=best.foot.value,
         head=best.head.value,
-        equivalent_density=(
-            table.find_density(top, best.foot.value)
-            if table
-            else find_equivalent(top, best, solver)
-        ),
+        equivalent_density=_find_equivalent(top, best, solver, table),
     )
     return maximum, solved
+
+
+def _find_equivalent(
+    top: float, best: RowDay, solver: DaySolver, table: UniformTable | None
+) -> float | None:
+    """Equivalent density by the table, where both days are inside, else by solves."""
+    found = table.find_density(top, best.pull or 0.0) if table else None
+    return found or find_equivalent(top, best, solver)
+
+
+def _list_snow(packs: Mapping[int, DayPack]) -> dict[int, DayPack]:
+    """Packs of the days with snow."""
+    return {k: pack for k, pack in packs.items() if pack.heights.size}
 
 
 def find_maximum_alone(
@@ -302,26 +322,33 @@ def find_maximum_alone(
     return find_annual_maximum(winter, packs, solver, is_alone=True)[0]
 
 
-def _solve_heaviest(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
+def _solve_heaviest(
+    days: Sequence[RowDay], solver: DaySolver, read: Sequence[RowDay] = ()
+) -> tuple[RowDay, ...]:
     """Days solved by descending rank, while one that is left may pull most.
 
     They are solved coarsely, and the largest again to the full accuracy. None is solved
     that another outdoes in thickness and density, (Y26), unless that one has no force.
+    Days that were ``read`` from a table are as accurate as they can be.
     """
-    left, found = list(days), list[RowDay]()
+    found = list(read)
+    left = _list_uncovered(days, found)
     while batch := _choose_next(_list_heaviest(left), found, solver):
         found += solver.coarse.solve(batch)
-        known = [one for one in found if one.foot]
-        left = [
-            day
-            for day in left
-            if not any(day is one for one in batch)
-            and not any(_covers(one, day) for one in known)
-        ]
+        tried = {day.index for day in batch}
+        left = _list_uncovered([day for day in left if day.index not in tried], found)
     best = find_largest(found)
+    if any(day is best for day in read):
+        return tuple(found)
     return tuple(
         solver.solve([one.reopen()])[0] if one is best else one for one in found
     )
+
+
+def _list_uncovered(days: Sequence[RowDay], solved: Sequence[RowDay]) -> list[RowDay]:
+    """Days that no solved one outdoes in thickness and density."""
+    known = _list_heaviest([one for one in solved if one.foot])
+    return [day for day in days if not any(_covers(one, day) for one in known)]
 
 
 def _choose_next(
@@ -365,7 +392,7 @@ def find_many_maxima(
         Of the row.
     """
     days = {
-        (model, winter): solver.prepare(packs, layered=False)
+        (model, winter): solver.prepare(_list_snow(packs), layered=False)
         for model, winters in groups.items()
         for winter, packs in winters.items()
     }

@@ -5,6 +5,7 @@ Theory: winter/THEORY.md, section 2.
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
@@ -34,11 +35,11 @@ from netdesign.winter.statistics import (
 
 HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
 CURVE_STEP = 4  # days between those of the curve
-# Layers pull at most so many times what uniform snow of their mass does (seen: 1.03, on
-# free ground; elsewhere they pull less).
-LAYERED_GAIN = 1.05
-# From so many days of a curve on, theirs is taken, and so much more between them.
-_SAMPLED, _BETWEEN = 6, 0.05
+# Layers pull at most so many times what uniform snow of their mass does (seen: 1.13).
+LAYERED_GAIN = 1.15
+# Between two solved days so near to each other [d], and as dense as that, it is at most
+# so much above theirs.
+_NEAR, _AS_DENSE, _BETWEEN = 8, 0.1, 0.1
 _BATCH = 8
 
 
@@ -144,19 +145,30 @@ def _solve_near(
     """Curve with all days that may govern, the likeliest first."""
     pulls = {day.index: day.foot.value for day in uniform if day.foot}
     prepared = solver.prepare({k: packs[k] for k in pulls}, layered=True)
-    layered = {day.index for day in prepared if day.layers}
     found = dict(curve)
-    left = pulls.keys() - {k for k, day in curve.items() if day.reason is None}
+    left = {
+        day.index: day
+        for day in prepared
+        if day.index not in curve or curve[day.index].reason is not None
+    }
     while left:
-        best, gain = find_largest(found.values()), _find_gain(pulls, found)
-        most = {k: pulls[k] * (gain if k in layered else 1.0) for k in left}
+        best = find_largest(found.values())
+        gains = {
+            k: day.foot.value / pulls[k]
+            for k, day in found.items()
+            if k in pulls and day.foot
+        }
+        most = {
+            k: pulls[k] * (_find_gain(day, found, gains) if day.layers else 1.0)
+            for k, day in left.items()
+        }
         least = best.foot.low if best and best.foot else 0.0
         order = sorted(left, key=lambda k: -most[k])
         batch = [k for k in order[:_BATCH] if most[k] >= least]
         if not batch:
             break
-        left -= set(batch)
         near = {k: packs[k] for k in batch}
+        left = {k: day for k, day in left.items() if k not in near}
         found |= _solve_coarsely(near, solver)
         # what may govern is not given up for a coarse accuracy
         failed = {k: pack for k, pack in near.items() if found[k].reason}
@@ -165,19 +177,24 @@ def _solve_near(
     return found
 
 
-def _find_gain(pulls: Mapping[int, float], solved: Mapping[int, RowDay]) -> float:
-    """Most by which layers may pull more than uniform snow, by the days that are known.
+def _find_gain(
+    day: RowDay, solved: Mapping[int, RowDay], gains: Mapping[int, float]
+) -> float:
+    """Most by which the layers of a day may pull more than its uniform snow.
 
-    Between them it may be larger by ``_BETWEEN``.
+    Told by the gains of the nearest solved days, where their snow is like that day's.
     """
-    ratios = [
-        day.foot.value / pulls[k]
-        for k, day in solved.items()
-        if k in pulls and day.foot and day.layers
-    ]
-    if len(ratios) < _SAMPLED:
+    places = sorted(gains)
+    after = bisect(places, day.index)
+    around = places[max(after - 1, 0) : after + 1]
+    is_alike = (
+        len(around) == 2
+        and around[1] - around[0] <= _NEAR
+        and all(abs(solved[k].density / day.density - 1.0) <= _AS_DENSE for k in around)
+    )
+    if not is_alike:
         return LAYERED_GAIN
-    return min(LAYERED_GAIN, (1.0 + _BETWEEN) * max(ratios))
+    return min(LAYERED_GAIN, (1.0 + _BETWEEN) * max(gains[k] for k in around))
 
 
 def _solve_coarsely(

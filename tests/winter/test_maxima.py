@@ -1,5 +1,7 @@
 """Annual maxima: which days are solved, what proves no maximum, the table."""
 
+from random import Random
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,8 @@ from netdesign.winter.maxima import (
     find_many_maxima,
 )
 from netdesign.winter.season import follow_season
-from tests.winter.made_up_row import a_solver
+from tests.each import each
+from tests.winter.made_up_row import FormulaSolver, a_solver
 
 QUICK = {"accuracy": 0.03}
 
@@ -124,3 +127,35 @@ def test_maxima_through_the_table_are_those_of_solves():
     assert found[0].equivalent_density == pytest.approx(
         alone.equivalent_density, rel=0.02
     )
+
+
+@each("number", range(8))
+def test_days_outside_a_table_are_solved_beside_those_read(number):
+    """Drawn winters and tables that hold some of their days, all of them, or none."""
+    draw = Random(50 + number)
+    heights = [0.0, *(round(draw.uniform(0.4, 2.6), 2) for _ in range(40))]
+    packs = follow(heights)
+    solver = FormulaSolver(row=a_solver().row, settings=a_solver().settings)
+    low, high = sorted(draw.uniform(0.5, 2.4) for _ in range(2))
+    table = build_table(solver, (low, high + 0.05), (150.0, draw.uniform(200.0, 520.0)))
+    for is_alone in (True, False):
+        solved, read = (
+            find_annual_maximum(
+                "2000/2001", packs, solver, is_alone=is_alone, table=one
+            )
+            for one in (None, table)
+        )
+        assert read[0].index == solved[0].index
+        assert read[0].foot == pytest.approx(solved[0].foot, rel=1e-3)
+        assert read[0].equivalent_density == pytest.approx(
+            solved[0].equivalent_density, rel=2e-3
+        )
+        assert {day.ending for day in read[1]} == {"solved"}
+    assert {day.index for day in read[1]} == {day.index for day in solved[1]}
+    inside = {day.index for day in table.read_days(solved[1])}
+    bands = {
+        day.index: day.foot.high / day.foot.value - 1.0
+        for day in read[1]
+        if day.index in inside
+    }
+    assert list(bands.values()) == pytest.approx([0.01] * len(bands))

@@ -101,9 +101,13 @@ GROUNDS = [None, GroundLaw(kind="free"), slides(1.6, 2.0)]
 
 
 @pytest.mark.long
-@each("number", range(6))
+@each("number", [1, 18, 20, 21, 35, 69])
 def test_the_governing_day_is_that_of_all_days(number):
-    """Winters drawn with plateaus, where many days pull nearly as much."""
+    """Winters with plateaus, where many days pull nearly as much, and with thaws.
+
+    Of winters drawn, where a gain taken from the whole curve misses the governing day:
+    by 0.6 to 11 % but for the first.
+    """
     heights = draw_heights(Random(700 + number))
     packs = dict(enumerate(follow_heights(heights, DELTA_SNOW)))
     solver = a_solver(GROUNDS[number % 3])
@@ -114,11 +118,13 @@ def test_the_governing_day_is_that_of_all_days(number):
 
 
 def draw_heights(random):
-    """Falls, and settling of a percent a day [m]; thaw at the end."""
+    """Falls, and settling of a percent a day [m]; a thaw at the end."""
     heights, height = [], 0.0
+    thaw = random.uniform(0.9, 0.97)
     for day in range(170):
-        height *= 0.99
-        if day < 140 and random.random() < 0.25:
+        height *= 0.99 if day < 130 else thaw
+        if day < 130 and random.random() < 0.25:
             height += random.expovariate(1.0 / 0.12)
-        heights.append(round(min(height, 3.2) if day < 140 else 0.9 * height, 2))
+        height = min(height, 3.2)
+        heights.append(round(height, 2))
     return heights
