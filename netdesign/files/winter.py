@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
 from netdesign.snowpack.series import HeightSeries
@@ -19,7 +18,6 @@ from netdesign.units import (
     kilonewton_if_known,
 )
 from netdesign.winter.day import RowDay, WinterRow
-from netdesign.winter.fit import SeasonFit
 from netdesign.winter.maxima import AnnualMaximum
 from netdesign.winter.measured import Comparison, ComputedForce
 from netdesign.winter.sample import Sample
@@ -35,6 +33,9 @@ from netdesign.winter.statistics import (
 )
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
+
+if TYPE_CHECKING:
+    from netdesign.winter.fit import SeasonFit
 
 
 def _write_measured(
@@ -187,7 +188,6 @@ def _write_row(
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
     largest = max((one.foot for one in result.maxima if one.is_proven), default=0.0)
-    fitted = run.fits.get(row.id)
     winters = [
         _write_winter(maximum, packs[maximum.winter], seasons.get(maximum.winter), run)
         | {
@@ -224,8 +224,19 @@ def _write_row(
         "trend": _write_trend(result.trend, language),
         "equivalent_density": _write_range(result, run, language),
         "snow_heights": _write_heights(row, winters, run, language),
-        "fit": write_fit(fitted, run.winter.series, language) if fitted else None,
+        "fit": _write_fit(run, row.id, language),
     }
+
+
+def _write_fit(
+    run: WinterRun, row_id: str, language: Language
+) -> dict[str, Any] | None:
+    fitted = run.fits.get(row_id)
+    if fitted is None:
+        return None
+    from netdesign.files.winter_fit import write_fit  # here: most runs fit nothing
+
+    return write_fit(fitted, run.winter.series, language)
 
 
 def _write_winter(

@@ -46,6 +46,7 @@ from netdesign.study.record_guideline import (
     record_guideline,
 )
 from netdesign.study.record_independent import record_independent, record_slab
+from netdesign.study.record_monitoring import record_monitoring
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_statics import record_statics
 from netdesign.study.record_support import (
@@ -56,7 +57,6 @@ from netdesign.study.records import (
     SCHEMA,
     CheckRecord,
     ModelFormRecord,
-    MonitoringRecord,
     ReliabilityRecord,
     RowStudy,
     Study,
@@ -174,7 +174,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
         questions=list(row.questions),
-        monitoring=_record_monitoring(task.site, row),
+        monitoring=record_monitoring(task.site, row),
         anchors=anchors,
         pulls=list(known.pulls),
         head=head,
@@ -192,15 +192,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         envelope=_record_search(solved, checks),
         reliability=_find_reliability(task, found, run),
     )
-
-
-def _record_monitoring(site: Site, row: NetRow) -> list[MonitoringRecord]:
-    """Measured series of a row; the winters' code is loaded where there are some."""
-    if not site.monitoring:
-        return []
-    from netdesign.study.winter_row import record_monitoring
-
-    return record_monitoring(site, row)
 
 
 def _find_reliability(

@@ -8,7 +8,7 @@ import pytest
 from netdesign.site.model import MonitoringSeries, StationWinter
 from netdesign.snowpack.series import HeightSeries
 from netdesign.study.notes import list_site_notes
-from netdesign.study.winter_row import record_monitoring
+from netdesign.study.record_monitoring import record_monitoring
 from tests import small_site
 
 DAY = 86400.0
