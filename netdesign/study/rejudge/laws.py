@@ -152,6 +152,10 @@ def _look_at_forces(place: Message, row: RowStudy) -> Iterator[Message]:
         if force.quantity in ALONE:
             where = say("audit.part", place=place, part=name_member(force.quantity))
             yield from _look_at_alone(where, force, row)
+    held, states = row.held_sideways, [x for x in row.statics if x.load is None]
+    least = min((x.uphill_guy_kN + x.downhill_guy_kN for x in states), default=math.inf)
+    if held and not _are_ordered(held.solved_tension_kN, least):
+        yield say("audit.guys_above_state", place=place)
 
 
 def _look_at_alone(

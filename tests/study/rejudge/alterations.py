@@ -186,6 +186,12 @@ def every_force_a_tenth_smaller(study):
 
 
 @alteration
+def the_least_tension_of_guys_raised_above_every_state(study):
+    held = study["rows"][0]["held_sideways"]
+    held["solved_tension_kN"] *= 1.5
+
+
+@alteration
 def a_row_dropped(study):
     study["rows"].pop()
 

@@ -270,6 +270,7 @@ BESIDE = {
     *("drawing", "envelope", "model_form", "slab", "statics", "panel", "guideline"),
     *("holds", "spreads", "changes", "provenance", "digest", "sha256", "cases"),
     *("independent", "is_floor_overruled", "hidden_tension_kN", "share"),
+    "solved_tension_kN",
     *("uphill_at_deg", "downhill_at_deg", "post_at_deg", "schema"),
 }
 
