@@ -52,7 +52,7 @@ class Season:
     name : str
         As "1999/2000".
     maximum : AnnualMaximum
-        By uniform snow of each day, on the safe side.
+        By uniform snow of each day, which usually pulls more than layers.
     curve : tuple of RowDay
         Ascending: those of the curve, and those that may govern.
     highest : RowDay

@@ -304,6 +304,7 @@ def test_ten_thousand_drawn_alterations_are_found(text, site, seed):
     assert list(find_missed(text, site, 3600 + seed, 1000)) == []
 
 
+@pytest.mark.long
 def test_every_contradiction_is_told_in_the_language(contradictions):
     """Names and values of the document are its own."""
     found = {one for made in contradictions.values() if made for one in made[1]}
