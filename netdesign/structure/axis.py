@@ -150,5 +150,5 @@ def turn_sideways(angle: float, share: float) -> float:
     ModelError
         If the share is out of its range.
     """
-    require_within("lateral share", share, 0.0, 1.0)
+    require_within("lateral share", share, 0.0, 10.0)
     return math.acos(math.cos(angle) / math.hypot(1.0, share))

@@ -49,7 +49,8 @@ def check_anchor_distance(known: RowForces, gap: Message | None) -> CheckResult 
     ends = ranges["inclination"]
     places = [place_row(row, one) for one in (ends.low, ends.high)]
     pairs = (_list_nearest(row, ranges, place, pulls) for place in places)
-    least, anchors = min(chain(*pairs), key=lambda one: one[0])
+    # of equal distances the first: a millionth is rounding
+    least, anchors = min(chain(*pairs), key=lambda one: round(one[0], 6))
     is_apart = least >= limit.value
     key = "bores.apart" if is_apart else "bores.near"
     reason = say(key, least=least, limit=limit.value, anchors=anchors)

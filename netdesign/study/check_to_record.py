@@ -97,11 +97,14 @@ def _apply_declaration(basis: Basis, result: CheckResult, position: str) -> Chec
     """Check on a support, if it has one, with what the workbook says of it.
 
     Forces of a net below its snow are those of snow up to its head: information.
-    A check may be declared as proven elsewhere.
+    A check may be declared as proven elsewhere, unless these fail already.
     """
     row, member = basis.row, result.member
     if row.is_overtopped and member != Member.NET:
+        fails = result.verdict is Verdict.FAIL
         result = withhold(result, say("check.overtopped"))
+        if fails:
+            return result
     declaration = basis.site.find_declaration(row, member, result.mode, position)
     return declare(result, declaration)
 

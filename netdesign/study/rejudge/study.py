@@ -326,8 +326,11 @@ def _check_again(row: RowStudy, known: RowForces) -> list[CheckRecord]:
 def _hold_back(
     basis: Basis, one: MemberCheck, stored: CheckRecord | None
 ) -> MemberCheck:
-    """A pass that the study holds back, for a fault beside its forces."""
-    passes = one.result.verdict is Verdict.PASS
+    """A pass that the study holds back, for a fault beside its forces.
+
+    None passes where the net stands below its snow: that is no fault.
+    """
+    passes = one.result.verdict is Verdict.PASS and not basis.row.is_overtopped
     if stored is None or not passes or not is_held_back(stored):
         return one
     return judge_with_fault(basis, one, _UNKNOWN_GAP)

@@ -171,8 +171,10 @@ def _follow_sideways(row: RowStudy, spacing: float) -> Fields:
     least = max(held.solved_tension_kN - held.hidden_tension_kN, 0.0)
     if held.floor_tension_kN is not None:
         least = min(least, held.floor_tension_kN)
-    is_assumed = row.panel is not None and bool(row.panel.assumed)
-    if is_assumed or (held.floor_tension_kN is not None and _lacks_altitude(row)):
+    # without its panels an assumed one is not told; nothing of such a row is proven
+    is_assumed = bool(row.panel.assumed if row.panel else row.unsaid)
+    is_none = is_assumed and (row.panel is not None or held.least_tension_kN == 0.0)
+    if is_none or (held.floor_tension_kN is not None and _lacks_altitude(row)):
         least = 0.0
     return {"held_sideways": replace(held, pull_kN=pull, least_tension_kN=least)}
 
