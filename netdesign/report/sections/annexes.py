@@ -19,16 +19,23 @@ from netdesign.report.blocks import (
     text_cell,
 )
 from netdesign.report.sections.basis import (
-    DEFAULT,
     count_assumed,
+    list_defaults,
     name_law,
     name_profile,
 )
 from netdesign.report.sections.decision import name_verification
-from netdesign.report.words import VERDICTS, Words, show_own, show_unit, show_verdict
+from netdesign.report.words import (
+    VERDICTS,
+    Words,
+    show_own,
+    show_text,
+    show_unit,
+    show_verdict,
+)
 from netdesign.study.document import compute_digest, hash_results
 from netdesign.study.notes import describe_evidence
-from netdesign.study.records import Study
+from netdesign.study.records import CheckRecord, Study
 from netdesign.words.names import name
 
 _MODEL = (
@@ -160,12 +167,18 @@ def show_verification(study: Study, words: Words) -> Part:
     )
 
 
+def _write_command(words: Words) -> str:
+    """Command that makes the document again, in its language."""
+    language = "" if words.language == "en" else f" --language {words.language}"
+    return f"netdesign report study.json{language}"
+
+
 def build_provenance(study: Study, words: Words) -> Table:
     """All that is needed to repeat the study."""
     made = study.provenance
     pairs = {
         "command": made.command,
-        "command_again": "netdesign report study.json",
+        "command_again": _write_command(words),
         "results_hash": hash_results(study),
         "program": f"netdesign {made.version}",
         "started": made.started,
@@ -232,7 +245,7 @@ def _describe_site_file(study: Study, words: Words) -> str:
 
 def _describe_inputs(study: Study, words: Words) -> str:
     inputs = [*study.range_inputs, *(one for row in study.rows for one in row.inputs)]
-    defaults = sum(one.cell == DEFAULT for one in inputs)
+    defaults = len(list_defaults(study, words))
     return words("show.inputs_counted", count=len(inputs), defaults=defaults)
 
 
@@ -264,34 +277,44 @@ def _describe_quality(study: Study, words: Words) -> str:
 
 
 def _describe_laws(study: Study, words: Words) -> str:
+    """Rows whose governing check another creep law would turn, and those not known."""
+    compared = {row.id: row.model_form for row in study.rows}
     above = [
-        spread
-        for row in study.rows
-        for check in row.checks
-        for spread in check.spreads
-        if not spread.in_verdict and spread.high is not None and spread.high > 1
-        and check.utilisation is not None and check.utilisation <= 1
-    ]  # fmt: skip
-    return words("show.other_laws_counted", count=len(above))
+        name
+        for name, form in compared.items()
+        if form and (form.utilisation or 0.0) <= 1.0 < (form.utilisation_high or 0.0)
+    ]
+    open_ = [name for name, form in compared.items() if form is None]
+    rows, left = (", ".join(map(show_text, one)) for one in (above, open_))
+    none = words("show.none")
+    return words("show.other_laws", rows=rows or none, left=left or none)
 
 
 def _describe_snow(study: Study, words: Words) -> str:
-    """Governing snow against the densities of its law."""
+    """Snow of the solved forces that govern, against the densities of its law."""
     law = name_law(study)
     inside = [
         case.is_calibrated
         for row in study.rows
         for check in row.checks
         for case in row.cases
-        if check.case == case.case
+        if check.case == case.case and _is_by_snow(check)
     ]
+    told = words("show.snow_of_law", inside=sum(inside), count=len(inside))
+    if all(inside):
+        return told
     is_accepted = bool(law) and study.project.accepted_law == law
-    return words(
-        "show.snow_of_law",
-        inside=sum(inside),
-        count=len(inside),
-        consent=words("show.law_accepted" if is_accepted else "show.law_not_accepted"),
-    )
+    consent = words("show.law_accepted" if is_accepted else "show.law_not_accepted")
+    return words.join((told, consent))
+
+
+_OF_SNOW = ("E_s", "E_p0", "V_s", "V_p0", "T_r", "T_b")  # forces of solved snow
+
+
+def _is_by_snow(check: CheckRecord) -> bool:
+    """Solved snow governs, by a force that is not that of the load along the row."""
+    solved = (check.read_band(symbol)[1] for symbol in _OF_SNOW)
+    return check.governs != "guideline" and any(solved)
 
 
 # What is asked, what the study says to it, and the section that tells more.
