@@ -17,7 +17,8 @@ _LEAST = math.radians(0.5)  # between a plane and the slope
 _PLANES = 400  # tried at once
 _NARROWINGS = 3  # each to two steps of the one before
 MOST_COHESION = 500e3  # [Pa]
-LEAST_FRICTION, MOST_FRICTION = math.radians(1.0), math.radians(50.0)
+# Below the least that a list may give: it is the design value, too.
+LEAST_FRICTION, MOST_FRICTION = math.radians(0.1), math.radians(50.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,13 +42,8 @@ class Soil:
     def __post_init__(self) -> None:
         """Refuse what no ground has."""
         require_within("cohesion", self.cohesion, 0.0, MOST_COHESION, "Pa")
-        require_within(
-            "friction angle of the ground",
-            self.friction,
-            LEAST_FRICTION,
-            MOST_FRICTION,
-            "rad",
-        )
+        name = "friction angle of the ground"
+        require_within(name, self.friction, LEAST_FRICTION, MOST_FRICTION, "rad")
         require_positive("unit weight", self.weight, "N/m3")
 
     def reduce(self, on_cohesion: float, on_friction: float) -> Soil:

@@ -38,7 +38,7 @@ def test_range_of_directions_and_its_largest_angle():
     assert find_pull_range([]) is None
 
 
-@pytest.mark.parametrize("share", [0.0, 0.1, 0.37])
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.37, 1.73])
 def test_sideways_part_turns_the_pull_in_space(share):
     """Angle of (cos d, sin d, k) against (1, 0, 0), from the vectors themselves."""
     angle = 0.23
