@@ -5,7 +5,7 @@ What stands once for all net rows, on a cover sheet or above a table, fills them
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Cell, Sheet
@@ -168,14 +168,42 @@ def refuse_missing_sheets(table: Table, lines: Lines, findings: list[Finding]) -
 
 
 def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:
-    """Refuse neighbours of a row that are no other net rows of the sheet."""
+    """Refuse neighbours that are no other net rows, and rows without any end.
+
+    Where the nets go on at one end alone, the row has its other end.
+    """
     ids = {row["id"].word for row in rows}
+    going_on = {x["id"].word: x for x in rows if x["row_end"].word == "continuous"}
+    beside: dict[str, set[str]] = {name: set() for name in ids}
     for row in rows:
-        named = row["neighbour"].word.replace(";", ",").split(",")
-        for name in filter(None, map(str.strip, named)):
-            if name not in ids or name == row["id"].word:
+        own = row["id"].word
+        for name in _list_neighbours(row):
+            if name not in ids or name == own:
                 rule = say("nets.no_neighbour", id=name)
                 refuse(row["neighbour"], rule, say("nets.other_ids"), findings)
+            elif own in going_on:
+                beside[own].add(name)
+                beside[name].add(own)
+    for name, row in going_on.items():
+        has_ends = len(beside[name]) > 1 and _reach(name, beside) - going_on.keys()
+        if beside[name] and not has_ends:
+            rule = say("nets.one_end", ids=tuple(sorted(beside[name])))
+            refuse(row["row_end"], rule, say("nets.free_or_both"), findings)
+
+
+def _list_neighbours(row: Row) -> list[str]:
+    """Ids that the cell of the neighbours names."""
+    named = row["neighbour"].word.replace(";", ",").split(",")
+    return list(filter(None, map(str.strip, named)))
+
+
+def _reach(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:
+    """Rows into which the nets of a row go on, one after the other."""
+    found, new = {name}, {name}
+    while new:
+        new = {one for known in new for one in beside[known]} - found
+        found |= new
+    return found
 
 
 SiteWide = Mapping[str, Reading]  # by key of a column of sheet Nets

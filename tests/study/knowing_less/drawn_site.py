@@ -47,8 +47,11 @@ def draw_lines(seed, *, is_placed=False, is_tested=False):
     if is_tested:
         _test_one_by_one(lines)
     if net.get("row_end") == "continuous":
-        lines["Nets"].append({**net, "id": "R2", "neighbour": "R1"})
-        lines["Snow"] += [{**one, "row": "R2"} for one in lines["Snow"]]
+        own = list(lines["Snow"])
+        for name in ("R2", "R3"):
+            lines["Nets"].append({**net, "id": name, "row_end": "free"})
+            del lines["Nets"][-1]["neighbour"]
+            lines["Snow"] += [{**one, "row": name} for one in own]
     return lines
 
 
@@ -196,9 +199,10 @@ def _draw_net(draw):
         net |= {key: _round(draw.uniform(12.0, 60.0)) for key in axes}
     end = draw.random()
     if end < 0.2:
-        net |= {"row_end": "continuous", "neighbour": "R2"}
+        net |= {"row_end": "continuous", "neighbour": "R2, R3"}
     elif end < 0.75:
-        net["gap"] = draw.choice((0.0, _round(draw.uniform(0.5, 4.0))))
+        gap = draw.choice((0.0, _round(draw.uniform(0.5, 4.0))))
+        net |= {"gap": gap} if gap else {}
     net |= {
         "foot_anchor": draw.choice(ANCHORS),
         "uphill_anchor": draw.choice(ANCHORS),
