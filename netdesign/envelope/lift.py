@@ -16,7 +16,7 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.search.maxima import SearchSettings
-from netdesign.search.surrogate import Point, count_trend_terms, fit_surrogate
+from netdesign.search.surrogate import Point, fit_surrogate, supports_model
 from netdesign.search.upper_bound import NOISE, bound_quantities, build_lattice
 from netdesign.structure.head import resolve_loose
 from netdesign.structure.layout import SupportLayout, place_support
@@ -65,13 +65,12 @@ def bound_lifted(
         for point, one in zip(points, results, strict=True)
         if one.anchors is not None
     ]
-    dimension = len(points[0]) if points else 0
-    if layout is None or len(solved) <= count_trend_terms(dimension):
+    places = np.array([point for point, _ in solved])
+    if layout is None or not solved or not supports_model(places):
         return {}
     values = np.array([_measure(layout, one) for _, one in solved])
     tolerance = np.full(values.shape[1], settings.gap * np.abs(values[:, 1:]).max())
     tolerance[0] = settings.gap  # of a sine
-    places = np.array([point for point, _ in solved])
     bound = partial(
         bound_quantities,
         fit_surrogate(places, values, NOISE * tolerance),
@@ -79,7 +78,7 @@ def bound_lifted(
         best=np.maximum(values.max(axis=0), 0.0),
         tolerance=tolerance,
         deciding=(),
-        lattice=build_lattice(dimension),
+        lattice=build_lattice(places.shape[1]),
         certainty=settings.certainty,
         inflations=(),
     )

@@ -121,10 +121,11 @@ class RowSearch:
 
     def _find_governing(self, maxima: Maxima) -> dict[str, int]:
         """Place of the governing case of each member that carries a force."""
+        found = zip(maxima.maximum, maxima.governing, strict=True)  # none, unsolved
         return {
-            member: maxima.governing[place]
-            for place, member in enumerate(self._reader.members)
-            if maxima.maximum[place] > 0.0
+            member: place
+            for member, (force, place) in zip(self._reader.members, found, strict=False)
+            if force > 0.0
         }
 
     def _finish(self, maxima: Maxima, confirmed: Sequence[CaseResult]) -> None:

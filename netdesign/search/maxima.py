@@ -21,8 +21,8 @@ from netdesign.search.surrogate import (
     Point,
     Prediction,
     Surrogate,
-    count_trend_terms,
     fit_surrogate,
+    supports_model,
 )
 from netdesign.search.upper_bound import (
     NOISE,
@@ -311,9 +311,11 @@ class MaximaSearch:
     def _choose(self, watched: Mapping[int, Watched] | None) -> list[Question]:
         """Next questions; none at the end of the search."""
         solved = [k for k, value in enumerate(self.values) if value is not None]
-        if len(solved) <= count_trend_terms(self._lattice.shape[1]):
-            return []  # too few cases for a model
+        if not solved:
+            return []
         places = np.array([self.points[k] for k in solved])
+        if not supports_model(places):
+            return []
         values = np.array([self.values[k] for k in solved])
         nothing = (0.0,) * values.shape[1]
         doubts = np.array([self.doubts[k] or nothing for k in solved])

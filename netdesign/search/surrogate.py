@@ -196,6 +196,22 @@ def count_trend_terms(dimension: int) -> int:
     return (dimension + 1) * (dimension + 2) // 2
 
 
+def supports_model(places: Floats) -> bool:
+    """Whether cases are enough for a model: in number, and by where they lie.
+
+    Where cases failed, those left may lie on a face on which the trend is not known.
+
+    Parameters
+    ----------
+    places : ndarray, shape (n, dimension)
+        Of the solved cases, in the unit cube [-].
+    """
+    terms = count_trend_terms(places.shape[1])
+    if len(places) <= terms:
+        return False
+    return int(np.linalg.matrix_rank(_build_trend(places))) == terms
+
+
 def _invert(matrix: Floats) -> Floats:
     return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
 

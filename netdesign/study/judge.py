@@ -246,10 +246,11 @@ def _record_search(
 
 def _choose_drawn(solved: RowEnvelope, checks: Sequence[CheckRecord]) -> str:
     """Member of the check that is shown; one with a force where that has none."""
+    extremes = solved.extremes
     loaded = [
         member
         for member in REPORTED_MEMBERS
-        if member in solved.members and solved.extremes[member].force.high > 0.0
+        if member in extremes and extremes[member].force.high > 0.0
     ]
     shown = find_shown_member(checks)
     return shown if shown in loaded or not loaded else loaded[0]

@@ -135,7 +135,7 @@ def record_envelope(
         The one whose drivers, lines and maps are recorded; by default all are.
     """
     maxima, task, extremes = envelope.maxima, envelope.task, envelope.extremes
-    shown = [member for member in members if member in envelope.members]
+    shown = [member for member in members if member in extremes]
     answers = measure_sensitivity(maxima, *map(envelope.members.index, shown))
     return EnvelopeRecord(
         axes=[

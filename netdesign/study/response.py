@@ -17,7 +17,12 @@ from netdesign.envelope.ranges import Case, Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError
-from netdesign.search.surrogate import Surrogate, count_trend_terms, fit_surrogate
+from netdesign.search.surrogate import (
+    Surrogate,
+    count_trend_terms,
+    fit_surrogate,
+    supports_model,
+)
 from netdesign.study.check_by_case import TRIED_DENSITIES, CheckByCase
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
@@ -294,6 +299,8 @@ def _fit(
         for name, span in axes
     ]
     places = np.array(columns).T
+    if not supports_model(places):
+        raise ModelError(say("reliability.few_cases", count=len(rated)))
     rates = np.array(list(rated.values()))
     ends = np.vstack([places.min(axis=0), places.max(axis=0)])
     return fit_surrogate(places, rates[:, None]), ends

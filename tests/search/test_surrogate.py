@@ -6,6 +6,7 @@ from netdesign.search.surrogate import (
     REACH,
     count_trend_terms,
     fit_surrogate,
+    supports_model,
 )
 
 RNG = np.random.default_rng(5)
@@ -94,3 +95,16 @@ def test_values_without_doubts_have_no_sway():
     model = fit_surrogate(PLACES, KINKED)
     assert not model.find_sway(PLACES, (0, 1)).any()
     assert model.find_sway(PLACES, (1,)).shape == (24, 1)
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3, 5])
+def test_cases_on_a_face_alone_support_no_model(dimension):
+    """Where the others failed; nor do those on two faces across each other."""
+    count = 3 * count_trend_terms(dimension)
+    places = RNG.uniform(0.0, 1.0, (count, dimension))
+    assert supports_model(places)
+    assert not supports_model(places[: count_trend_terms(dimension)])
+    places[:, 0] = 0.0
+    assert not supports_model(places)
+    places[::2, 0] = 1.0
+    assert not supports_model(places)
