@@ -10,6 +10,7 @@ import logging
 import os
 import signal
 import sys
+import traceback
 from collections import UserDict
 from collections.abc import Iterable
 from importlib import import_module
@@ -245,7 +246,7 @@ def _run() -> NoReturn:
         sys.exit(error.exit_code)
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
-            raise
+            traceback.print_exc()  # raised, it would end like a check that fails
         # what given paths can cause, their readers have handled
         sys.exit(print_faults({describe_fault(error): ()}, _speak()))
     sys.exit(0)
