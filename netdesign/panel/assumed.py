@@ -9,9 +9,9 @@ from __future__ import annotations
 from netdesign.panel.inputs import Cut, Panel, Rope
 
 SAGS = (0.03, 0.10)  # of ropes as built, over the span
-STIFFNESSES = (5e6, 60e6)  # EA of border ropes [N]
+STIFFNESSES = (3e6, 150e6)  # EA of border ropes [N]
 # EA over the breaking force: ropes of strands, then spiral ropes of round wires.
-OF_BREAKING = (45.0, 125.0)
+OF_BREAKING = (25.0, 160.0)
 
 Ends = tuple[float, float]  # least and largest value; equal where it is given
 

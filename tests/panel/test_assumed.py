@@ -14,6 +14,7 @@ from netdesign.envelope.run import build_task, run_cases
 from netdesign.panel import assumed
 from netdesign.panel.assumed import SAGS, STIFFNESSES, find_stiffness, list_panels
 from netdesign.panel.inputs import CUTS, Panel, Rope
+from netdesign.site.columns.all_tables import SHEETS
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.layout import SupportLayout
@@ -111,10 +112,10 @@ def test_both_ropes_alike_would_not_be_enough(monkeypatch):
     ("stiffness", "breaking", "ends"),
     [
         (18e6, 250e3, (18e6, 18e6)),
-        (None, None, (5e6, 60e6)),
-        (None, 251e3, (11.295e6, 31.375e6)),
-        (None, 31e3, (5e6, 5e6)),
-        (None, 913e3, (41.085e6, 60e6)),
+        (None, None, (3e6, 150e6)),
+        (None, 251e3, (6.275e6, 40.16e6)),
+        (None, 17e3, (3e6, 3e6)),
+        (None, 1360e3, (34e6, 150e6)),
     ],
 )
 def test_ends_of_a_ropes_stiffness(stiffness, breaking, ends):
@@ -133,3 +134,18 @@ def test_what_is_given_is_kept_and_the_rest_assumed():
     assert {one.upper for one in panels} == {Rope(stiffness=17e6, sag=0.043)}
     assert {one.lower.sag for one in panels} == set(SAGS)
     assert {one.has_mid_anchors for one in panels} == {False, True}
+
+
+def test_a_stiffness_that_is_not_asked_about_lies_within_what_is_assumed():
+    """Left empty it is never better than as it was typed; nor is a sag."""
+    (ropes,) = (one for one in SHEETS if one.name == "Ropes")
+    (nets,) = (one for one in SHEETS if one.name == "Nets")
+    fields = {one.key: one for one in (*ropes.fields, *nets.fields)}
+    usual = fields["axial_stiffness"].usual
+    assert (1e3 * usual.least, 1e3 * usual.most) == STIFFNESSES
+    for key in ("ridge_sag", "lower_sag"):
+        assert (fields[key].usual.least, fields[key].usual.most) == SAGS
+    for breaking in (21e3, 333e3, 1.4e6):
+        low, high = find_stiffness(None, breaking)
+        assert low <= max(25.0 * breaking, 3e6)
+        assert high >= min(160.0 * breaking, 150e6)
