@@ -110,11 +110,15 @@ def _write_documents(studies: Sequence[Study]) -> str:
 
 
 def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
-    """Print what each study says."""
-    from netdesign.report.terminal import open_console, print_summary
+    """Print what each study says, of several below the name of its profile."""
+    from netdesign.report.terminal import open_console, print_lines, print_summary
+    from netdesign.report.words import Words
 
-    console = open_console()
+    console, words = open_console(), Words(speak())
     for study in studies:
+        if len(studies) > 1:
+            profile = words("show.label", label=study.profile.id, text="")
+            print_lines((profile.rstrip(),), console)
         print_summary(study, console, speak(), explain=explain)
     sys.stdout.flush()
 

@@ -87,7 +87,7 @@ def layout(grid: Path | None, zone: Path | None, **asked: Any) -> None:
     if asked["as_json"]:
         print_document(document)
     else:
-        _tell_plan(document, study, proposed)
+        _tell_plan(document, study, proposed, folder / _SITE)
     raise SystemExit(failed or EXIT_CODES[Verdict(document["verdict"])])
 
 
@@ -192,7 +192,9 @@ def _render(
     }
 
 
-def _tell_plan(document: Mapping[str, Any], study: Study, proposed: Proposed) -> None:
+def _tell_plan(
+    document: Mapping[str, Any], study: Study, proposed: Proposed, site: Path
+) -> None:
     from netdesign.report.terminal import open_console, print_summary
     from netdesign.terrain.measure import describe_kinks, describe_steep_above
 
@@ -213,4 +215,4 @@ def _tell_plan(document: Mapping[str, Any], study: Study, proposed: Proposed) ->
         tell(say("layout.without_cost", types=types))
     if not document["is_covered"]:
         tell(say("layout.not_covered"))
-    print_summary(study, open_console(), speak())
+    print_summary(study, open_console(), speak(), check_of=str(site))

@@ -34,11 +34,9 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.structure.members import CARRYING_MEMBERS
 from netdesign.study.governing import SEVERITY, find_governing, rank_check
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
-from netdesign.words.names import name_check
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -68,7 +66,12 @@ def open_console() -> Console:
 
 
 def print_summary(
-    study: Study, console: Console, language: Language = "en", *, explain: bool = False
+    study: Study,
+    console: Console,
+    language: Language = "en",
+    *,
+    explain: bool = False,
+    check_of: str = "",
 ) -> None:
     """Print one line per net row, the verdict, what is open, and explanations.
 
@@ -85,6 +88,8 @@ def print_summary(
         Of the summary.
     explain : bool
         Whether to say all that is open, the loads, and what would turn each check.
+    check_of : str
+        Workbook to be checked to see all that is open, where there is no report.
 
     Raises
     ------
@@ -102,7 +107,8 @@ def print_summary(
         console.print(_build_table(study, words))
     overall = Text(words("show.overall", verdict="")).append_text(_word(verdict))
     console.print(overall.append(f" - {verdict.meaning}"), soft_wrap=True)
-    print_lines(_list_lines(study, words, is_short=not explain), console)
+    lines = _list_lines(study, words, is_short=not explain, check_of=check_of)
+    print_lines(lines, console)
     if explain:
         print_lines(_explain(study, words), console)
 
@@ -159,20 +165,15 @@ def _show_row(row: RowStudy, words: Words) -> RowLine:
     return (
         show_text(row.id),
         show_verdict(row.verdict, words),
-        _name_governing(check, words) if check else words("heading.no_check"),
+        show_check(words, check) if check else words("heading.no_check"),
         words.show_number("utilisation", check.used) if check else MISSING,
         describe_briefly(row, words),
     )
 
 
-def _name_governing(check: CheckRecord, words: Words) -> str:
-    """Check with its place, where that is the end of the row."""
-    named = words.show(name_check(check.member, check.mode))
-    is_of_end = check.position == "edge" and check.member in CARRYING_MEMBERS
-    return words("check.of_end", check=named) if is_of_end else named
-
-
-def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
+def _list_lines(
+    study: Study, words: Words, *, is_short: bool, check_of: str
+) -> Iterator[str]:
     """Counts, and what is open."""
     verdicts = [check.verdict for row in study.rows for check in row.checks]
     checks = _count_verdicts(verdicts, words)
@@ -183,7 +184,8 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
     yield from list_reliability(study, words)
     points = list(list_open_points(study, words))
     if is_short:
-        yield words("show.more_points", count=len(points))
+        key = "show.points_by_check" if check_of else "show.more_points"
+        yield words(key, count=len(points), site=check_of)
         return
     for number, point in enumerate(points, 1):
         yield words("show.open_point", number=number, point=point)
