@@ -230,7 +230,7 @@ def test_a_pass_that_is_only_declared_now_comes_first_among_the_verdicts():
     lost = compare_studies(old, new)
     assert [(one.old, one.new) for one in lost[:2]] == [("pass", "declared")] * 2
     assert all(one.is_turned for one in lost[:2])
-    name = f"{show_check(ENGLISH, declared)}: declared as proven"
+    name = f"{show_check(ENGLISH, declared)}: proven elsewhere"
     found = changes_of(old, new)["check", row.id, name]
     assert found == (None, "G-17, B. R., D!B2")
     gained = compare_studies(new, old)
