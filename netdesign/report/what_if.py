@@ -37,7 +37,11 @@ def mark_verdict(study: Study, words: Words) -> VerdictWords:
     if not study.what_if:
         return plain
     cells = words.join(
-        show_text(f"{one.cell}: {one.was or MISSING} → {one.now}")
+        words(
+            "show.label",
+            label=show_text(one.cell),
+            text=show_text(f"{one.was or MISSING} → {one.now}"),
+        )
         for one in study.what_if
     )
     return replace(

@@ -205,7 +205,11 @@ def _show_variants(variants: Sequence[Variant], words: Words) -> Part:
     changed = [one for one in variants if one.name != AS_GIVEN]
     explained, left = (
         tuple(
-            f"{show_own(words, one.structure.title)}: {words(f'variant.{one.name}')}"
+            words(
+                "show.label",
+                label=show_own(words, one.structure.title),
+                text=words(f"variant.{one.name}"),
+            )
             for one in changed
             if one.explains is is_explained
         )

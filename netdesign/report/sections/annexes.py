@@ -127,7 +127,7 @@ def _build_symbols(study: Study, words: Words) -> Table:
     steps = (step for row in study.rows for one in row.checks for step in one.steps)
     units = {step.symbol: step.unit for step in steps}
     told = [
-        f"{symbol}: {_name_symbol(symbol, unit, words)}"
+        words("show.label", label=symbol, text=_name_symbol(symbol, unit, words))
         for symbol, unit in units.items()
     ]
     return Table(

@@ -371,7 +371,8 @@ def add_calculation_sheet(book: Book, study: Study, calculations: Calculations) 
         sheet.set_column(index, index, width)
     for (row, check), block in calculations.blocks.items():
         shown = study.rows[row]
-        title = f"{show_text(shown.id)}: {show_check(words, shown.checks[check])}"
+        named = show_check(words, shown.checks[check])
+        title = words("show.label", label=show_text(shown.id), text=named)
         top = calculations.titles[row, check] - 1
         book.write_wide(sheet, (top, 0), title, _WIDTHS, bold=True)
         for line in block.values():

@@ -28,6 +28,7 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.fields import Field, SheetPlan, normalise
 from netdesign.site.declared_sheet import list_check_names
 from netdesign.words.catalogue import Language, render, set_marks
+from netdesign.words.message import say
 from netdesign.words.names import name_check
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
@@ -281,7 +282,9 @@ def _validation(field: Field, book: Book) -> dict[str, Any] | None:
         # A warning only: the heading may be given another unit.
         "error_type": "warning" if len(field.units) > 1 else "stop",
         "error_title": book.texts["out_of_range"],
-        "error_message": f"{field.label_in(book.language)}: {accepted}",
+        "error_message": _put_behind(
+            field.label_in(book.language), accepted, book.language
+        ),
     }
 
 
@@ -367,15 +370,20 @@ def describe_field(field: Field, language: Language) -> str:
     texts = load_text(language)
     parts = [field.notes[language]]
     if accepted := describe_accepted(field, language):
-        parts.append(f"{texts['accepted']}: {accepted}")
+        parts.append(_put_behind(texts["accepted"], accepted, language))
     if len(field.units) > 1:
         units = ", ".join(f"[{unit}]" for unit in field.units)
-        parts.append(f"{texts['units']}: {units}")
+        parts.append(_put_behind(texts["units"], units, language))
     if field.default is not None:
         number = set_marks(f"{field.default:g}", language)
         default = f"{number} {field.unit}".rstrip(" -")
-        parts.append(f"{texts['empty']}: {default}")
+        parts.append(_put_behind(texts["empty"], default, language))
     return "\n".join(part for part in parts if part)
+
+
+def _put_behind(label: str, text: str, language: Language) -> str:
+    """Label and text with the colon of the language between them."""
+    return render(say("show.label", label=label, text=text), language)
 
 
 def _write_quantities(sheet: Worksheet, workbook: Workbook, language: Language) -> None:
