@@ -143,8 +143,16 @@ def describe_replaced(was: str) -> Message:
 
 # Words of the names of checks, and those of earlier versions that workbooks still have.
 _FORMER = {
+    "en": (
+        ("bending under off-axis pull", "bending beside the axis"),
+        ("around the bond length", "around the bond"),
+    ),
     "fr": (("ontant", "oteau"), ("ligne", "rangée")),
-    "de": (("Ausziehen", "Herausziehen"), ("Fundation, Druck", "Bodenpressung")),
+    "de": (
+        *(("Ausziehen", "Herausziehen"), ("Fundation, Druck", "Bodenpressung")),
+        ("Biegung bei Schrägzug", "Biegung neben der Achse"),
+        ("Baugrund um die Verbundlänge", "Boden um den Verbund"),
+    ),
 }
 # Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and
 # a net below its snow are no matter of proof.
