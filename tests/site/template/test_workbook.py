@@ -99,7 +99,7 @@ def test_headings_have_units_notes_and_stay_in_view(example):
     assert nets.freeze_panes == "B2"
     assert all(cell.comment is not None for cell in nets[1])
     assert "units: [deg], [%], [rad]" in nets["B1"].comment.text
-    assert "left empty: 0.02" in nets["K1"].comment.text
+    assert "left empty, calculated with: 0.02" in nets["K1"].comment.text
 
 
 def test_bounds_and_words_are_offered_while_typing(example):
