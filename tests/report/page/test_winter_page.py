@@ -22,7 +22,8 @@ def test_days_of_one_reason_stand_together():
     ]
     assert _list_failed({"curve": curve}, Words("en")) == [
         "2 × without a force (the net folds): 2021-01-04, 2021-01-12",
-        "1 × calculated as uniform snow (the net folds): 2021-01-16",
+        "1 × not solvable in layers, calculated as uniform snow (the net folds): "
+        "2021-01-16",
         "1 × without a force (the snow lifts): 2021-01-20",
     ]
 
