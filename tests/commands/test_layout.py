@@ -69,6 +69,7 @@ def test_the_plan_has_rows_verdicts_sums_and_cost(planned):
     for one in rows:
         assert one["id"] in ended.out
         assert 12.0 <= one["length_m"] <= 61.0
+    assert "listed by 'netdesign check " in ended.out  # there is no report
     names = {one.name for one in out.iterdir()}
     assert names == {
         *("plan.geojson", "plan.json", "rows.geojson", "site.xlsx", "study.json"),

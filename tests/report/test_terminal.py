@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from rich.console import Console
 
+from netdesign.commands.check_run import _print_summaries
 from netdesign.report.terminal import list_rows, open_console, print_summary
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.governing import find_governing
@@ -95,3 +96,12 @@ def test_a_pipe_is_as_wide_as_the_table(monkeypatch):
     assert open_console().width == 160
     monkeypatch.setenv("COLUMNS", "70")
     assert open_console().width == 70
+
+
+def test_of_several_studies_each_stands_below_its_profile(capsys):
+    study = build_study()
+    _print_summaries([study], explain=False)
+    alone = capsys.readouterr().out
+    _print_summaries([study, study], explain=False)
+    headed = f"{study.profile.id}:\n{alone}"
+    assert capsys.readouterr().out == 2 * headed

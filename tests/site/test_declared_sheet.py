@@ -7,7 +7,8 @@ import pytest
 
 from netdesign.checks import Declaration, Proof
 from netdesign.outcome import SiteDataError
-from netdesign.site.declared_sheet import DECLARABLE
+from netdesign.site.columns.fields import normalise
+from netdesign.site.declared_sheet import DECLARABLE, list_check_names
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
@@ -165,6 +166,19 @@ def test_french_and_german_sheets(sheets, save, name, headings, check):
     sheets[name] = [headings, ["R1", check, "Note 4", "C. D.", "2026-01-30"]]
     (found,) = read_site(save(sheets)).declared
     assert (found.member, found.mode) == ("foot_anchor", "pull_out")
+
+
+@pytest.mark.parametrize(
+    ("name", "mode"),
+    [
+        ("Foot anchor, bending beside the axis", "bending"),
+        ("Foot anchor, ground around the bond", "wedge"),
+        ("Fußanker, Biegung neben der Achse", "bending"),
+        ("Fußanker, Boden um den Verbund", "wedge"),
+    ],
+)
+def test_a_check_is_known_by_the_name_it_had(name, mode):
+    assert list_check_names()[normalise(name)] == ("foot_anchor", mode, "")
 
 
 @pytest.mark.parametrize(
