@@ -59,7 +59,7 @@ def test_net_that_folds_the_mesh(a_scene, monkeypatch):
     monkeypatch.setenv("NETDESIGN_CORE", "numpy")  # a round of the core is one call
     monkeypatch.setattr(PlacedMesh, "is_valid", property(lambda _: False))
     result = solve_steady(a_scene(), COARSE)
-    assert_fails(Outcome.OUT_OF_VALIDITY, result, "mesh folds over")
+    assert_fails(Outcome.OUT_OF_VALIDITY, result, "mesh of the snow folds over")
 
 
 def test_too_few_rounds(a_scene):
