@@ -47,8 +47,8 @@ def find_fractile_of_known_scatter(
     """Fractile where the coefficient of variation is known; (R15), (R16).
 
     A test whose result is not said counts as pulled out: the smaller of both readings.
-    Held tests alone have no likelihood that is largest anywhere; they count as pulled
-    out, which is a lower bound.
+    Where none is known to have pulled out no likelihood is largest anywhere: all count
+    as pulled out, which is a lower bound.
 
     Parameters
     ----------
@@ -60,12 +60,12 @@ def find_fractile_of_known_scatter(
     Returns
     -------
     Fractile
-        Lower bound of it where all tests held.
+        Lower bound of it where no test is known to have pulled out.
     """
     sigma = math.sqrt(math.log1p(variation**2))
     pulled, held = _split(tests)
-    if not pulled:
-        pulled, held = held, []
+    if all(test.is_held is not False for test in tests):
+        pulled, held = [*pulled, *held], []
     mean, weight = _find_mean(pulled, held, sigma)
     spread = NormalDist().inv_cdf(_PROBABILITY) * math.sqrt(1.0 + 1.0 / weight)
     return Fractile(median=math.exp(mean), factor=math.exp(spread * sigma))

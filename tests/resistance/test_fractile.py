@@ -77,6 +77,20 @@ def test_known_scatter_never_gains_by_a_pull_out_at_the_same_load(seed):
     assert not_said == pytest.approx(less.value, rel=1e-12)
 
 
+@each("seed", range(200))
+def test_a_result_that_is_not_said_is_never_better_than_any_that_is(seed):
+    rng = random.Random(seed)
+    loads = [rng.uniform(5e4, 9e5) for _ in range(rng.randint(1, 6))]
+    tests = [SingleTest(load=x, is_held=rng.random() < 0.7) for x in loads]
+    variation = rng.uniform(0.05, 0.6)
+    said = find_fractile_of_known_scatter(tests, variation).value
+    empty = rng.sample(range(len(tests)), rng.randint(1, len(tests)))
+    for place in empty:
+        tests[place] = SingleTest(load=loads[place])
+    left = find_fractile_of_known_scatter(tests, variation).value
+    assert left <= said * (1.0 + 1e-12)
+
+
 def test_held_tests_alone_are_a_lower_bound():
     loads = (300.0, 310.0, 320.0)
     held = find_fractile_of_known_scatter(pull(held=loads), 0.3)
