@@ -20,7 +20,8 @@ def write_lines(path, lines):
             for row, line in enumerate(lines.get(plan.name, ()), start=1):
                 value = line.get(field.key)
                 if isinstance(value, str):
-                    value = template._translate(field, value, "en")
+                    if "!" not in value:  # the name of a cell is that in any language
+                        value = template._translate(field, value, "en")
                     sheet.write_string(row, column, value)
                 elif value is not None:
                     sheet.write_number(row, column, value)

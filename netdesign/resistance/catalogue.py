@@ -70,6 +70,11 @@ def find_rope_factor(construction: str, factor: str) -> Datum:
     )
 
 
+def list_constructions() -> list[str]:
+    """Names of the constructions of wire ropes."""
+    return list(load_catalogue()["rope"]["construction"])
+
+
 def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
     table = load_catalogue()["termination"]

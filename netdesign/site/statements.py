@@ -95,9 +95,7 @@ def check_statements(
         refuse_misfits(line, findings)
     for reading, beside in _list_contradictions(row, end):
         refuse_beside(reading, beside, findings)
-    said, neighbour, gap = row["row_end"], row["neighbour"], row["gap"]
-    if gap.state == "given" and gap.si == 0.0 and not said.word:
-        refuse(gap, say("nets.gap_of_none"), say("nets.gap_or_empty"), findings)
+    said, neighbour = row["row_end"], row["neighbour"]
     if said.word == "continuous" and neighbour.state == "blank":
         refuse(said, say("nets.without_neighbour"), say("nets.other_ids"), findings)
 

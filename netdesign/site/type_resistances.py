@@ -13,6 +13,7 @@ from netdesign.resistance.catalogue import (
     find_imperfection,
     find_rope_factor,
     find_termination,
+    list_constructions,
     load_catalogue,
 )
 from netdesign.resistance.post import (
@@ -24,7 +25,7 @@ from netdesign.resistance.products import find_product
 from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.fields import from_si
+from netdesign.site.columns.fields import from_si, to_si
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -147,20 +148,31 @@ def _tell_governing(
         refuse(beside, rule_text, "", findings, severity="note")
 
 
+# What has to be given for a bound from above; the rest may be the best there is.
+_LEAST_KNOWN = {"rope": ("rope_diameter",)}
+
+
 def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
-    """Resistances of steel and ropes as given, with what their dimensions give [N]."""
+    """Resistances of steel and ropes as given, with what their dimensions give [N].
+
+    Where some of these are not given, with the most that they may give, if it is less.
+    """
     for key in ("tendon", "rope", "compression"):
         given = row.get(key)
         if given is None or given.state != "given" or given.derivation:
             continue
         field = given.field
-        is_whole = all(row[one].state == "given" for one in field.computed_from)
-        is_faulty = any(row[one].state == "faulty" for one in field.computed_with)
-        is_tube = key == "tendon" and lacks_inner(row)
-        if is_whole and not is_faulty and not is_tube:
-            with suppress(ModelError):  # no resistance at all: nothing to compare
-                bare = _compute_bare_rope(row) if key == "rope" else None
-                yield given, _RULES[key](row)[0] if bare is None else bare
+        lacking = [one for one in field.computed_from if row[one].state != "given"]
+        parts = (*field.computed_from, *field.computed_with)
+        is_faulty = any(row[one].state == "faulty" for one in parts)
+        is_open = bool(lacking) or (key == "tendon" and lacks_inner(row))
+        needed = _LEAST_KNOWN.get(key, field.computed_from)
+        if is_faulty or not set(needed).isdisjoint(lacking):
+            continue
+        with suppress(ModelError):  # no resistance at all: nothing to compare
+            most = _compute_bare_rope(row) if key == "rope" else _RULES[key](row)[0]
+            if not is_open or given.si > most:
+                yield given, most
 
 
 def fill_in_section(row: Row) -> Row:
@@ -312,11 +324,18 @@ def find_breaking(row: Row) -> float | None:
 
 
 def _compute_bare_rope(row: Row) -> float:
-    """Breaking force by dimensions, without ends [N]."""
+    """Breaking force by dimensions, without ends [N]; the most that it may be."""
+    grade, construction = row["grade"], row["construction"].word
+    factors = [
+        find_rope_factor(one, "K").value
+        for one in ([construction] if construction else list_constructions())
+    ]
     return compute_rope_resistance(
         diameter=row["rope_diameter"].si,
-        grade=row["grade"].si,
-        breaking_factor=find_rope_factor(row["construction"].word, "K").value,
+        grade=to_si(grade.field.bounds[1], grade.field.unit)
+        if grade.given_si is None
+        else grade.si,
+        breaking_factor=max(factors),
         termination=1.0,
     )
 

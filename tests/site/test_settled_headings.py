@@ -142,6 +142,8 @@ def test_a_section_with_a_unit_is_an_area(change):
 def test_a_symbol_below_its_heading_is_no_unit(change):
     def put(sheet):
         sheet.insert_rows(2)
+        confirmed = sheet.parent["Declared"]  # a gap of 0, now a line below
+        confirmed.cell(confirmed.max_row, 2).value = "Nets!X8 = 0"
         find(sheet, "glide factor [-]").value = "glide factor"
         find(sheet, "net height [m]").value = "net height"
         sheet.cell(2, find(sheet, "glide factor").column).value = "N"
