@@ -197,7 +197,7 @@ def count_trend_terms(dimension: int) -> int:
 
 
 def supports_model(places: Floats) -> bool:
-    """Whether cases are enough for a model: in number, and by where they lie.
+    """Sufficiency of cases for a model: of their number, and of where they lie.
 
     Where cases failed, those left may lie on a face on which the trend is not known.
 
