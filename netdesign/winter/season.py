@@ -155,7 +155,7 @@ def _solve_near(
         best = find_largest(found.values())
         gains = {
             k: day.foot.value / pulls[k]
-            for k, day in found.items()
+            for k, day in sorted(found.items())
             if k in pulls and day.foot
         }
         most = {
@@ -182,9 +182,10 @@ def _find_gain(
 ) -> float:
     """Most by which the layers of a day may pull more than its uniform snow.
 
-    Told by the gains of the nearest solved days, where their snow is like that day's.
+    Told by the gains of the nearest solved days, where their snow is like that day's;
+    ``gains`` ascends.
     """
-    places = sorted(gains)
+    places = list(gains)
     after = bisect(places, day.index)
     around = places[max(after - 1, 0) : after + 1]
     is_alike = (

@@ -278,13 +278,13 @@ def _describe_quality(study: Study, words: Words) -> str:
 
 def _describe_laws(study: Study, words: Words) -> str:
     """Rows whose governing check another creep law would turn, and those not known."""
-    compared = {row.id: row.model_form for row in study.rows}
-    above = [
-        name
-        for name, form in compared.items()
-        if form and (form.utilisation or 0.0) <= 1.0 < (form.utilisation_high or 0.0)
-    ]
-    open_ = [name for name, form in compared.items() if form is None]
+    above, open_ = [], []
+    for row in study.rows:
+        form = row.model_form
+        if form is None or form.utilisation is None or form.utilisation_high is None:
+            open_.append(row.id)
+        elif form.utilisation <= 1.0 < form.utilisation_high:
+            above.append(row.id)
     rows, left = (", ".join(map(show_text, one)) for one in (above, open_))
     none = words("show.none")
     return words("show.other_laws", rows=rows or none, left=left or none)

@@ -38,8 +38,8 @@ SITES_IN_SUITE, SETS_A_SITE = 30, 10
 FOUND = (1005, 1016, 1025, 1149)  # sites that showed a fault once
 
 
-def judge(path, lines):
-    """Checks and verdicts by net row; None where the reader refuses the site."""
+def judge_lines(path, lines):
+    """Study, its site and profile; None where the reader refuses the site."""
     write_lines(path, lines)
     try:
         site = read_site(path)
@@ -48,7 +48,13 @@ def judge(path, lines):
     named = site.project.standard
     standard = replace(load_standard(named or DEFAULT), is_default=not named)
     study = judge_site(site, solve_site(site, RUN, Runner()), standard, RUN)
-    return {row.id: row for row in study.rows}
+    return study, site, standard
+
+
+def judge(path, lines):
+    """Checks and verdicts by net row; None where the reader refuses the site."""
+    judged = judge_lines(path, lines)
+    return judged and {row.id: row for row in judged[0].rows}
 
 
 def list_improvements(before, after):

@@ -1,26 +1,17 @@
 """A study of the program's own contradicts nothing, whatever its site."""
 
 import random
-from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import load_standard
-from netdesign.outcome import SiteDataError
-from netdesign.site.reader import read_site
-from netdesign.solving.runner import Runner
-from netdesign.study.cases import solve_site
 from netdesign.study.document import read_document, write_document
-from netdesign.study.judge import judge_site
 from netdesign.study.rejudge.study import rejudge
-from tests.site_lines import write_lines
 from tests.study.knowing_less.drawn_site import (
-    DEFAULT,
     draw_lines,
     empty,
     give_strength,
 )
-from tests.study.knowing_less.test_knowing_less import RUN, draw_sets
+from tests.study.knowing_less.test_knowing_less import draw_sets, judge_lines
 
 # Sites of which a sound study was refused once, or none could be made.
 FOUND = (4, 15, 20, 38, 45, 47, 107, 136)
@@ -54,14 +45,10 @@ def scale(draw, line):
 
 def list_contradictions(path, lines):
     """What judging again finds in a study just made; None of a refused site."""
-    write_lines(path, lines)
-    try:
-        site = read_site(path)
-    except SiteDataError:
+    judged = judge_lines(path, lines)
+    if judged is None:
         return None
-    named = site.project.standard
-    standard = replace(load_standard(named or DEFAULT), is_default=not named)
-    study = judge_site(site, solve_site(site, RUN, Runner()), standard, RUN)
+    study, site, standard = judged
     return rejudge(read_document(write_document(study)), standard, site)
 
 
