@@ -25,7 +25,7 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
-from tests.golden.golden import RUN
+from tests.golden.drawn import RUN
 from tests.report.build_study import build_study
 from tests.report.reading import find_steps, read_rows, read_workbook, recalculate
 from tests.site_lines import write_lines

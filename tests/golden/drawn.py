@@ -1,0 +1,62 @@
+"""Forty drawn sites, and their studies as they were once.
+
+Regression, not truth: whoever changes a number says why. The sites are stored as they
+were drawn, so that a change of the drawing moves no number here.
+"""
+
+import json
+import lzma
+import tempfile
+from pathlib import Path
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.site.reader import read_site
+from netdesign.solving.runner import Runner
+from netdesign.study.cases import solve_site
+from netdesign.study.check_run import CheckRun
+from netdesign.study.document import write_document
+from netdesign.study.judge import judge_site
+from tests.golden.compare import read_gone, tell_differences
+from tests.golden.former import may_differ
+from tests.golden.places import state_places, state_verdicts
+from tests.site_lines import write_lines
+
+HERE = Path(__file__).parent
+SEEDS = range(9000, 9040)
+RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))
+PROFILES = ("nf-p-95-304-style", "swiss-guideline-2007", "eurocode", "onr-24805-style")
+
+
+def judge_seed(lines, seed):
+    """Document of a drawn site's study."""
+    return judge_lines(lines[str(seed)], PROFILES[seed % len(PROFILES)])
+
+
+def judge_lines(lines, profile):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "site.xlsx"
+        write_lines(path, lines)
+        site = read_site(path)
+    solved = solve_site(site, RUN, Runner())
+    study = judge_site(site, solved, load_standard(profile), RUN)
+    return json.loads(write_document(study))
+
+
+def compare_seed(seed, lines, numbers, verdicts):
+    """Lines that tell every difference of a drawn site's study."""
+    document = judge_seed(lines, seed)
+    told = tell_differences(verdicts[str(seed)], state_verdicts(document))
+    return told + tell_differences(
+        numbers[str(seed)], state_places(document), gone=read_gone(), spare=may_differ
+    )
+
+
+def load(name):
+    """Record that is stored beside this module."""
+    return json.loads(lzma.decompress((HERE / f"{name}.json.xz").read_bytes()))
+
+
+def store(name, record):
+    text = json.dumps(record, separators=(",", ":")).encode()
+    (HERE / f"{name}.json.xz").write_bytes(lzma.compress(text, preset=9))
