@@ -29,6 +29,7 @@ from netdesign.words.message import dump, restore, say
 from netdesign.words.names import name_check
 from tests.program import QUICK, call_program, spoilt_program, start_program
 from tests.report.reading import read_workbook
+from tests.site.csv_folder import write_csv_folder
 from tests.tiny_site import SHEETS, write_site
 
 PROFILE = "nf-p-95-304-style"
@@ -124,15 +125,13 @@ def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
 
 @pytest.mark.parametrize("line", ["standard,eurocode", "Standrad;eurocode"])
 def test_a_profile_that_cannot_be_read_ends_with_3(tmp_path, line):
-    lines = ["[Project]", "item;value", line]
-    for name, rows in list(SHEETS.items())[:-1]:
-        lines += ["", f"[{name}]", *(";".join(map(str, row)) for row in rows)]
-    (tmp_path / "site.csv").write_text("\n".join(lines), encoding="utf-8")
-    result = call_program("check", "site.csv", *QUICK, cwd=tmp_path)
+    sheets = {"Project": ["item;value", line], **dict(list(SHEETS.items())[:-1])}
+    write_csv_folder(tmp_path / "site", sheets)
+    result = call_program("check", "site", *QUICK, cwd=tmp_path)
     assert result.code == 3
-    assert f'site.csv › Project › A3: "{line.split(";")[0]}"' in result.err
+    assert f'Project.csv › Project › A2: "{line.split(";")[0]}"' in result.err
     assert "standard" in result.err.split("accepted: ")[1]
-    assert listing(tmp_path) == {"site.csv"}
+    assert {path.name for path in tmp_path.iterdir()} == {"site"}
 
 
 def test_an_unknown_profile_of_a_site_is_refused_at_its_cell(call, tmp_path):

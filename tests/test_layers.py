@@ -109,7 +109,7 @@ THIRD_PARTY = {
         "evidence.verification.plan_view",
     ),
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
-    "defusedxml": ("site.cells.xlsx", "site.cells.ods", "site.cells.cells"),
+    "defusedxml": ("site.cells.xlsx", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
         *("evidence.validation.structure", "evidence.validation.measured_file"),

@@ -51,7 +51,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     netdesign check site.xlsx --rows-map rows.geojson --out mapped
     netdesign check site.xlsx --json > study.json
 
-    The site is an xlsx, xlsm, ods or csv file, or a folder of csv files. Defaults
+    The site is an xlsx, xlsm or csv file, or a folder of csv files. Defaults
     may stand in netdesign.toml beside it, or in variables such as
     NETDESIGN_CHECK_JOBS.
     """

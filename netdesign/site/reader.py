@@ -115,7 +115,7 @@ def read_site(
     Parameters
     ----------
     path : str or Path
-        An xlsx, xlsm, ods or csv file, or a folder of csv files, laid out as
+        An xlsx, xlsm or csv file, or a folder of csv files, laid out as
         `netdesign.site.columns.all_tables` says.
     text_format : TextFormat
         What is declared of the file's text.
@@ -201,7 +201,12 @@ def _ask_for_rows_elsewhere(
     if not names or not list_meant(workbook, NETS):
         return
     try:
-        every = read_workbook(path, names.__contains__, None, is_heading, text_format)
+        every = read_workbook(
+            path,
+            names.__contains__,
+            is_heading=is_heading,
+            text_format=text_format,
+        )
     except SiteDataError:  # what has no part in the check may be damaged
         return
     accepted = say("table.copy_accepted", name=NETS.title)

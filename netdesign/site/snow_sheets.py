@@ -289,9 +289,8 @@ def read_height_file(
     workbook = read_workbook(
         path,
         lambda _: True,
-        lambda _: False,
-        lambda text: split_heading(text)[0] in known,
-        text_format,
+        is_heading=lambda text: split_heading(text)[0] in known,
+        text_format=text_format,
     )
     sheets = tuple(replace(one, name=WINTER.name) for one in workbook.sheets)
     findings = list(workbook.remarks)

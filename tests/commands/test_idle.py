@@ -51,7 +51,6 @@ def test_options_of_a_fit_without_a_fit(call, typed, place, language):
     "words",
     [
         ("check", "site.xlsx"),
-        ("check", "site.ods"),
         ("check", "--example"),
         ("winter", "site.xlsx"),
         ("winter", "--example"),

@@ -6,23 +6,25 @@ import openpyxl
 import pytest
 
 from tests.short_example import write_short_example
+from tests.site.csv_folder import write_csv_folder
 
-CSV = """\
-id;slope angle [deg];snow thickness [m];upslope length [m];ground law;net height [m];\
-net stiffness [kN/m];post spacing [m]
-R1;38,500;2,75;20;free;3,5;9000;3,5
-[Ranges]
-quantity;low;high
-density [kg/m3];270;400
-friction angle [deg];15;45
-"""
+SHEETS = {
+    "Nets": [
+        "id;slope angle [deg];snow thickness [m];upslope length [m];ground law;"
+        "net height [m];net stiffness [kN/m];post spacing [m]",
+        "R1;38,500;2,75;20;free;3,5;9000;3,5",
+    ],
+    "Ranges": [
+        "quantity;low;high",
+        "density [kg/m3];270;400",
+        "friction angle [deg];15;45",
+    ],
+}
 
 
 @pytest.fixture
 def site(tmp_path):
-    path = tmp_path / "site.csv"
-    path.write_text(CSV, encoding="utf-8")
-    return path
+    return write_csv_folder(tmp_path / "site", SHEETS)
 
 
 def test_a_refused_site_is_given_back_with_its_findings(call, site, tmp_path):

@@ -12,10 +12,6 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
-_OASIS = "urn:oasis:names:tc:opendocument:xmlns"
-NAMES = " ".join(
-    f'xmlns:{name}="{_OASIS}:{name}:1.0"' for name in ("office", "table", "text")
-)
 SHEET = "xl/worksheets/sheet3.xml"  # Nets of the example workbook
 _DIGITS = random.Random(20261121)
 
@@ -141,16 +137,6 @@ def list_workbooks() -> dict[str, tuple[str, object]]:
     }
 
 
-def write_ods(path: Path, body: str) -> None:
-    content = (
-        f"<office:document-content {NAMES}><office:body><office:spreadsheet>"
-        f'<table:table table:name="Nets">{body}</table:table>'
-        "</office:spreadsheet></office:body></office:document-content>"
-    )
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-        archive.writestr("content.xml", content)
-
-
 def write_all(folder: Path, base: Path) -> dict[str, tuple[str, ...]]:
     """Write every file; the command for each, by the file's name."""
     commands: dict[str, tuple[str, ...]] = {}
@@ -159,7 +145,6 @@ def write_all(folder: Path, base: Path) -> dict[str, tuple[str, ...]]:
         change_part(base, path, part, change)
         commands[path.name] = CHECK
     commands |= dict.fromkeys(_write_archives(folder, base), CHECK)
-    commands |= dict.fromkeys(_write_ods_files(folder), CHECK)
     commands |= dict.fromkeys(_write_texts(folder), (*CHECK, "--delimiter", ";"))
     commands |= dict.fromkeys(_write_scenes(folder), SOLVE)
     commands |= dict.fromkeys(_write_studies(folder), REPORT)
@@ -204,27 +189,6 @@ def _hide_size(path: Path, size: int) -> None:
         size.to_bytes(4, "little"), (1000).to_bytes(4, "little")
     )
     path.write_bytes(content)
-
-
-def _write_ods_files(folder: Path) -> list[str]:
-    filled = '<table:table-cell office:value-type="float" office:value="%s" %s/>'
-    row = "<table:table-row>%s</table:table-row>"
-    wide = 'table:number-columns-repeated="201"'
-    cells = "".join(filled % (digits().decode(), wide) for _ in range(20_000))
-    inner = '<table:table table:name="Ranges"/>'
-    bodies = {
-        "repeated.ods": row % cells,
-        "negative.ods": row % (filled % (1, 'table:number-columns-repeated="-1"')),
-        "endless.ods": '<table:table-row table:number-rows-repeated="1048576">'
-        + (filled % (1, ""))
-        + "</table:table-row>",
-        "table-in-table.ods": row % (filled % (1, "")) + inner,
-        "paragraphs.ods": row
-        % f"<table:table-cell>{'<text:p/>' * 1_000_000}</table:table-cell>",
-    }
-    for name, body in bodies.items():
-        write_ods(folder / name, body)
-    return list(bodies)
 
 
 def _write_texts(folder: Path) -> list[str]:

@@ -8,7 +8,8 @@ from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import convert_unit
 from netdesign.site.reader import read_site
-from tests.fuzz.targets import example_tables, write_delimited
+from tests.fuzz.targets import example_tables
+from tests.site.csv_folder import write_csv_folder
 
 PLANS = {plan.name: plan for plan in SHEETS}
 # Sheet, label, and the unit that the example has.
@@ -45,9 +46,7 @@ def with_column(sheet, label, unit, change):
 
 
 def read(tmp_path, tables):
-    path = tmp_path / "site.csv"
-    path.write_bytes(write_delimited(tables))
-    return read_site(path)
+    return read_site(write_csv_folder(tmp_path / "site", tables))
 
 
 def list_numbers(site):

@@ -11,7 +11,7 @@ import xlsxwriter
 
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.reader import read_site
-from tests.site.cells.ods_files import write_ods
+from tests.site.csv_folder import write_csv_folder
 
 ROWS = 1000
 TYPED = {
@@ -43,19 +43,9 @@ def write_xlsx(path, sheets):
     return path
 
 
-def write_csv(path, sheets):
-    lines = []
-    for name, rows in sheets.items():
-        lines.append(f"[{name}]")
-        cells = [["" if cell is None else str(cell) for cell in row] for row in rows]
-        lines += [";".join(row) for row in cells]
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("kind", "write"), [("xlsx", write_xlsx), ("ods", write_ods), ("csv", write_csv)]
+    ("kind", "write"), [("xlsx", write_xlsx), ("csv", write_csv_folder)]
 )
 def test_a_thousand_rows(sheets, tmp_path, capsys, kind, write):
     path = write(tmp_path / f"site.{kind}", build_sheets(sheets))

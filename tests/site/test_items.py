@@ -10,23 +10,15 @@ from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES
 from netdesign.site.columns.fields import find_item
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
-from tests.site.cells import ods_files
 from tests.site.conftest import SOUND
+from tests.site.csv_folder import write_csv_folder
 
 PROFILE = "eurocode"
 
 
-def write_csv(path, project, sheets=SOUND, delimiter=";"):
-    """All sheets in one file, Project first; ``project`` is its lines as typed."""
-    parts = ["[Project]", *project]
-    for name, rows in sheets.items():
-        parts += ["", f"[{name}]"]
-        parts += [
-            delimiter.join("" if cell is None else str(cell) for cell in row)
-            for row in rows
-        ]
-    path.write_text("\n".join(parts) + "\n", encoding="utf-8")
-    return path
+def write_csv(path, project, sheets=SOUND):
+    """A folder of csv files; ``project`` is the lines of its sheet as typed."""
+    return write_csv_folder(path, {"Project": project, **sheets})
 
 
 def findings_of(path):
@@ -51,9 +43,9 @@ def findings_of(path):
     ],
 )
 def test_a_line_that_names_no_item_is_one_finding(tmp_path, line, near):
-    path = write_csv(tmp_path / "site.csv", ["item;value", "name;Combe", line])
+    path = write_csv(tmp_path / "site", ["item;value", "name;Combe", line])
     (finding,) = findings_of(path)
-    assert (finding.sheet, finding.cell) == ("Project", "A4")
+    assert (finding.sheet, finding.cell) == ("Project", "A3")
     assert finding.text == line.split(";")[0]
     assert str(finding.accepted).startswith(near)
 
@@ -61,8 +53,8 @@ def test_a_line_that_names_no_item_is_one_finding(tmp_path, line, near):
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("sheet", ["Project", "Projet", "Projekt"])
 def test_items_are_listed_in_the_language_of_the_reader(tmp_path, sheet, language):
-    path = write_csv(tmp_path / "site.csv", ["item;value", "colour;red"])
-    path.write_text(path.read_text("utf-8").replace("[Project]", f"[{sheet}]"), "utf-8")
+    path = write_csv(tmp_path / "site", ["item;value", "colour;red"])
+    (path / "Project.csv").rename(path / f"{sheet}.csv")
     (finding,) = findings_of(path)
     expected = ", ".join(field.label_in(language) for field in PROJECT_ITEMS)
     assert render(finding.accepted, language).startswith(expected)
@@ -81,7 +73,7 @@ def misspell(word, rng):
     )
 
 
-@pytest.mark.parametrize("kind", ["xlsx", "ods", "csv"])
+@pytest.mark.parametrize("kind", ["xlsx", "csv"])
 def test_no_misspelt_item_of_any_language_is_lost(kind, save, sheets, tmp_path):
     rng = random.Random(7)
     for _ in range(12):
@@ -91,12 +83,9 @@ def test_no_misspelt_item_of_any_language_is_lost(kind, save, sheets, tmp_path):
             continue
         lines = [["item", "value"], ["standard", PROFILE], [word, "something"]]
         if kind == "csv":
-            path = write_csv(tmp_path / "site.csv", [";".join(line) for line in lines])
-        elif kind == "xlsx":
-            path = save({"Project": lines, **sheets})
+            path = write_csv(tmp_path / "site", [";".join(line) for line in lines])
         else:
-            path = tmp_path / "site.ods"
-            ods_files.write_ods(path, {"Project": lines, **sheets})
+            path = save({"Project": lines, **sheets})
         (finding,) = findings_of(path)
         assert (finding.sheet, finding.text) == ("Project", word)
         assert find_item(word, PROJECT_ITEMS) is None
@@ -119,7 +108,7 @@ def test_a_line_of_items_is_read_or_refused_wherever_its_marks_stand(tmp_path):
     for _ in range(40):
         line = rng.choice(["", " ", ";"]) + "standard" + rng.choice(marks) + PROFILE
         line += rng.choice(["", ";", " ", ";;;", ";x"])
-        path = write_csv(tmp_path / "site.csv", ["item;value", line])
+        path = write_csv(tmp_path / "site", ["item;value", line])
         refused_in, profile = read_or_refuse(path)
         assert refused_in <= {"Project", ""}, line  # "": no csv at all
         assert profile == PROFILE or refused_in, line
@@ -127,17 +116,8 @@ def test_a_line_of_items_is_read_or_refused_wherever_its_marks_stand(tmp_path):
     assert 0 < used < 40
 
 
-@pytest.mark.parametrize("title", ["[Porject]", "Porject", "[Projct]"])
-def test_a_misspelt_name_of_a_sheet_is_refused(tmp_path, title):
-    path = write_csv(tmp_path / "site.csv", ["item;value", "standard;eurocode"])
-    path.write_text(path.read_text("utf-8").replace("[Project]", title), "utf-8")
-    (finding,) = findings_of(path)
-    assert finding.sheet == title.strip("[]")
-    assert '"Project", which is missing' in str(finding.rule)
-
-
 @pytest.mark.parametrize("name", ["Porject", "Projects"])
-def test_so_is_that_of_a_workbook(sheets, save, refused, name):
+def test_a_misspelt_name_of_a_sheet_is_refused(sheets, save, refused, name):
     sheets[name] = [["item", "value"], ["standard", PROFILE]]
     (finding,) = refused(save(sheets))
     assert (finding.sheet, finding.cell) == (name, "")
@@ -152,8 +132,8 @@ def test_a_second_sheet_of_a_like_name_is_asked_about(sheets, save, refused):
 
 def test_items_above_their_headings_are_refused(tmp_path):
     lines = ["standard;eurocode", "item;value", "name;Combe"]
-    (finding,) = findings_of(write_csv(tmp_path / "site.csv", lines))
-    assert (finding.cell, finding.text) == ("A2", "standard")
+    (finding,) = findings_of(write_csv(tmp_path / "site", lines))
+    assert (finding.cell, finding.text) == ("A1", "standard")
     assert str(finding.rule) == "is above the headings: the line is not read"
 
 
@@ -169,14 +149,14 @@ def test_a_net_row_with_another_delimiter_is_no_note(tmp_path, mark):
     sheets = {name: [*rows] for name, rows in SOUND.items()}
     cells = ["" if cell is None else str(cell) for cell in SOUND["Nets"][1]]
     sheets["Nets"].append([mark.join(["R3 above the old hut", *cells[1:]])])
-    (first, *_) = findings_of(write_csv(tmp_path / "site.csv", ["item;value"], sheets))
+    (first, *_) = findings_of(write_csv(tmp_path / "site", ["item;value"], sheets))
     assert first.sheet == "Nets"
 
 
 def test_a_range_with_another_delimiter_is_no_note(tmp_path):
     sheets = {name: [*rows] for name, rows in SOUND.items()}
     sheets["Ranges"].append(["net inclination [deg], 27.5, 31.5, 3"])
-    (finding,) = findings_of(write_csv(tmp_path / "site.csv", ["item;value"], sheets))
+    (finding,) = findings_of(write_csv(tmp_path / "site", ["item;value"], sheets))
     assert "holds the quantity and what belongs to it" in str(finding.rule)
 
 
@@ -185,7 +165,7 @@ def test_a_cell_beyond_the_headings_of_a_csv_is_refused(tmp_path):
     sheets = {name: [*rows] for name, rows in SOUND.items()}
     sheets["Nets"][0] = [*sheets["Nets"][0], "slack [-]"]
     sheets["Nets"][1] = [*sheets["Nets"][1], None, 0.087]
-    (finding,) = findings_of(write_csv(tmp_path / "site.csv", ["item;value"], sheets))
+    (finding,) = findings_of(write_csv(tmp_path / "site", ["item;value"], sheets))
     assert (str(finding.rule), finding.text) == ("has no heading above it", "0.087")
 
 

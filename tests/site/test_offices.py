@@ -10,16 +10,14 @@ from netdesign.site.questions import write_questions
 from netdesign.site.reader import read_site
 from netdesign.site.titles import name_map
 from tests.site.offices import austrian, french, norwegian
-from tests.site.offices.write import write_folder, write_ods_list, write_xlsx
+from tests.site.offices.write import write_folder, write_xlsx
 
 MOST_QUESTIONS = 6
 # Share of a rope's breaking force: clips, no ends named, sockets.
 LEFT = {french: 0.8, austrian: 0.75, norwegian: 1.0}
 OFFICES = {
     "french-xlsx": (french, write_xlsx, "liste.xlsx"),
-    "french-ods": (french, write_ods_list, "liste.ods"),
     "austrian-xlsx": (austrian, write_xlsx, "Werkliste.xlsx"),
-    "austrian-ods": (austrian, write_ods_list, "Werkliste.ods"),
     "norwegian-csv": (norwegian, write_folder, "storfjellet"),
     "norwegian-xlsx": (norwegian, write_xlsx, "storfjellet.xlsx"),
 }
@@ -160,7 +158,7 @@ def test_dotted_dates_are_days_and_months(read):
 
 @pytest.mark.parametrize(
     ("write", "file"),
-    [(write_xlsx, "a.xlsx"), (write_ods_list, "a.ods"), (write_folder, "a")],
+    [(write_xlsx, "a.xlsx"), (write_folder, "a")],
 )
 def test_net_rows_under_a_name_that_nobody_knows_are_asked_about(tmp_path, write, file):
     name = "Rive gauche, ouvrages"

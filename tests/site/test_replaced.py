@@ -7,6 +7,7 @@ from netdesign.site.declared_sheet import split_replacement, write_replacement
 from netdesign.site.reader import read_site
 from tests.each import each
 from tests.short_example import write_short_example
+from tests.site.csv_folder import write_csv_folder
 from tests.tiny_site import SHEETS
 
 
@@ -89,11 +90,8 @@ def test_the_catalogue_holds_types_that_no_row_uses(workbook):
 def test_a_second_table_of_one_name_is_refused_and_no_row_lost(tmp_path, instead):
     """The rows of the first once vanished without a word."""
     tables = {name: rows for name, rows in SHEETS.items() if name != "Ends"}
-    lines = []
-    for name, rows in (*tables.items(), ("Nets", tables["Nets"])):
-        lines += ["", f"[{name}]", *(";".join(map(str, row)) for row in rows)]
-    (tmp_path / "site.csv").write_text("\n".join(lines), encoding="utf-8")
+    folder = write_csv_folder(tmp_path / "site", {**tables, "a-Nets": tables["Nets"]})
     with pytest.raises(SiteDataError) as caught:
-        read_site(tmp_path / "site.csv", instead=instead)
+        read_site(folder, instead=instead)
     told = [str(one.rule) for one in caught.value.findings]
     assert any("is a second sheet" in one for one in told), told

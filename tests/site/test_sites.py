@@ -10,8 +10,6 @@ from netdesign.site.model import MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.snow.ground import build_ground_from_glide_factor
-from tests.programs import convert
-from tests.site.cells.ods_files import write_ods
 from tests.site.whole_sites import (
     DAMAGED_FINDINGS,
     FRENCH_HEIGHTS,
@@ -27,12 +25,6 @@ from tests.site.whole_sites import (
 def merge_german_headings(workbook):
     for place in (*GERMAN_MERGES, *(f"{c}1:{c}2" for c in GERMAN_DOWNWARD)):
         workbook["Netze"].merge_cells(place)
-
-
-def save_again(path, kind):
-    """The same workbook, written by LibreOffice."""
-    convert(kind, path.parent, path)
-    return path.with_suffix(f".{kind}")
 
 
 def assert_french(site):
@@ -91,26 +83,6 @@ def test_twelve_french_rows_with_commas_and_per_cent(save):
 
 def test_a_german_site_with_units_row_and_grouped_headings(save):
     assert_german(read_site(save(german_site(), merge_german_headings)))
-
-
-def test_a_french_site_written_by_hand_as_ods(tmp_path):
-    assert_french(read_site(write_ods(tmp_path / "site.ods", french_site())))
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("kind", ["ods", "xlsx"])
-def test_the_french_site_saved_by_libreoffice(save, tmp_path, kind):
-    (tmp_path / "typed").mkdir()
-    typed = tmp_path / "typed" / "site.xlsx"
-    save(french_site()).rename(typed)
-    source = typed if kind == "ods" else save_again(typed, "ods")
-    assert_french(read_site(save_again(source, kind)))
-
-
-def test_the_german_site_saved_by_libreoffice(save):
-    assert_german(
-        read_site(save_again(save(german_site(), merge_german_headings), "ods"))
-    )
 
 
 def test_a_damaged_site_gives_every_finding_at_once(save, refused):

@@ -1,9 +1,8 @@
-"""Opens a site file of any accepted kind safely: xlsx, xlsm, ods, csv.
+"""Opens a site file of any accepted kind safely: xlsx, xlsm, csv.
 
-Of csv files it finds encoding, delimiter and sheets. One file may hold several sheets:
-a line with nothing but the name of a sheet, as ``Nets`` or ``[Nets]``, begins it. In a
-folder every file is the sheet that its name says. All cells are text; row numbers are
-those of the file.
+Of csv files it finds encoding and delimiter. One file is one sheet: in a folder the one
+that its name says, alone the net rows. All cells are text; row numbers are those of the
+file.
 """
 
 from __future__ import annotations
@@ -40,7 +39,6 @@ from netdesign.site.cells.cells import (
     require_width,
 )
 from netdesign.site.cells.findings import Finding, note_file, refuse_file
-from netdesign.site.cells.ods import read_ods
 from netdesign.site.cells.xlsx import read_xlsx
 from netdesign.site.columns.fields import KNOWN_UNITS, normalise_unit
 from netdesign.words.message import Message, say
@@ -73,13 +71,12 @@ def read_delimited(
     text_format : TextFormat
         What is declared of the files.
     by_name : bool
-        Whether a file that does not begin with the name of a sheet is the one that
-        its own name says; otherwise it is sheet Nets.
+        Whether a file is the sheet that its own name says; otherwise it is sheet Nets.
 
     Raises
     ------
     SiteDataError
-        If a file is no text, or its delimiter cannot be told.
+        If a file is no text, its delimiter cannot be told, or it holds a second sheet.
     """
     sheets: list[Sheet] = []
     unread: list[str] = []
@@ -99,11 +96,11 @@ def read_delimited(
             "csv.read_with", delimiter=_name_delimiter(delimiter), encoding=encoding
         )
         remarks.append(note_file(file, rule))
-        for sheet in _cut_sheets(file, name, records, is_wanted, is_name, text_format):
-            if is_wanted(sheet.name):
-                sheets.append(sheet)
-            else:
-                unread.append(sheet.name)
+        if not is_wanted(name):
+            unread.append(name)
+            continue
+        _refuse_second_sheet(file, records, is_wanted, is_name)
+        sheets.append(_make_sheet(file, name, records, text_format))
     return tuple(sheets), tuple(unread), tuple(remarks)
 
 
@@ -183,55 +180,48 @@ def _count_headings(
     )
 
 
-def _cut_sheets(
+def _make_sheet(
+    file: str, name: str, records: _Records, text_format: TextFormat
+) -> Sheet:
+    cells = (
+        Cell(
+            file=file,
+            sheet=name,
+            row=row,
+            column=column,
+            value=text,
+            decimal_mark=text_format.decimal_mark,
+        )
+        for row, record in enumerate(records, start=1)
+        for column, text in enumerate(record, start=1)
+        if text
+    )
+    return Sheet(file=file, name=name, rows=group_by_row(cells), is_delimited=True)
+
+
+def _refuse_second_sheet(
     file: str,
-    first: str,
     records: _Records,
     is_wanted: Callable[[str], bool],
     is_name: Callable[[str], bool],
-    text_format: TextFormat,
-) -> list[Sheet]:
-    """Cut a file into its sheets at the lines that name one."""
-    groups: list[tuple[str, list[Cell]]] = [(first, [])]
-    for row, record in enumerate(records, start=1):
-        # a misspelt name is told from a line of the table by the empty one above
-        is_apart = row == 1 or not any(map(str.strip, records[row - 2]))
-        if title := _find_title(record, is_name if is_apart else is_wanted):
-            groups.append((title, []))
-            continue
-        name, cells = groups[-1]
-        cells += [
-            Cell(
-                file=file,
-                sheet=name,
-                row=row,
-                column=column,
-                value=text,
-                decimal_mark=text_format.decimal_mark,
-            )
-            for column, text in enumerate(record, start=1)
-            if text
-        ]
-    return [
-        Sheet(file=file, name=name, rows=group_by_row(cells), is_delimited=True)
-        for name, cells in groups
-        if cells
-    ]
+) -> None:
+    """Refuse a line that names a sheet: those below it are no lines of this one.
 
-
-def _find_title(record: list[str], is_name: Callable[[str], bool]) -> str:
-    """Name of the sheet that a line begins; empty for any other line.
-
-    A name in brackets that nobody knows begins a sheet too: what stands below it
-    must not count as lines of the sheet before.
+    Above the table it may be a title. A name in brackets that nobody knows names a
+    sheet, too, and a misspelt one below an empty line.
     """
-    filled = [text.strip() for text in record if text.strip()]
-    if len(filled) != 1:
-        return ""
-    name = filled[0].strip("[]#: ")
-    in_brackets = record[0].strip().startswith("[") and filled[0].endswith("]")
-    is_title = in_brackets and normalise_unit(name) not in KNOWN_UNITS
-    return name if is_title or is_name(name) else ""
+    is_begun = False
+    for row, record in enumerate(records, start=1):
+        filled = [text.strip() for text in record if text.strip()]
+        if len(filled) == 1:
+            name = filled[0].strip("[]#: ")
+            in_brackets = record[0].strip().startswith("[") and filled[0].endswith("]")
+            is_apart = row == 1 or not any(map(str.strip, records[row - 2]))
+            is_named = is_begun and is_name(name) and (is_apart or is_wanted(name))
+            if is_named or (in_brackets and normalise_unit(name) not in KNOWN_UNITS):
+                rule = say("csv.second_sheet", row=row, name=name)
+                raise refuse_file(file, rule, say("csv.one_sheet"))
+        is_begun = is_begun or bool(filled)
 
 
 _OLE_MAGIC = b"\xd0\xcf\x11\xe0"
@@ -240,7 +230,7 @@ _ZIP_MAGIC = b"PK"
 _FORBIDDEN = ("DTDForbidden", "EntitiesForbidden", "ExternalReferenceForbidden")
 _ACCEPTED_FILE = say("accepted.file")
 _TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
-_MACRO_PARTS = ("xl/vbaProject.bin", "Basic/", "Scripts/")
+_MACRO_PART = "xl/vbaProject.bin"
 
 _Content = tuple[
     tuple[Sheet, ...], tuple[str, ...], frozenset[str], tuple[Finding, ...]
@@ -250,7 +240,7 @@ _Content = tuple[
 def read_workbook(
     path: Path,
     is_wanted: Callable[[str], bool],
-    is_name: Callable[[str], bool] | None = None,
+    is_name: Callable[[str], bool] = lambda _: False,
     is_heading: Callable[[str], bool] = lambda _: False,
     text_format: TextFormat = UNDECLARED,
 ) -> Workbook:
@@ -262,9 +252,9 @@ def read_workbook(
         The file. It is read once; guards, hash and content see the same bytes.
     is_wanted : callable
         Tells from a sheet's name whether to read it.
-    is_name : callable, optional
-        Tells whether a line alone in its row names a sheet of a csv file, perhaps
-        misspelt; by default, whether the sheet is wanted.
+    is_name : callable
+        Tells whether a text alone in a line of a csv file names a sheet, perhaps
+        misspelt.
     is_heading : callable
         Tells from a cell's text whether it is a known heading; finds the
         delimiter of a csv file.
@@ -291,7 +281,7 @@ def read_workbook(
         sheets, unread, remarks = read_delimited(
             contents,
             is_wanted,
-            is_name or is_wanted,
+            is_name,
             is_heading,
             text_format,
             by_name=is_folder,
@@ -337,14 +327,13 @@ def _read_archive(
             parts = archive.namelist()
         if "xl/workbook.bin" in parts:
             raise refuse_file(file, say("book.binary"), _ACCEPTED_FILE)
-        is_ods = "content.xml" in parts
-        read = (read_ods if is_ods else read_xlsx)(
-            file, content, is_wanted, text_format.decimal_mark
-        )
+        if "content.xml" in parts:
+            raise refuse_file(file, say("book.ods"), _ACCEPTED_FILE)
+        read = read_xlsx(file, content, is_wanted, text_format.decimal_mark)
     except DAMAGE as error:
         rule = say("book.unreadable", detail=_describe_damage(error))
         raise refuse_file(file, rule, _ACCEPTED_FILE) from error
-    has_macros = any(part.startswith(_MACRO_PARTS) for part in parts)
+    has_macros = _MACRO_PART in parts
     note = note_file(file, say("book.macros"))
     return *read, (note,) if has_macros else ()
 

@@ -48,7 +48,7 @@ def annotate_workbook(
     Parameters
     ----------
     path : Path
-        The file that was read; csv and ods become sheets of an xlsx workbook.
+        The file that was read; csv files become sheets of an xlsx workbook.
     findings : sequence of Finding
         As the importer gave them.
     text_format : TextFormat

@@ -15,12 +15,18 @@ quantity;low;high
 density [kg/m3];270;400
 friction angle [deg];15;45
 """
-ONE_FILE = f"{NETS}\n[Ranges];;\n{RANGES}"
 
 
 def write(path, text, encoding="utf-8"):
     path.write_bytes(text.encode(encoding))
     return path
+
+
+def write_both(folder, nets=NETS, ranges=RANGES, encoding="utf-8"):
+    folder.mkdir(exist_ok=True)
+    write(folder / "Nets.csv", nets, encoding)
+    write(folder / "Ranges.csv", ranges, encoding)
+    return folder
 
 
 def refusal_of(path, text_format=None):
@@ -30,40 +36,61 @@ def refusal_of(path, text_format=None):
 
 
 @pytest.mark.parametrize("delimiter", [";", ",", "\t", "|"])
-def test_one_file_holds_several_sheets_and_its_delimiter_is_found(tmp_path, delimiter):
-    text = ONE_FILE.replace(",", ".").replace(";", delimiter)
-    site = read_site(write(tmp_path / "site.csv", text))
+def test_the_delimiter_of_each_file_is_found(tmp_path, delimiter):
+    both = [one.replace(",", ".").replace(";", delimiter) for one in (NETS, RANGES)]
+    site = read_site(write_both(tmp_path / "site", *both))
     assert [row.snow_thickness for row in site.rows] == [2.75, 2.5]
     assert site.ranges["density"].high == 400.0
-    (note,) = map(str, site.notes)
     names = {";": "semicolon", ",": "comma", "\t": "tab", "|": "bar"}
-    assert f"delimiter {names[delimiter]} and the encoding utf-8" in note
+    for note in map(str, site.notes):
+        assert f"delimiter {names[delimiter]} and the encoding utf-8" in note
+
+
+@pytest.mark.parametrize(
+    ("between", "told"),
+    [
+        ("[Ranges];;", 'row 4, "Ranges"'),
+        ("\nRanges;", 'row 5, "Ranges"'),
+        ("Plages", 'row 4, "Plages"'),
+        ("\nRagnes", 'row 5, "Ragnes"'),
+        ("[whatever]", 'row 4, "whatever"'),
+    ],
+)
+def test_a_second_sheet_in_one_file_is_refused_and_no_line_counts(
+    tmp_path, between, told
+):
+    path = write(tmp_path / "site.csv", f"{NETS}{between}\n{RANGES}")
+    message = refusal_of(path)
+    assert f"names a second sheet in {told}" in message
+    assert "one sheet in each csv file, all of them in a folder" in message
 
 
 def test_decimal_commas_go_with_semicolons_and_in_quotes_with_commas(tmp_path):
-    site = read_site(write(tmp_path / "site.csv", ONE_FILE))
+    site = read_site(write_both(tmp_path / "site"))
     assert site.rows[0].snow_thickness == 2.75
-    quoted = "\n".join(
-        ",".join(f'"{cell}"' for cell in line.split(";"))
-        for line in ONE_FILE.splitlines()
-    )
-    site = read_site(write(tmp_path / "quoted.csv", quoted))
+    quoted = [
+        "\n".join(
+            ",".join(f'"{cell}"' for cell in line.split(";"))
+            for line in one.splitlines()
+        )
+        for one in (NETS, RANGES)
+    ]
+    site = read_site(write_both(tmp_path / "quoted", *quoted))
     assert site.rows[0].layout.post_spacing == 3.5
 
 
 def test_decimal_commas_between_commas_are_refused(tmp_path):
-    path = write(tmp_path / "site.csv", ONE_FILE.replace(";", ","))
+    path = write(tmp_path / "site.csv", NETS.replace(";", ","))
     text_format = TextFormat(delimiter=",")
     assert "has no heading above it" in refusal_of(path, text_format)
 
 
 def test_cells_are_named_as_a_spreadsheet_would(tmp_path):
-    text = ONE_FILE.replace("38,5", "3B").replace(
-        "friction angle [deg];15", "x [deg];1"
-    )
-    message = refusal_of(write(tmp_path / "site.csv", text))
-    assert 'site.csv › Nets › B2: "3B" is not a number' in message
-    assert 'site.csv › Ranges › A8: "x [deg]" is no known quantity' in message
+    nets = NETS.replace("38,5", "3B")
+    ranges = RANGES.replace("friction angle [deg];15", "x [deg];1")
+    message = refusal_of(write_both(tmp_path / "site", nets, ranges))
+    assert 'Nets.csv › Nets › B2: "3B" is not a number' in message
+    assert 'Ranges.csv › Ranges › A3: "x [deg]" is no known quantity' in message
 
 
 def test_a_folder_of_files_is_a_workbook(tmp_path):
@@ -81,13 +108,13 @@ def test_a_folder_of_files_is_a_workbook(tmp_path):
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1252", "utf-16"])
 def test_names_survive_every_usual_encoding(tmp_path, encoding):
-    text = ONE_FILE.replace("R1", "Rangée 1")
-    site = read_site(write(tmp_path / "site.csv", text, encoding))
+    text = NETS.replace("R1", "Rangée 1")
+    site = read_site(write_both(tmp_path / "site", text, encoding=encoding))
     assert site.rows[0].id == "Rangée 1"
 
 
 def test_a_declared_decimal_mark_settles_thousands(tmp_path):
-    path = write(tmp_path / "site.csv", ONE_FILE.replace("R1;38,5", "R1;38,500"))
+    path = write_both(tmp_path / "site", NETS.replace("R1;38,5", "R1;38,500"))
     assert "is ambiguous: 38.500 or 38500" in refusal_of(path)
     site = read_site(path, TextFormat(decimal_mark=","))
     assert site.rows[0].inputs[1].value == 38.5
@@ -118,7 +145,7 @@ def test_a_folder_without_csv_files_is_refused(tmp_path):
 
 
 def test_text_that_looks_like_a_formula_is_no_number(tmp_path):
-    text = ONE_FILE.replace("R1;38,5", "R1;=38+1")
+    text = NETS.replace("R1;38,5", "R1;=38+1")
     assert '"=38+1" is not a number' in refusal_of(write(tmp_path / "site.csv", text))
 
 
@@ -131,5 +158,5 @@ def test_text_that_looks_like_a_formula_is_no_number(tmp_path):
     ],
 )
 def test_text_that_is_no_csv_is_told_by_its_line(tmp_path, cell, told):
-    path = write(tmp_path / "site.csv", ONE_FILE.replace("38,5", cell))
+    path = write(tmp_path / "site.csv", NETS.replace("38,5", cell))
     assert told in refusal_of(path, TextFormat(delimiter=";"))

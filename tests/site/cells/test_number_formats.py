@@ -15,10 +15,9 @@ from netdesign.site.cells.numbers import (
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import KNOWN_UNITS, convert_unit, normalise_unit
 from netdesign.site.reader import read_site
-from netdesign.site.template.annotate import annotate_workbook
 from tests.each import each
-from tests.site.cells.ods_files import write_ods
 from tests.site.conftest import SOUND
+from tests.site.csv_folder import write_csv_folder
 
 # Formats as spreadsheet programs write them, with what they show beside a number.
 FORMATS = [
@@ -155,19 +154,10 @@ def test_a_share_may_be_typed_in_percent(tmp_path, heading, sign, slack):
     sheets = {name: [*rows] for name, rows in SOUND.items()}
     sheets["Nets"][0] = [*sheets["Nets"][0], heading]
     sheets["Nets"][1] = [*sheets["Nets"][1], f"{100 * slack:.6g}{sign}"]
-    row = read_site(write_csv(tmp_path / "site.csv", sheets)).rows[0]
+    row = read_site(write_csv_folder(tmp_path / "site", sheets)).rows[0]
     assert row.slack == pytest.approx(slack, rel=2e-15)
     echo = next(one for one in row.inputs if str(one.label) == "slack")
     assert echo.text.count("%") == 1
-
-
-def write_csv(path, sheets):
-    lines = []
-    for name, rows in sheets.items():
-        lines += ["", f"[{name}]"]
-        lines += [";".join("" if c is None else str(c) for c in row) for row in rows]
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
 
 
 @pytest.mark.parametrize("text", ["65%", "65 %", "65,3%", "0.65 %"])
@@ -177,56 +167,10 @@ def test_a_percentage_typed_elsewhere_is_a_finding(tmp_path, name, column, field
     sheets[name][1] = [*sheets[name][1]]
     sheets[name][1][column] = text
     with pytest.raises(SiteDataError) as caught:
-        read_site(write_csv(tmp_path / "site.csv", sheets))
+        read_site(write_csv_folder(tmp_path / "site", sheets))
     (finding,) = (one for one in caught.value.findings if one.severity == "error")
     assert finding.text == text
     assert str(finding.rule) == f"is in %, the unit of the column is {field.unit}"
-
-
-def cell_of_ods(value, shown, kind="float"):
-    return (
-        f'<table:table-cell office:value-type="{kind}" office:value="{value}">'
-        f"<text:p>{shown}</text:p></table:table-cell>"
-    )
-
-
-@pytest.mark.parametrize(
-    ("shown", "kind", "is_sound"),
-    [("40°", "float", True), ("40,0 deg", "float", True), ("40", "float", True),
-     ("40%", "float", False), ("4000%", "percentage", False),
-     ("40 €", "currency", False),
-     ("40 m", "float", False), ("40 gon", "float", False)],
-)  # fmt: skip
-def test_so_does_an_ods(tmp_path, shown, kind, is_sound):
-    sheets = {name: [*rows] for name, rows in SOUND.items()}
-    slope = cell_of_ods(40, shown, kind)
-    others = "".join(write_plain(cell) for cell in SOUND["Nets"][1][2:])
-    line = f"<table:table-row>{write_plain('R1')}{slope}{others}</table:table-row>"
-    sheets["Nets"][1] = [line]
-    path = write_ods(tmp_path / "site.ods", sheets)
-    if is_sound:
-        assert len(read_site(path).rows) == 2
-        return
-    with pytest.raises(SiteDataError) as caught:
-        read_site(path)
-    (finding,) = caught.value.findings
-    assert finding.cell == "B2"
-    copy = tmp_path / "copy.xlsx"  # which must show what the finding is about
-    copy.write_bytes(annotate_workbook(path, caught.value.findings))
-    with pytest.raises(SiteDataError) as again:
-        read_site(copy)
-    assert [one.cell for one in again.value.findings] == ["B2"]
-
-
-def write_plain(value):
-    if value is None:
-        return "<table:table-cell/>"
-    if isinstance(value, str):
-        return (
-            '<table:table-cell office:value-type="string">'
-            f"<text:p>{value}</text:p></table:table-cell>"
-        )
-    return cell_of_ods(value, value)
 
 
 def test_a_percent_slope_below_percent_is_read_whatever_shows_it(save, sheets):

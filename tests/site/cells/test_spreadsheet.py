@@ -58,6 +58,13 @@ def test_cells_come_with_address_and_value(small):
     assert workbook.sha256 == hashlib.sha256(small.read_bytes()).hexdigest()
 
 
+def test_an_ods_file_is_saved_as_xlsx_first(tmp_path):
+    path = tmp_path / "site.ods"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("content.xml", "<x/>")
+    assert "is an OpenDocument workbook (.ods): save it as .xlsx" in refusal_of(path)
+
+
 def test_only_wanted_sheets_are_read(small):
     workbook = read_workbook(small, lambda name: name == "Other")
     assert workbook.sheets == ()

@@ -9,6 +9,7 @@ from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
+from tests.site.csv_folder import write_csv_folder
 
 FINDINGS_SHEET = FINDINGS_SHEETS["en"]
 
@@ -62,18 +63,15 @@ def test_findings_without_a_cell_are_in_the_list(sheets, save, tmp_path):
 
 
 def test_a_csv_comes_back_as_a_workbook(tmp_path):
-    path = tmp_path / "site.csv"
-    path.write_text(
-        "id;slope angle [deg];ground law\nR1;=1+1;free\n[Ranges]\nquantity;low;high\n"
-        "density [kg/m3];270;400\n",
-        encoding="utf-8",
-    )
+    nets = ["id;slope angle [deg];ground law", "R1;=1+1;free"]
+    ranges = ["quantity;low;high", "density [kg/m3];270;400"]
+    path = write_csv_folder(tmp_path / "site", {"Nets": nets, "Ranges": ranges})
     copy = annotate(path, tmp_path / "copy.xlsx")
     assert copy.sheetnames == [FINDINGS_SHEET, "Nets", "Ranges"]
     assert copy["Nets"]["B2"].value == "=1+1"
     assert copy["Nets"]["B2"].data_type == "s"  # text, and no formula
     assert copy["Nets"]["B2"].fill.fill_type == "solid"
-    assert copy["Ranges"]["A5"].value == "density [kg/m3]"
+    assert copy["Ranges"]["A2"].value == "density [kg/m3]"
 
 
 def test_text_in_the_list_is_never_a_formula(sheets, save, tmp_path):
