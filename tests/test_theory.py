@@ -23,7 +23,7 @@ ROOT = PACKAGE.parent
 # In these rooms every word like a label is one.
 NUMERICAL = (
     *("numerics", "snow", "cable", "structure", "coupling"),
-    *("resistance", "guideline", "checks", "panel", "planview", "haefeli"),
+    *("resistance", "guideline", "checks", "panel", "evidence/verification/planview"),
     *("snowpack", "winter"),
 )
 ELEMENTS = {"P1", "P2"}  # finite elements, not labels
@@ -43,7 +43,7 @@ CONSTANT = re.compile(
 )
 
 PAGES = {
-    path.parent.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8")
+    path.parent.name: path.read_text(encoding="utf-8")
     for path in sorted(PACKAGE.rglob("THEORY.md"))
 }
 SOURCES = {
@@ -130,7 +130,9 @@ def find_values(name: str, room: str) -> list[Any]:
     values = []
     for place, source in SOURCES.items():
         folder, _, stem = place.removesuffix(".py").rpartition("/")
-        if not place.startswith(f"netdesign/{room}") or (owner and owner != [stem]):
+        rooms = folder.split("/")
+        is_elsewhere = room and ("netdesign" not in rooms or room not in rooms)
+        if is_elsewhere or (owner and owner != [stem]):
             continue
         if wanted not in top_names(source):
             continue

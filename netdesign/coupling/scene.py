@@ -190,23 +190,12 @@ class Scene:
             layers=layers,
             gravity=self.snowpack.gravity_direction,
             ground=self.ground.kind,
-            slip_ratio=self._slip_ratio,
-            slip_exponent=self.ground.slip_exponent,
+            slip_ratio=self.ground.slip_length / self.snowpack.thickness,
             friction=self.net.friction,
             element="mixed" if stiffest > MIXED_BULK_RATIO else "velocity",
             ground_contact=self.ground_contact,
             net_contact=self.net_contact,
         )
-
-    @property
-    def _slip_ratio(self) -> float:
-        """Slip length over thickness; of another slip exponent by (N31)."""
-        ratio = self.ground.slip_length / self.snowpack.thickness
-        own = self.ground.slip_exponent
-        if own is None:
-            return ratio
-        shear = self.snowpack.gravity_direction[0]
-        return float(ratio * shear ** (self.creep_law.exponent - own))
 
     @property
     def modelled_aspect(self) -> float:

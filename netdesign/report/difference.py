@@ -70,9 +70,7 @@ _PARTS = {
     **dict.fromkeys(("cases", "envelope", "extremes", "forces", "statics"), "cases"),
     **dict.fromkeys(("checks", "reasons", "questions", "unsaid"), "checks"),
     **dict.fromkeys(("drawing", "anchors", "head", "pulls", "panel"), "forces"),
-    **dict.fromkeys(
-        ("guideline", "floor", "slab", "model_form", "reliability"), "opinions"
-    ),
+    **dict.fromkeys(("guideline", "floor", "model_form", "reliability"), "opinions"),
     **dict.fromkeys(("held_sideways", "tilt", "independent"), "forces"),
     **dict.fromkeys(("inputs", "range_inputs", "parts"), "inputs"),
     "rows": "order",

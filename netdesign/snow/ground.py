@@ -22,7 +22,6 @@ GROUND_KINDS: tuple[GroundKind, ...] = ("free", "no-slip", "sliding")
 DEFAULT_CREEP_LAW = "boutillier-2004"
 _SMALLEST_GLIDE_FACTOR = 1.001  # below it the ground does not slip
 _TABLE_FILE = "glide_factors.toml"
-_TABLE_FILE_OF_EXPONENTS = "glide_factors_of_exponents.toml"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,14 +37,10 @@ class GroundLaw:
         the snow that lies on the ground.
     slip_length : float
         Slip length D* [m]; positive for ``sliding``, otherwise 0.
-    slip_exponent : float or None
-        Of the stress in the law of a sliding ground [-]; None is that of the creep law.
-        Another one glides as fast under the weight of snow that nothing holds (N31).
     """
 
     kind: GroundKind = "free"
     slip_length: float = 0.0
-    slip_exponent: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse a slip length that does not belong to the kind."""
@@ -61,8 +56,6 @@ class GroundLaw:
                     kind=say(f"ground_kind.{self.kind}"),
                 )
             )
-        if self.slip_exponent is not None:
-            require_within("slip exponent", self.slip_exponent, 1.0, 10.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -145,19 +138,10 @@ class GlideTable:
         return found if isinstance(slip_ratio, np.ndarray) else float(found)
 
 
+@lru_cache(maxsize=1)
 def load_glide_tables() -> dict[str, GlideTable]:
-    """Stored tables of the creep laws with n = 3, by their names."""
-    return _read_tables(_TABLE_FILE)
-
-
-def load_glide_tables_of_exponents() -> dict[str, GlideTable]:
-    """Stored tables of the laws of ``snow/creep_law.py``, by their names."""
-    return _read_tables(_TABLE_FILE_OF_EXPONENTS)
-
-
-@lru_cache(maxsize=2)
-def _read_tables(file: str) -> dict[str, GlideTable]:
-    text = files(__package__).joinpath(file).read_text(encoding="utf-8")
+    """Stored tables of the creep laws, by their names."""
+    text = files(__package__).joinpath(_TABLE_FILE).read_text(encoding="utf-8")
     return {
         name: GlideTable(
             slip_ratios=tuple(table["slip_ratios"]),
@@ -215,10 +199,9 @@ def find_glide_step(
     ModelError
         If there is no table, or the factor lies outside it: no extrapolation.
     """
-    known = load_glide_tables()
-    tables = known | load_glide_tables_of_exponents()
+    tables = load_glide_tables()
     if creep_law not in tables:
-        raise ModelError(say("ground.no_table", law=creep_law, known=tuple(known)))
+        raise ModelError(say("ground.no_table", law=creep_law, known=tuple(tables)))
     table = tables[creep_law]
     if math.isfinite(glide_factor) and glide_factor > table.glide_factors[-1]:
         raise ModelError(

@@ -172,8 +172,11 @@ class ForceRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ClosedForm:
-    """Load of a closed form on a net, its forces, and how the coupled solve differs."""
+class GuidelineCase:
+    """One load case of the guideline on this row; characteristic, inside a row.
+
+    Named "same_snow", "load_case_1" or "load_case_2"; its load has the prism.
+    """
 
     name: str
     load_kN_per_m: float | None  # along the slope on the net
@@ -183,15 +186,6 @@ class ClosedForm:
     load_difference_percent: float | None  # of the coupled solve against this
     foot_difference_percent: float | None
     reason: Text | None = None  # why a force is None
-
-
-@dataclass(frozen=True, kw_only=True)
-class GuidelineCase(ClosedForm):
-    """One load case of the guideline on this row; characteristic, inside a row.
-
-    Named "same_snow", "load_case_1" or "load_case_2"; its load has the prism.
-    """
-
     density_kg_m3: float
     height_vertical_m: float
     creep_factor: float | None

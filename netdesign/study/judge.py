@@ -45,7 +45,7 @@ from netdesign.study.record_guideline import (
     record_floor,
     record_guideline,
 )
-from netdesign.study.record_independent import record_independent, record_slab
+from netdesign.study.record_independent import record_independent
 from netdesign.study.record_monitoring import record_monitoring
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_statics import record_statics
@@ -182,7 +182,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         forces=list(known.largest.values()),
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=known.floor,
-        slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
         model_form=model_form,
         panel=panel,
         notes=[*notes, *list_history_notes(extremes)],

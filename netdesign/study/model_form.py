@@ -1,61 +1,41 @@
-"""Other models of the same snow on one case of a row: the spread of the model form.
-
-Which they are, and how they are derived: snow/THEORY.md, section 7.
-"""
+"""The other creep laws on one case of a row: the spread of the model form."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow
-from netdesign.snow.creep_law import (
-    CREEP_LAWS,
-    ICE_DENSITY,
-    STATED_EXPONENTS,
-    CreepLaw,
-    StatedExponent,
-    derive_exponent,
-    require_admissible,
-)
+from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.snow.ground import (
     GroundLaw,
     build_ground_from_glide_factor,
     load_glide_tables,
-    load_glide_tables_of_exponents,
 )
-from netdesign.snow.law import Sides
 from netdesign.structure.members import Member
 from netdesign.study.record_envelope import record_point
 from netdesign.study.records import CheckRecord, ModelFormRecord, VariantRecord
-from netdesign.study.row_to_check import CaseSolver, is_calibrated, list_densities
+from netdesign.study.row_to_check import CaseSolver, is_calibrated
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
-from netdesign.words.message import Message, say
-
-_NO_TENSION = 1e-6  # share of the ground's reaction: nothing to let go of
-_LINEAR = 1.0  # exponent of the other slip law
+from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Variant:
-    """One other model; ``reason`` tells why it needs no solve, or cannot have one."""
+    """One other creep law; ``reason`` tells why it cannot have a force."""
 
-    kind: str
     law: CreepLaw
-    stated: StatedExponent | None = None
     ground: GroundLaw
-    ground_contact: Sides = "two-sided"
-    reason: Message | None = None
-    is_same: bool = False  # its forces are those of the study's model
+    reason: Message | None
 
 
 def record_model_form(
     solver: CaseSolver, row: NetRow, result: CaseResult, member: str, check: CheckRecord
 ) -> ModelFormRecord | None:
-    """Solve the governing case of a row by other models, and record the spread.
+    """Solve the governing case of a row by the other creep laws; record the spread.
 
     Parameters
     ----------
@@ -80,8 +60,9 @@ def record_model_form(
         return None
     before = solver.count
     placed, case = row.at(result.case), replace(result.case, others=())
-    variants = list(_list_variants(solver.law, placed, result))
-    results = _solve(solver, placed, case, variants, result)
+    others = [law for law in CREEP_LAWS.values() if law.name != solver.law.name]
+    variants = [_place(law, placed) for law in others]
+    results = _solve(solver, placed, case, variants)
     records = [
         _record(one, found, placed, case, member, own.value)
         for one, found in zip(variants, results, strict=True)
@@ -117,96 +98,37 @@ def span_variants(record: ModelFormRecord) -> ModelFormRecord:
     )
 
 
-def _list_variants(
-    own: CreepLaw, row: NetRow, result: CaseResult
-) -> Iterator[_Variant]:
-    """Every creep law with every exponent but the study's own; contacts; slip law."""
-    for law in CREEP_LAWS.values():
-        if law.name != own.name:
-            yield _place("creep_law", law, row)
-        if not _is_admissible(law, row, result.case.density):
-            continue  # the ratio of a and b, which decides, is that of every exponent
-        for stated in STATED_EXPONENTS:
-            other = derive_exponent(law, stated.exponent)
-            yield replace(_place("exponent", other, row), stated=stated)
-    balance = result.solution.balance if result.solution else None
-    is_idle = balance is not None and balance.ground_tension_share < _NO_TENSION
-    yield _Variant(
-        kind="ground_contact",
-        law=own,
-        ground=row.ground,
-        ground_contact="one-sided",
-        reason=say("model.ground_is_pressed") if is_idle else None,
-        is_same=is_idle,
-    )
-    if row.ground.kind == "sliding":
-        linear = _place("slip_law", own, row, f"{own.name}-slip{_LINEAR:g}")
-        yield replace(linear, ground=replace(linear.ground, slip_exponent=_LINEAR))
-
-
-def _is_admissible(law: CreepLaw, row: NetRow, density: float) -> bool:
-    """The law takes this snow: (N5)."""
-    try:
-        for one in list_densities(row, density):
-            require_admissible(law, one / ICE_DENSITY)
-    except ModelError:
-        return False
-    return True
-
-
-def _place(kind: str, law: CreepLaw, row: NetRow, table: str = "") -> _Variant:
+def _place(law: CreepLaw, row: NetRow) -> _Variant:
     """Variant of a law: where N was typed, with the slip length that means this N.
 
-    ``table`` is the name of the table of N; by default that of the law. A law without
-    a table keeps the row's slip length.
+    A law without a table of N keeps the row's slip length.
     """
-    ground, reason, table = row.ground, None, table or law.name
-    is_known = table in load_glide_tables() | load_glide_tables_of_exponents()
-    if row.glide_factor is not None and is_known:
+    ground, reason = row.ground, None
+    if row.glide_factor is not None and law.name in load_glide_tables():
         try:
             ground = build_ground_from_glide_factor(
-                row.glide_factor, row.snow_thickness, table
+                row.glide_factor, row.snow_thickness, law.name
             )
         except ModelError as error:
             reason = error.message
-    return _Variant(kind=kind, law=law, ground=ground, reason=reason)
+    return _Variant(law=law, ground=ground, reason=reason)
 
 
 def _solve(
-    solver: CaseSolver,
-    row: NetRow,
-    case: Case,
-    variants: Sequence[_Variant],
-    result: CaseResult,
+    solver: CaseSolver, row: NetRow, case: Case, variants: Sequence[_Variant]
 ) -> list[CaseResult | None]:
     """Results in their order; None of a variant that is not solved."""
-    wanted = [
-        (index, one)
-        for index, one in enumerate(variants)
-        if one.reason is None and _find_denser(one.law, row, case) is None
-    ]
-    solved = solver.solve_all(
-        [
-            # on another ground, whatever the row's glide factor says
-            (replace(row, ground=one.ground, glide_factor=None), case, one.law)
-            for _, one in wanted
-        ],
-        [one.ground_contact for _, one in wanted],
+    solved = iter(
+        solver.solve_all(
+            [
+                # on another ground, whatever the row's glide factor says
+                (replace(row, ground=one.ground, glide_factor=None), case, one.law)
+                for one in variants
+                if one.reason is None
+            ]
+        )
     )
-    found: list[CaseResult | None] = [
-        result if one.is_same else None for one in variants
-    ]
-    for (index, _), one in zip(wanted, solved, strict=True):
-        found[index] = one
-    return found
-
-
-def _find_denser(law: CreepLaw, row: NetRow, case: Case) -> Message | None:
-    """Reason why an exponent is not derived for this snow; None where it is."""
-    densest = max(list_densities(row, case.density))
-    if law.name in CREEP_LAWS or law.is_below_branch(densest):
-        return None
-    return say("snow.no_exponent", law=law.name, branch=law.branch)
+    return [next(solved) if one.reason is None else None for one in variants]
 
 
 def _record(
@@ -219,16 +141,12 @@ def _record(
 ) -> VariantRecord:
     forces = found.member_forces if found and found.is_converged else {}
     values = {name: band.value for name, band in forces.items()}
-    densities = list_densities(row, case.density)
-    reason = one.reason or _find_denser(one.law, row, case)
-    if reason is None and found is not None and member not in values:
+    reason = one.reason
+    if found is not None and member not in values:
         reason = found.reason
     return VariantRecord(
-        kind=one.kind,
         creep_law=one.law.name,
-        exponent=one.law.exponent,
         slip_length_m=one.ground.slip_length or None,
-        stated=_describe_stated(one.stated, densities),
         is_calibrated=is_calibrated(one.law, row, case.density),
         foot_anchor_kN=kilonewton_if_known(values.get(Member.FOOT_ANCHOR)),
         uphill_guy_kN=kilonewton_if_known(values.get(Member.UPHILL_GUY)),
@@ -236,9 +154,3 @@ def _record(
         ratio=values[member] / own if member in values else None,
         reason=reason,
     )
-
-
-def _describe_stated(stated: StatedExponent | None, densities: Sequence[float]) -> str:
-    if stated is None:
-        return ""
-    return "yes" if all(map(stated.is_stated_for, densities)) else "no"

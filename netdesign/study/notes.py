@@ -22,7 +22,7 @@ from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.dependent import find_snow_pressure
-from netdesign.study.effects import list_assumed, list_end_notes
+from netdesign.study.effects import list_assumed
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import may_share
 from netdesign.study.records import CheckRecord, IndependentRecord
@@ -132,7 +132,6 @@ def list_judged_notes(
     row, ranges, standard = known.row, known.site.ranges, known.standard
     return [
         *list_row_notes(known),
-        *list_end_notes(row, ranges, known.law, known.effects),
         describe_model_code(row, ranges["density"]),
         *_list_sharing_notes(row, standard),
         *list_test_notes(checks, standard),

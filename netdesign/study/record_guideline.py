@@ -150,7 +150,7 @@ def list_load(one: FloorForce) -> dict[str, Any]:
 def compare_forces(
     load: float | None, forces: Mapping[str, float], solved: tuple[float, float]
 ) -> dict[str, float | None]:
-    """Load [N/m] and forces [N] of a closed form, by the keys of a ``ClosedForm``.
+    """Load [N/m] and forces [N] of a closed form, by the keys of a ``GuidelineCase``.
 
     ``solved`` are load and force of the foot anchor of the coupled solve.
     """

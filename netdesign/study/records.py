@@ -27,7 +27,6 @@ from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import (
     CasePoint,
     CaseRecord,
-    ClosedForm,
     EnvelopeRecord,
     ExtremeRecord,
     FloorRecord,
@@ -51,39 +50,11 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SlabCase(ClosedForm):
-    """Creep and glide pressure on this row; (H6) to (H10).
-
-    Named by what gave the ground: "glide_factor", "slip_length", "no_slip", "free".
-    """
-
-    slip_length_m: float | None  # D* of linear creep; None without drag
-    influence_length_m: float | None  # None without drag
-    dynamic_kN_per_m: float  # creep and glide held back
-    at_rest_kN_per_m: float
-    wedge_kN_per_m: float  # snow between slope normal and net, along the slope
-
-
-@dataclass(frozen=True, kw_only=True)
-class SlabRecord:
-    """Creep and glide pressure in closed form, beside one solved case of a row."""
-
-    case: CasePoint  # of the coupled solve
-    poisson: float  # viscous ratio, of the mean density
-    solved_load_kN_per_m: float  # along the slope on the net
-    solved_foot_anchor_kN: float
-    cases: list[SlabCase]
-
-
-@dataclass(frozen=True, kw_only=True)
 class VariantRecord:
-    """One other model of the snow on one case."""
+    """One other creep law on one case."""
 
-    kind: str  # "creep_law", "exponent", "ground_contact", "slip_law"
     creep_law: str
-    exponent: float
     slip_length_m: float | None  # of sliding ground: rematched where N was typed
-    stated: str  # "yes", "no": exponent stated for such snow; "": as the set has it
     is_calibrated: bool  # the set is given for this snow
     foot_anchor_kN: float | None
     uphill_guy_kN: float | None
@@ -94,7 +65,7 @@ class VariantRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class ModelFormRecord:
-    """Spread of a governing force over other models of the same snow."""
+    """Spread of a governing force over the other creep laws."""
 
     case: CasePoint
     member: str  # key of the governing force
@@ -388,7 +359,6 @@ class RowStudy:
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
-    slab: SlabRecord | None = None  # closed form, for comparison
     model_form: ModelFormRecord | None = None  # None where nothing governs
     parts: list[PartRecord] = field(default_factory=list)  # that it is built of
     reliability: ReliabilityRecord | None = None  # None where nobody asks for it

@@ -15,7 +15,6 @@ from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.guideline.floor import Floor, FloorEnd
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
-from netdesign.snow.law import Sides
 from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 from netdesign.words.message import Message, say
@@ -54,9 +53,7 @@ class RowToCheck(Basis):
         return self.solver.faults if self.solver else 0
 
 
-def build_scene(
-    row: NetRow, case: Case, law: CreepLaw, ground_contact: Sides = "two-sided"
-) -> Scene:
+def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
     """Scene of one case of a net row, with what ranges as the case has it.
 
     Raises
@@ -82,7 +79,6 @@ def build_scene(
             friction_angle=case.friction_angle,
         ),
         creep_law=law,
-        ground_contact=ground_contact,
     )
 
 
@@ -91,12 +87,11 @@ def build_row_task(
     case: Case,
     law: CreepLaw,
     settings: SolverSettings,
-    ground_contact: Sides = "two-sided",
 ) -> CaseTask:
     """Task of one case of a net row; a refused scene is a named refusal."""
     return build_task(
         case,
-        lambda one: build_scene(row, one, law, ground_contact),
+        lambda one: build_scene(row, one, law),
         row.layout,
         settings,
         row.solved_panels,
@@ -119,25 +114,18 @@ class CaseSolver:
         self.faults = 0  # of the program, in what was asked for
         self._settings = settings
         self._runner = runner or Runner()
-        self._known: dict[tuple[NetRow, Case, str, Sides], CaseResult] = {}
+        self._known: dict[tuple[NetRow, Case, str], CaseResult] = {}
 
     def solve_all(
-        self,
-        wanted: Sequence[tuple[NetRow, Case, CreepLaw]],
-        contacts: Sequence[Sides] = (),
+        self, wanted: Sequence[tuple[NetRow, Case, CreepLaw]]
     ) -> list[CaseResult]:
         """Results of some cases in their order, the unknown ones solved together.
 
-        A failed one is a result too. ``contacts`` are those of their grounds; two-sided
-        unless told.
+        A failed one is a result too.
         """
-        sides: Sequence[Sides] = contacts or ["two-sided"] * len(wanted)
-        keys: list[tuple[NetRow, Case, str, Sides]] = [
-            (row, case, law.name, side)
-            for (row, case, law), side in zip(wanted, sides, strict=True)
-        ]
+        keys = [(row, case, law.name) for row, case, law in wanted]
         unknown = {
-            key: build_row_task(*one, self._settings, key[-1])
+            key: build_row_task(*one, self._settings)
             for key, one in zip(keys, wanted, strict=True)
             if key not in self._known
         }

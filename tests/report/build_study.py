@@ -41,8 +41,6 @@ from netdesign.study.records import (
     Provenance,
     ReliabilityRecord,
     RowStudy,
-    SlabCase,
-    SlabRecord,
     SpreadRecord,
     Study,
     VariableRecord,
@@ -200,7 +198,6 @@ def build_row(
         anchors=build_anchors(),
         head=build_head(),
         guideline=build_guideline(extremes[0]),
-        slab=build_slab(extremes[0]),
         model_form=build_model_form(extremes[0]),
         floor=build_floor(extremes[0]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
@@ -419,41 +416,6 @@ def build_guideline(extreme: ExtremeRecord) -> GuidelineRecord:
     )
 
 
-def build_slab(extreme: ExtremeRecord) -> SlabRecord:
-    """Closed form with numbers, and one whose net has none."""
-    numbers = {
-        "influence_length_m": 3.64,
-        "dynamic_kN_per_m": 26.36,
-        "at_rest_kN_per_m": 5.56,
-        "wedge_kN_per_m": 7.61,
-        "load_kN_per_m": 39.53,
-    }
-    names = ("foot_anchor_kN", "uphill_guy_kN", "post_kN", "foot_difference_percent")
-    return SlabRecord(
-        case=extreme.case,
-        poisson=0.265,
-        solved_load_kN_per_m=15.0,
-        solved_foot_anchor_kN=extreme.max_kN,
-        cases=[
-            SlabCase(
-                name="glide_factor",
-                slip_length_m=0.573,
-                load_difference_percent=-4.1,
-                **numbers,
-                **dict(zip(names, (158.2, 44.1, 140.8, -1.8), strict=True)),
-            ),
-            SlabCase(
-                name="slip_length",
-                slip_length_m=0.77,
-                load_difference_percent=None,
-                **numbers,
-                **dict.fromkeys(names),
-                reason=as_given(f"the support fails {SCRIPT}"),
-            ),
-        ],
-    )
-
-
 def build_model_form(extreme: ExtremeRecord) -> ModelFormRecord:
     """One variant with a force, one without."""
     forces = {"foot_anchor_kN": 141.2, "uphill_guy_kN": 37.6, "post_kN": 122.9}
@@ -471,21 +433,15 @@ def build_model_form(extreme: ExtremeRecord) -> ModelFormRecord:
         solves=1,
         variants=[
             VariantRecord(
-                kind="exponent",
-                creep_law="zwinger-2007-n1.8",
-                exponent=1.8,
+                creep_law="zwinger-2007",
                 slip_length_m=0.41,
-                stated="no",
                 is_calibrated=True,
                 ratio=0.907,
                 **forces,
             ),
             VariantRecord(
-                kind="creep_law",
                 creep_law="gagliardini-1997",
-                exponent=3.0,
                 slip_length_m=None,
-                stated="",
                 is_calibrated=False,
                 ratio=None,
                 **dict.fromkeys(forces),

@@ -1,7 +1,7 @@
 """Plan view of a row's end against integral equations, plane elements, closed forms.
 
-Independent of the Bessel functions of ``netdesign.planview``: the load is put back into
-the integral equation by quadrature; finite elements on a half plane with a slit; the
+Independent of the Bessel functions of ``planview``: the load is put back into the
+integral equation by quadrature; finite elements on a half plane with a slit; the
 closed forms of Wiener and Hopf, of Kontorovich and Lebedev, of a mast.
 """
 
@@ -23,14 +23,18 @@ from netdesign.evidence.verification.plan_view import (
     find_excess,
     find_plan_excess,
 )
-from netdesign.planview.free_gap import (
+from netdesign.evidence.verification.planview.free_gap import (
     find_isolated_excess,
     find_isolated_load,
     solve_free_gap,
 )
-from netdesign.planview.gap import find_excess_within, find_load
-from netdesign.planview.pulled_gap import solve_pulled_gap
-from netdesign.planview.row import find_row_load, find_row_velocity, solve_row
+from netdesign.evidence.verification.planview.gap import find_excess_within, find_load
+from netdesign.evidence.verification.planview.pulled_gap import solve_pulled_gap
+from netdesign.evidence.verification.planview.row import (
+    find_row_load,
+    find_row_velocity,
+    solve_row,
+)
 
 SOLVERS = (solve_free_gap, solve_pulled_gap)
 

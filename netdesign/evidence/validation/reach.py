@@ -15,10 +15,10 @@ import numpy as np
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.evidence.scene import build_scene, solve
-from netdesign.haefeli.slab import Slab, find_linear_slip
+from netdesign.evidence.verification.planview.row import find_row_velocity, solve_row
+from netdesign.evidence.verification.planview.scales import compute_scales
+from netdesign.evidence.verification.slab import Slab, find_linear_slip
 from netdesign.numerics.arrays import Floats
-from netdesign.planview.row import find_row_velocity, solve_row
-from netdesign.planview.scales import compute_scales
 from netdesign.snow.ground import build_ground_from_glide_factor
 
 GLIDE_FACTORS = (1.2, 1.6, 2.4, 3.2)

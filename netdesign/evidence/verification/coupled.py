@@ -28,8 +28,11 @@ from netdesign.evidence.verification.case import (
     largest_difference,
     observe_order,
 )
-from netdesign.haefeli.pressure import compute_slab_force
-from netdesign.haefeli.slab import Slab, scale_slip_length
+from netdesign.evidence.verification.slab import (
+    Slab,
+    compute_slab_force,
+    scale_slip_length,
+)
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.flow import solve_flow

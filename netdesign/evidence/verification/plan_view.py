@@ -1,6 +1,6 @@
 """Snow around the end of a row: closed forms of its limits, hexahedra in space.
 
-What is in space is independent of ``netdesign.planview``: velocities in three
+What is in space is independent of the plan view (``planview``): velocities in three
 directions, the whole profile over the thickness, no averaging. Linear creep, (N7) with
 n = 1. Lengths are in d, stresses in rho g d sin psi. What is solved is the departure
 from the neutral zone; its velocities are known. On the wall it undoes them, in the gap
@@ -19,13 +19,16 @@ from scipy.sparse import block_diag, coo_matrix, csc_matrix, diags_array
 from scipy.sparse.linalg import splu
 
 from netdesign.evidence.verification.case import Found, VerificationCase, judge
-from netdesign.haefeli.slab import Slab
+from netdesign.evidence.verification.planview.free_gap import (
+    find_isolated_load,
+    solve_free_gap,
+)
+from netdesign.evidence.verification.planview.gap import find_excess_within, find_load
+from netdesign.evidence.verification.planview.pulled_gap import solve_pulled_gap
+from netdesign.evidence.verification.planview.row import solve_row
+from netdesign.evidence.verification.planview.scales import compute_scales
+from netdesign.evidence.verification.slab import Slab
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.planview.free_gap import find_isolated_load, solve_free_gap
-from netdesign.planview.gap import find_excess_within, find_load
-from netdesign.planview.pulled_gap import solve_pulled_gap
-from netdesign.planview.row import solve_row
-from netdesign.planview.scales import compute_scales
 from netdesign.snow.creep_law import (
     ICE_DENSITY,
     compute_bulk_factor,

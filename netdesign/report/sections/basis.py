@@ -337,7 +337,7 @@ def list_notes(study: Study, words: Words) -> list[str]:
 
 
 # Notes on what is known beside the verdict: they stand with the second opinions.
-_BESIDE = ("own_end_effect", "model_code", "loaded_net", "guys_in_snow")
+_BESIDE = ("model_code", "loaded_net", "guys_in_snow")
 # Told among the points that are open; the schedule has the dip of every borehole.
 _OPEN = "row.borehole_rises"
 

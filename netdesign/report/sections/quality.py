@@ -387,7 +387,7 @@ def build_opinions(study: Study, words: Words) -> Table:
     """Forces by other models beside the coupled one, a line a row."""
     headings = [
         add_unit(words(f"opinion.{key}"), "kN")
-        for key in ("coupled", "load_case_1", "load_case_2", "closed_form")
+        for key in ("coupled", "load_case_1", "load_case_2")
     ]
     others = words("opinion.other_snow")
     return Table(
@@ -403,18 +403,15 @@ def build_opinions(study: Study, words: Words) -> Table:
 
 
 def _opinion_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
-    guideline, slab = row.guideline, row.slab
+    guideline = row.guideline
     coupled = guideline.solved_foot_anchor_kN if guideline else None
     cases = guideline.cases if guideline else []
     by_case = {one.name: one.foot_anchor_kN for one in cases}
-    forces = [one.foot_anchor_kN for one in slab.cases] if slab else []
-    known = [one for one in forces if one is not None]
     return (
         text_cell(row.id),
         number_cell(words, "foot_anchor_kN", coupled),
         number_cell(words, "foot_anchor_kN", by_case.get("load_case_1")),
         number_cell(words, "foot_anchor_kN", by_case.get("load_case_2")),
-        number_cell(words, "foot_anchor_kN", max(known, default=None)),
         text_cell(_describe_model_form(row.model_form, words)),
     )
 

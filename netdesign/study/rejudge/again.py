@@ -154,13 +154,13 @@ def _follow_confirmation(again: ConfirmationRecord) -> ConfirmationRecord:
 def follow_opinions(row: RowStudy, _: Study) -> Fields:
     """Second opinions: of the largest force of the foot, the spread of the models."""
     found: dict[str, object] = {}
-    for name in ("guideline", "slab"):
-        if (record := getattr(row, name)) is not None:
-            largest = find_largest(row, Member.FOOT_ANCHOR)
-            force = largest.foot_anchor_kN
-            found[name] = replace(
-                record, case=largest.case, solved_foot_anchor_kN=force
-            )
+    if row.guideline is not None:
+        largest = find_largest(row, Member.FOOT_ANCHOR)
+        found["guideline"] = replace(
+            row.guideline,
+            case=largest.case,
+            solved_foot_anchor_kN=largest.foot_anchor_kN or 0.0,
+        )
     if row.model_form is not None:
         found["model_form"] = span_variants(row.model_form)
     return found

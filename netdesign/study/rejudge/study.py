@@ -28,13 +28,11 @@ from netdesign.study.parts import list_parts
 from netdesign.study.pulls import build_pull
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.record_guideline import compare_case, find_row_floor, record_floor
-from netdesign.study.record_independent import compare_slab
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.record_support import record_panel
 from netdesign.study.records import (
     CheckRecord,
     RowStudy,
-    SlabRecord,
     Study,
     list_verdicts,
     merge_rows,
@@ -278,7 +276,6 @@ def _judge_row(row: RowStudy, basis: Basis, study: Study) -> Iterator[Message]:
         "pulls": list(known.pulls),
         "notes": [*notes, *more],
         "floor": known.floor,
-        "slab": row.slab and _compare_slab(row.slab, given, basis.law),
         "guideline": row.guideline and _compare_guideline(row.guideline, given),
     }
     place = say("audit.row", row=row.id)
@@ -357,15 +354,6 @@ def _list_gaps(reason: Message) -> list[object]:
         for one in value if isinstance(value, tuple) else (value,):
             found += _list_gaps(one) if isinstance(one, Message) else [one]
     return found
-
-
-def _compare_slab(slab: SlabRecord, given: NetRow, law: CreepLaw) -> SlabRecord | None:
-    """Closed form worked out again, for the forces of its case."""
-    return compare_slab(
-        *(given, read_point(slab.case), law),
-        newton_from_kilonewton(slab.solved_load_kN_per_m),
-        newton_from_kilonewton(slab.solved_foot_anchor_kN),
-    )
 
 
 def _compare_guideline(stored: GuidelineRecord, given: NetRow) -> GuidelineRecord:

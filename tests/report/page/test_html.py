@@ -98,7 +98,6 @@ def test_empty_parts_say_none():
         statics=[],
         held_sideways=None,
         guideline=None,
-        slab=None,
         model_form=None,
         verdict=Verdict.NOT_PROVEN,
     )

@@ -547,12 +547,6 @@ def the_guideline_s_forces_raised(study):
 
 
 @alteration
-def the_closed_form_lowered(study):
-    case = study["rows"][0]["slab"]["cases"][0]
-    scale_all(case, ("load_kN_per_m", "foot_anchor_kN"), 0.8)
-
-
-@alteration
 def the_model_form_narrowed(study):
     record = study["rows"][0]["model_form"]
     record["low_ratio"] = 0.999 * record["high_ratio"]

@@ -267,7 +267,7 @@ def test_a_check_that_stands_twice_is_found_without_the_files(text):
 # Parts of a study from which no verdict follows: pictures, other models, the way of the
 # search, what was solved beside the checks. Only a new solve shows those.
 BESIDE = {
-    *("drawing", "envelope", "model_form", "slab", "statics", "panel", "guideline"),
+    *("drawing", "envelope", "model_form", "statics", "panel", "guideline"),
     *("holds", "spreads", "changes", "provenance", "digest", "sha256", "cases"),
     *("independent", "is_floor_overruled", "hidden_tension_kN", "share"),
     "solved_tension_kN",

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from scipy.special import gamma, jv, rgamma
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import require_positive, require_within
-from netdesign.planview.special import gamma, jv, rgamma
 
 MOST_FUNCTIONS = 16
 FUNCTIONS = 12

@@ -10,16 +10,16 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import k0
 
-from netdesign.numerics.arrays import Floats
-from netdesign.planview.special import k0
-from netdesign.planview.waves import (
+from netdesign.evidence.verification.planview.waves import (
     FUNCTIONS,
     load_bessel,
     load_waves,
     require_opening,
     solve_expansion,
 )
+from netdesign.numerics.arrays import Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

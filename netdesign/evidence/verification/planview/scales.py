@@ -8,7 +8,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.haefeli.slab import PROFILE_SHARE, Slab, compute_influence_length
+from netdesign.evidence.verification.slab import (
+    PROFILE_SHARE,
+    Slab,
+    compute_influence_length,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,9 +10,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import iti0k0, k1
 
 from netdesign.numerics.arrays import Floats
-from netdesign.planview.special import iti0k0, k1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import netdesign.haefeli
+import netdesign.evidence.verification
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.haefeli.pressure import compute_slab_force
-from netdesign.haefeli.slab import (
+from netdesign.evidence.verification.slab import (
     Slab,
     compute_influence_length,
+    compute_slab_force,
     find_linear_slip,
     scale_slip_length,
 )
@@ -24,7 +24,11 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import GRAVITY, Snowpack
 from netdesign.snow.wall import Wall
 
-PAGE = Path(netdesign.haefeli.__file__).with_name("THEORY.md").read_text("utf-8")
+PAGE = (
+    Path(netdesign.evidence.verification.__file__)
+    .with_name("THEORY.md")
+    .read_text("utf-8")
+)
 SLAB = Slab(thickness=2.3, slope_angle=math.radians(37.5), density=317.0)
 WEIGHT = 317.0 * GRAVITY * 2.3 * math.sin(math.radians(37.5))  # a metre of slope
 

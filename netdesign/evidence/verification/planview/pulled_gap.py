@@ -10,17 +10,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-
-from netdesign.numerics.arrays import Floats
-from netdesign.planview.gap import GapFlow
-from netdesign.planview.special import (
+from scipy.special import (
     eval_gegenbauer,
-    find_gegenbauer_places,
     gamma,
     gammaln,
     psi,
+    roots_gegenbauer,
 )
-from netdesign.planview.waves import (
+
+from netdesign.evidence.verification.planview.gap import GapFlow
+from netdesign.evidence.verification.planview.waves import (
     FEWER,
     FUNCTIONS,
     integrate_root,
@@ -28,13 +27,12 @@ from netdesign.planview.waves import (
     load_waves,
     require_opening,
 )
+from netdesign.numerics.arrays import Floats
 
 # Powers of the distance to a gap's end: v goes as r^(1/4), the pull as r^(-3/4).
 _VELOCITY, _PULL = 0.75, -0.25
 _VELOCITY_MEAN = 1.0 / (2.0**_VELOCITY * float(gamma(1.0 + _VELOCITY)))
 _PULL_MEAN = 1.0 / (2.0**_PULL * float(gamma(1.0 + _PULL)))
-# Whole excess at the end of a long row that stands alone, over l_z.
-ISOLATED_EXCESS = 0.25 + math.sqrt(0.5)
 _PLACES = 400  # in the gap
 
 
@@ -76,7 +74,8 @@ def solve_pulled_gap(half: float, *, functions: int = FUNCTIONS) -> GapFlow:
 @lru_cache(maxsize=1)
 def _list_places() -> tuple[Floats, Floats]:
     """Points in the gap and weights of Gegenbauer, made once."""
-    return find_gegenbauer_places(_PLACES, _VELOCITY)
+    places, weights = roots_gegenbauer(_PLACES, _VELOCITY)
+    return places, weights
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -8,17 +8,17 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.special import erf, erfc
 
-from netdesign.numerics.arrays import Floats
-from netdesign.planview.gap import GapFlow
-from netdesign.planview.special import erf, erfc
-from netdesign.planview.waves import (
+from netdesign.evidence.verification.planview.gap import GapFlow
+from netdesign.evidence.verification.planview.waves import (
     FUNCTIONS,
     load_bessel,
     load_waves,
     require_opening,
     solve_expansion,
 )
+from netdesign.numerics.arrays import Floats
 
 _PLACES = 400  # in the gap
 

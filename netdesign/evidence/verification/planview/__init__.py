@@ -1,0 +1,1 @@
+"""Snow around the end of a row, seen from above: verification of the end effect."""

@@ -1,1 +1,0 @@
-"""Creep and glide pressure in closed form, after Haefeli: a second opinion."""

@@ -1,1 +1,0 @@
-"""Snow around the end of a row, seen from above: an end effect of the program's own."""
