@@ -14,6 +14,7 @@ import traceback
 from collections import UserDict
 from collections.abc import Iterable
 from importlib import import_module
+from io import StringIO
 from typing import Any, NoReturn
 
 import click
@@ -23,7 +24,6 @@ from netdesign.commands.config import (
     COMPLETE_VARIABLE,
     ENVIRONMENT_PREFIX,
     accept_variables,
-    find_command,
     find_idle_variables,
     find_language,
     require_known_variables,
@@ -31,7 +31,7 @@ from netdesign.commands.config import (
 from netdesign.commands.help_texts import HelpTexts, load_help
 from netdesign.commands.options import take_options
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
-from netdesign.commands.usage import LanguageGroup, UsageRefusal, describe_refusal, tell
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import flush_streams, guard_streams
@@ -147,7 +147,6 @@ none of them; a standard output that cannot be written to ends with 2."
 
 
 @click.group(
-    cls=LanguageGroup,
     commands=_COMMANDS,
     epilog=_EPILOG,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -233,9 +232,8 @@ def _run() -> NoReturn:
         tell(say("cli.interrupted", command=own_command()), _speak(), err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
-        _, command = find_command(cli, sys.argv[1:])
-        shown = describe_refusal(error, _speak(), command)
-        click.echo(make_printable(shown), nl=False, err=True)
+        error.show(shown := StringIO())
+        click.echo(make_printable(shown.getvalue()), nl=False, err=True)
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
         lines = (error.message, _count_findings(error))

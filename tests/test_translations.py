@@ -1,4 +1,4 @@
-"""Tutorial and usage in French and German: built as the English ones."""
+"""The tutorial in French and German: built as the English one."""
 
 import re
 from pathlib import Path
@@ -8,13 +8,11 @@ import pytest
 import netdesign
 
 FOLDER = Path(netdesign.__file__).parent
-PAGES = ("TUTORIAL", "USAGE")
 BLOCK = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\(([^)#\s]+)?(#[^)]*)?\)")
 
 
-def read(page, language=""):
-    name = f"{page}.{language}.md" if language else f"{page}.md"
+def read(name="TUTORIAL.md"):
     return (FOLDER / name).read_text(encoding="utf-8")
 
 
@@ -28,9 +26,8 @@ def write_anchor(heading):
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])
-@pytest.mark.parametrize("page", PAGES)
-def test_a_page_is_built_as_the_english_one(page, language):
-    english, own = read(page), read(page, language)
+def test_the_tutorial_is_built_as_the_english_one(language):
+    english, own = read(), read(f"TUTORIAL.{language}.md")
     levels = [[level for level, _ in list_headings(x)] for x in (english, own)]
     assert levels[0] == levels[1]
     assert BLOCK.findall(english) == BLOCK.findall(own)
@@ -39,12 +36,12 @@ def test_a_page_is_built_as_the_english_one(page, language):
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])
-@pytest.mark.parametrize("page", PAGES)
-def test_every_link_of_a_page_leads_somewhere(page, language):
-    for file, anchor in LINK.findall(BLOCK.sub("", read(page, language))):
+def test_every_link_of_the_tutorial_leads_somewhere(language):
+    name = f"TUTORIAL.{language}.md"
+    for file, anchor in LINK.findall(BLOCK.sub("", read(name))):
         if file.startswith("http"):
             continue
-        target = FOLDER / (file or f"{page}.{language}.md")
+        target = FOLDER / (file or name)
         assert target.exists(), file
         if anchor and target.suffix == ".md":
             headings = list_headings(target.read_text(encoding="utf-8"))

@@ -29,7 +29,7 @@ from typing import Any
 
 import click
 
-from netdesign.commands.usage import UsageRefusal, ValueRefusal, explain_usage
+from netdesign.commands.usage import UsageRefusal
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import is_there, list_faults, read_toml
 from netdesign.outcome import ContentError
@@ -272,10 +272,8 @@ def _name_options(command: click.Command) -> dict[str, click.Option]:
 
 
 def _explain(error: Exception) -> Message | str:
-    if isinstance(error, ValueRefusal):
-        return error.told
-    if isinstance(error, click.BadParameter) and error.param is not None:
-        return explain_usage(error)
+    if isinstance(error, click.BadParameter):
+        return error.format_message()
     return explain(error)
 
 

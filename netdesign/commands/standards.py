@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import take_options
-from netdesign.commands.usage import LanguageGroup, tell
+from netdesign.commands.usage import tell
 from netdesign.outcome import OutputError
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from netdesign.checks import Standard
 
 
-@click.group(cls=LanguageGroup)
+@click.group()
 @take_options("standards")
 def standards() -> None:
     """Show the limit profiles, and start one of your own.

@@ -9,7 +9,9 @@ that becomes part of another loses its full stop by ``{reason:clause}``; a day i
 form is written as the language has it by ``{day:date}``; a force in kN or kN/m has
 three significant digits by ``{load:force}``, rounded up by ``{load:minimum}``; a count
 brings its noun along, ``{count:# row|# rows}``.
-Every language has every key with the same gaps; a test says so.
+A text that a language lacks is shown in English, whole with what it fills in. Reports,
+template and findings on the input have every language; `tests/words/test_catalogue.py`
+lists the files that do.
 """
 
 from __future__ import annotations
@@ -119,8 +121,9 @@ def render(message: Message | str, language: Language) -> str:
 
 def fill_text(key: str, arguments: Mapping[str, Any], language: Language) -> str:
     """Text of a key with its gaps filled; errors as of `render`."""
+    language, parts = _open_text(language, key)
     written = []
-    for before, name, form, conversion in _open_text(language, key):
+    for before, name, form, conversion in parts:
         written.append(before)
         if name is not None:
             value = arguments[name]
@@ -133,12 +136,14 @@ def fill_text(key: str, arguments: Mapping[str, Any], language: Language) -> str
 @cache
 def _open_text(
     language: Language, key: str
-) -> tuple[tuple[str, str | None, str | None, str | None], ...]:
-    """Parts of a text: what stands before a gap, its name, form and conversion.
+) -> tuple[Language, tuple[tuple[str, str | None, str | None, str | None], ...]]:
+    """Language in which a text is shown, and its parts.
 
-    A gap has one argument by its name, and nothing is filled into its form.
+    A part is what stands before a gap, its name, form and conversion. A gap has one
+    argument by its name, and nothing is filled into its form.
     """
-    return tuple(_FORMATTER.parse(load_texts(language)[key]))
+    shown: Language = language if key in load_texts(language) else "en"
+    return shown, tuple(_FORMATTER.parse(load_texts(shown)[key]))
 
 
 def _convert(value: Any, conversion: str, language: Language) -> Any:
@@ -184,7 +189,7 @@ def _count(count: float, one: str, many: str, *, language: Language) -> str:
 
 
 def load_texts(language: Language) -> Mapping[str, str]:
-    """All texts of a language by key."""
+    """All texts that a language has itself, by key."""
     return _Texts(language)
 
 

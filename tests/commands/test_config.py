@@ -51,8 +51,8 @@ def test_a_file_elsewhere_is_not_read(jobs, tmp_path):
         ("[report]\nout = 'x'\n", "[report]: is not known"),
         (
             "[check]\njobs = 0\n",
-            "[check] jobs = 0: Invalid value for '--jobs'; accepted: a whole number "
-            "from 1 to 256",
+            "[check] jobs = 0: Invalid value for '--jobs': 0 is not in the range "
+            "1<=x<=256",
         ),
         ("[check]\naccuracy = 'fine'\n", "[check] accuracy = 'fine'"),
         ("[check]\naccuracy = []\n", "[check] accuracy = []: no such value fits"),

@@ -283,13 +283,10 @@ def test_ctrl_c_stops_within_two_seconds_and_tells_how_to_continue(scene, tmp_pa
     assert json.loads(again.out)["cases"]["reused"] >= 9
 
 
-@pytest.mark.parametrize(
-    ("language", "said"), [("en", "[support]"), ("fr", "situation"), ("de", "Szene")]
-)
-def test_a_support_that_is_not_used_is_told(tmp_path, store, language, said):
+def test_a_support_that_is_not_used_is_told(tmp_path, store):
     path = tmp_path / "scene.toml"
     path.write_text(SMALL_SCENE + "\n[support]\npost_spacing_m = 3.37\n")
-    options = ("--density", "250:310", "--accuracy", "0.05", "--language", language)
+    options = ("--density", "250:310", "--accuracy", "0.05")
     result = run("envelope", path, *options, store=store)
     assert result.code == 0, result.err
-    assert said in result.err
+    assert "[support]" in result.err

@@ -139,14 +139,6 @@ def test_a_language_before_the_command_is_refused_with_the_right_line(call):
     assert "netdesign standards --language de" in told.err
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_missing_argument_has_the_name_that_help_has(call, language):
-    told = call("solve", "--language", language).err
-    name = load_help(language).signs["SCENE_FILE"]
-    assert told.count(name) == 2  # in the line on usage, and in the reason
-    assert "SCENE_FILE" not in told
-
-
 @pytest.mark.parametrize("shell", ["zsh", "fish", "powershell"])
 def test_completion_tells_in_the_language(call, monkeypatch, shell):
     monkeypatch.setenv("NETDESIGN_LANGUAGE", "fr")

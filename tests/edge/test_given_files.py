@@ -6,33 +6,32 @@ import pytest
 
 from netdesign.edge.given_files import decode_utf8, parse_toml
 from netdesign.outcome import ContentError
-from netdesign.words.catalogue import render
 from tests.each import each
 
-INVALID = "kein gültiges TOML (Zahlen mit Dezimalpunkt, Texte in Anführungszeichen)"
+INVALID = "not valid TOML (numbers take a decimal point, texts quotes)"
 
 
 @each(
     "content, told",
     [
-        ("a = 1.37\nb = 2 3\n", f"in Zeile 2, Spalte 7: {INVALID}"),
-        ("a =", f"am Ende: {INVALID}"),
-        ('a = """x\n', f"am Ende: {INVALID}"),
-        (f"a = {'9' * 5000}", "eine Zahl darin ist zu lang"),
+        ("a = 1.37\nb = 2 3\n", f"at line 2, column 7: {INVALID}"),
+        ("a =", f"at its end: {INVALID}"),
+        ('a = """x\n', f"at its end: {INVALID}"),
+        (f"a = {'9' * 5000}", "a number in it is too long"),
         (
             "a = {b=1, b=2}",
-            "in Zeile 1, Spalte 14: ein Schlüssel oder eine Tabelle zum zweiten Mal",
+            "at line 1, column 14: a key or table for the second time",
         ),
         (
             "[a]\n[b]\n[a]\n",
-            "in Zeile 3, Spalte 3: ein Schlüssel oder eine Tabelle zum zweiten Mal",
+            "at line 3, column 3: a key or table for the second time",
         ),
     ],
 )
 def test_a_fault_of_toml_is_told_by_its_place(content, told):
     with pytest.raises(ContentError) as caught:
         parse_toml(content.encode())
-    assert render(caught.value.message, "de") == told
+    assert str(caught.value.message) == told
 
 
 def test_bytes_that_are_no_text_are_told_by_their_line():
