@@ -82,7 +82,6 @@ TRANSLATED = (
     "floor",
     "geometry",
     "guards",
-    "haefeli",
     "labels",
     "names",
     "outcome",
