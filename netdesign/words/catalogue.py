@@ -11,7 +11,7 @@ three significant digits by ``{load:force}``, rounded up by ``{load:minimum}``; 
 brings its noun along, ``{count:# row|# rows}``.
 A text that a language lacks is shown in English, whole with what it fills in. Reports,
 template and findings on the input have every language; `tests/words/test_catalogue.py`
-lists the files that do.
+lists the files that are English only.
 """
 
 from __future__ import annotations
