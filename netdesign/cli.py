@@ -122,7 +122,6 @@ _OWN_MODULES = (
         "completion",
         "doctor",
         "envelope",
-        "layout",
         "report",
     ),
     *("solve", "standards", "terrain", "winter"),

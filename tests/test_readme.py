@@ -47,7 +47,7 @@ def blocks(language: str, text: str = README) -> list[str]:
 
 (TABLE,) = blocks("text")
 (PULLS,) = blocks("text", USAGE)
-CHANGES, SIZES, MEASURED, PLANNED = blocks("text", TUTORIAL)
+CHANGES, SIZES, MEASURED = blocks("text", TUTORIAL)
 
 
 def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -163,23 +163,13 @@ def test_first_site_step_by_step(tmp_path):
     assert (tmp_path / verify.split()[3]).is_file()
 
 
-@pytest.mark.long
-def test_a_zone_becomes_a_plan(tmp_path):
-    (line,) = blocks("sh", TUTORIAL)[-1].splitlines()
-    planned = run(line, tmp_path)
-    assert planned.returncode == 0, planned.stdout + planned.stderr
-    assert set(PLANNED.splitlines()) <= set(planned.stdout.splitlines())
-    told = set(re.findall("`(plan/[a-z.]+)`", TUTORIAL))
-    assert {one for one in told if not (tmp_path / one).is_file()} == set()
-
-
 MOST_COMMANDS = 8  # from a grid to a report that can be signed
 
 
 @pytest.mark.long
 def test_a_grid_becomes_a_report_that_can_be_signed(tmp_path):
     """Every command of the chapter; coordinates stay in the files they belong to."""
-    lines = blocks("sh", TUTORIAL)[-2].splitlines()
+    lines = blocks("sh", TUTORIAL)[-1].splitlines()
     assert len(lines) <= MOST_COMMANDS
     measure, check, place, verify = lines
     first = run(measure, tmp_path)

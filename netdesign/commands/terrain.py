@@ -69,7 +69,7 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
         from netdesign.terrain.example import write_example
 
         files = write_example(folder, overwrite=asked["force"])
-        grid, rows, asked["types"], _ = files
+        grid, rows, asked["types"] = files
     if grid is None or rows is None:
         raise UsageRefusal(say("terrain.no_input"))
     _measure(grid, rows, folder, site, asked)

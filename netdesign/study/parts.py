@@ -1,11 +1,10 @@
-"""Parts that a net row is built of: how many of each type, how long, at what cost."""
+"""Parts that a net row is built of: how many of each type, how long."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from netdesign.envelope.ranges import Interval
 from netdesign.site.model import NetRow, Resistance
@@ -15,8 +14,7 @@ from netdesign.structure.row_position import Position
 from netdesign.study.member_force import is_shared
 from netdesign.study.sideways import place_row
 
-NET = "net"  # its size is an area, and it has a price of its own
-Per = Literal["piece", "m", "m2"]
+NET = "net"  # its size is an area
 _BESIDE_GUYS = (
     *(Member.UPHILL_GUY, Member.UPHILL_ANCHOR),
     *(Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR),
@@ -172,47 +170,3 @@ def _index(resistances: Iterable[Resistance]) -> dict[str, Resistance]:
     for one in resistances:
         found.setdefault(one.member, one)
     return found
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Price:
-    """Price of one type, in any currency.
-
-    Attributes
-    ----------
-    amount : float
-        0 or more.
-    per : str
-        "piece", "m" of its length, or "m2" of the net.
-    """
-
-    amount: float
-    per: Per
-
-
-# All prices of each type: a piece and its drilled metres may both cost something.
-Prices = Mapping[str, tuple[Price, ...]]
-
-
-def find_unit_cost(part: PartRecord, prices: Prices) -> float | None:
-    """Cost of one part; None where a price or the size that it needs is not given."""
-    found = prices.get(part.type_id or part.part, ())
-    if part.size is None and any(one.per != "piece" for one in found):
-        return None
-    size = part.size or 0.0
-    costs = [one.amount * (1.0 if one.per == "piece" else size) for one in found]
-    return sum(costs) if costs else None
-
-
-def add_costs(
-    parts: Iterable[PartRecord], prices: Prices
-) -> tuple[float, tuple[str, ...]]:
-    """Cost of some parts, and the types of which it is not known."""
-    total, unknown = 0.0, dict[str, None]()
-    for part in parts:
-        cost = find_unit_cost(part, prices)
-        if cost is None or part.count is None:
-            unknown[part.type_id or part.part] = None
-        else:
-            total += cost * part.count
-    return total, tuple(unknown)

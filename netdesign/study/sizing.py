@@ -8,7 +8,6 @@ judged.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -20,14 +19,11 @@ from netdesign.study.cases import have_same_forces
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite
 from netdesign.study.judge import judge_site
-from netdesign.study.parts import Prices, find_unit_cost
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.stronger_types import find_ground, holds_in_ground
 from netdesign.words.message import say
 
 Column = Member | EndMember
-# Rank of a type that passes, the least first, and its utilisation.
-_Rating = tuple[float, float]
 # Site of the workbook with other texts in some of its cells.
 ReadInstead = Callable[[Mapping[str, str]], Site]
 
@@ -89,12 +85,11 @@ def size_site(
     standard: Standard,
     run: CheckRun,
     read: ReadInstead,
-    prices: Prices | None = None,
 ) -> list[SizedCell]:
     """Find the smallest type for every cell whose checks do not all pass.
 
     The smallest is the one that is used most while everything passes; of two alike the
-    first by its name. With prices it is the cheapest, of every cell.
+    first by its name.
 
     Parameters
     ----------
@@ -108,59 +103,20 @@ def size_site(
         Settings of the run.
     read : callable
         Gives the site with other texts in some cells; refuses what the workbook does.
-    prices : mapping or None
-        Of every type.
 
     Returns
     -------
     list of SizedCell
         In the order of rows and columns; empty where every check passes.
     """
-    slots = [
-        slot for slot in _join_slots(study, solved.site) if slot.open_rows or prices
-    ]
+    slots = [slot for slot in _join_slots(study, solved.site) if slot.open_rows]
     placed = [slot for slot in slots if slot.cell]
-    found: dict[SizedCell, dict[str, _Rating]] = {slot: {} for slot in slots}
-    for slot in placed:
-        if not slot.open_rows:
-            found[slot][slot.was] = _rate_built(slot, study, prices)
+    found: dict[SizedCell, dict[str, float]] = {slot: {} for slot in slots}
     for number in range(max((len(slot.types) for slot in placed), default=0)):
         trial = {one: one.types[number] for one in placed if number < len(one.types)}
-        for slot, rating in _try_types(
-            trial, solved, study, standard, run, read, prices
-        ):
-            found[slot][trial[slot]] = rating
-    cells = [_choose(slot, found[slot]) for slot in slots]
-    return [one for one in cells if one.now != one.was]
-
-
-def _rate_built(slot: SizedCell, study: Study, prices: Prices | None) -> _Rating:
-    """Rating of the types that pass as they are."""
-    rows = [row for row in study.rows if row.id in slot.checks]
-    used = max(
-        _rate(slot.column, slot.checks[x.id], x.checks, x.checks) or 0.0 for x in rows
-    )
-    return _rank(slot, slot.was, rows, used, prices), used
-
-
-def _rank(
-    slot: SizedCell,
-    kind: str,
-    rows: Sequence[RowStudy],
-    used: float,
-    prices: Prices | None,
-) -> float:
-    """The least is chosen: the cheapest, or the one that is used most."""
-    if prices is None:
-        return -used
-    costs = [
-        find_unit_cost(part, prices)
-        for row in rows
-        for part in row.parts
-        if part.part == slot.column and part.type_id == kind
-    ]
-    known = [one for one in costs if one is not None]
-    return max(known) if known and len(known) == len(costs) else math.inf
+        for slot, used in _try_types(trial, solved, study, standard, run, read):
+            found[slot][trial[slot]] = used
+    return [_choose(slot, found[slot]) for slot in slots]
 
 
 def _join_slots(study: Study, site: Site) -> list[SizedCell]:
@@ -184,9 +140,9 @@ def _join(one: SizedCell, other: SizedCell) -> SizedCell:
     )
 
 
-def _choose(slot: SizedCell, passing: Mapping[str, _Rating]) -> SizedCell:
-    best = min(passing, key=lambda kind: (passing[kind][0], kind), default="")
-    return replace(slot, now=best, used=passing[best][1] if best else None)
+def _choose(slot: SizedCell, passing: Mapping[str, float]) -> SizedCell:
+    best = min(passing, key=lambda kind: (-passing[kind], kind), default="")
+    return replace(slot, now=best, used=passing.get(best))
 
 
 def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[SizedCell]:
@@ -254,9 +210,8 @@ def _try_types(
     standard: Standard,
     run: CheckRun,
     read: ReadInstead,
-    prices: Prices | None,
-) -> Iterator[tuple[SizedCell, _Rating]]:
-    """Cells that pass with their types of a trial, each with its rating."""
+) -> Iterator[tuple[SizedCell, float]]:
+    """Cells that pass with their types of a trial, with their largest utilisations."""
     site = read({slot.cell: kind for slot, kind in trial.items()})
     wanted = {row_id for slot in trial for row_id in slot.checks}
     old = zip(solved.site.rows, solved.rows, strict=True)
@@ -284,10 +239,7 @@ def _try_types(
             if row_id in tried  # its forces are known with this type
         ]
         if len(used) == len(slot.checks) and None not in used:
-            most = max(one for one in used if one is not None)
-            of_slot = [row for row in judged.rows if row.id in slot.checks]
-            rank = _rank(slot, trial[slot], of_slot, most, prices)
-            yield slot, (rank, most)
+            yield slot, max(one for one in used if one is not None)
 
 
 def _rate(

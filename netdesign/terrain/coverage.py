@@ -112,7 +112,7 @@ def find_coverage(
     if not plan.zones:
         nothing = np.empty((0, 2))
         return Coverage(area=0.0, uncovered=0.0, side=surface.step, places=nothing)
-    squares = divide_zones(surface, plan.zones)
+    squares = _divide_zones(surface, plan.zones)
     is_open = squares.is_steep.copy()
     for ring in _list_held(plan, rows, reach):
         part, inside = squares.find_inside(ring)
@@ -139,7 +139,7 @@ def _list_held(
         yield np.concatenate((left, right[::-1]))
 
 
-def divide_zones(surface: Surface, zones: Sequence[Floats]) -> Squares:
+def _divide_zones(surface: Surface, zones: Sequence[Floats]) -> Squares:
     """Squares over zones: steps of the surface, larger where these are too many."""
     corners = np.concatenate(zones)
     low, high = corners.min(axis=0), corners.max(axis=0)

@@ -12,14 +12,14 @@ from netdesign.edge.output import write_files
 from netdesign.numerics.arrays import Floats
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.template.workbook import load_example, render_workbook
-from netdesign.terrain.contour import follow_contour
 from netdesign.terrain.grid import Grid
 from netdesign.terrain.surface import Surface
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
-TYPES_FILE, PRICES_FILE = "types.xlsx", "prices.csv"
+TYPES_FILE = "types.xlsx"
 _EAST, _NORTH, _CELL, _SIZE = 2_700_000.0, 1_180_000.0, 1.0, 200  # nobody's place
 _SEED, _NOISE = 20_261_126, 0.05  # of the heights [m]
+_STEP = 3.0  # of a drawn line: its bends are those of the ground, not of the noise [m]
 _EDGE = 150.0  # north of it the ground is flatter [m]
 _ZONE = (
     *((42.0, 94.0), (80.0, 94.0), (100.0, 89.0), (124.0, 88.0)),
@@ -65,11 +65,6 @@ _PROJECT = {
     "revision": "0",
     "standard": "nf-p-95-304-style",
 }
-# Nets of two heights, of which ``netdesign layout`` takes the lowest that is enough.
-_NETS = (
-    {"id": "DK-3.0", "net_height": 3.0},
-    {"id": "DK-3.5", "net_height": 3.5},
-)
 _TYPES = ("Ranges", "Anchors", "Ropes", "Links", "Posts")
 _DERIVED = ("id", "slope_angle", "upslope_length", "altitude", "gap", "neighbour")
 
@@ -87,18 +82,17 @@ def build_example() -> Grid:
     return Grid(west=west, south=south, cell=_CELL, heights=heights)
 
 
-def write_example(folder: Path, *, overwrite: bool) -> tuple[Path, Path, Path, Path]:
-    """Write grid, rows with their zone, types and prices to a folder; their places."""
+def write_example(folder: Path, *, overwrite: bool) -> tuple[Path, Path, Path]:
+    """Write grid, rows with their zone, and types to a folder; their places."""
     ground = build_example()
     contents = {
         folder / GRID_FILE: write_grid(ground),
         folder / ROWS_FILE: write_rows(ground),
         folder / TYPES_FILE: write_types(),
-        folder / PRICES_FILE: write_prices(),
     }
     write_files(contents, overwrite=overwrite)
-    grid, rows, types, prices = contents
-    return grid, rows, types, prices
+    grid, rows, types = contents
+    return grid, rows, types
 
 
 def write_grid(grid: Grid) -> bytes:
@@ -124,7 +118,7 @@ def write_rows(grid: Grid) -> bytes:
             "geometry": {
                 "type": "LineString",
                 "coordinates": _list_points(
-                    follow_contour(surface, origin + np.array(start), length)
+                    _follow_contour(surface, origin + np.array(start), length)
                 ),
             },
         }
@@ -155,34 +149,27 @@ def _list_cells() -> dict[str, object]:
 
 
 def write_types() -> bytes:
-    """Workbook of the zone's types, of the ends of its rows, of nets to be built."""
+    """Workbook of the zone's types, and of the ends of its rows."""
     given = load_example()
     lines = {name: given[name] for name in _TYPES}
     lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
-    nets = [{**_list_cells(), **one} for one in _NETS]
-    return render_workbook({**lines, "Ends": [_ENDS], "Nets": nets})
+    return render_workbook({**lines, "Ends": [_ENDS]})
+
+
+def _follow_contour(surface: Surface, start: Floats, length: float) -> Floats:
+    """Points along the contour through a point, the slope to the left, shape (n, 2)."""
+    points = [start]
+    for _ in range(math.ceil(length / _STEP)):
+        middle = points[-1] + 0.5 * _STEP * _turn(surface, points[-1])
+        points.append(points[-1] + _STEP * _turn(surface, middle))
+    return np.stack(points)
+
+
+def _turn(surface: Surface, place: Floats) -> Floats:
+    """Direction along the contour, uphill on its left, shape (2,)."""
+    east, north = surface.at(place[None]).gradient[0]
+    return np.array((north, -east)) / math.hypot(east, north)
 
 
 def _list_points(points: Floats) -> list[list[float]]:
     return [[round(float(one), 2) for one in point] for point in points]
-
-
-def write_prices() -> bytes:
-    """Prices of the zone's types, invented: a piece, and an anchor's drilled metres."""
-    given = load_example()
-    anchors = {str(one["id"]) for one in given["Anchors"]}
-    lines = ["type;price;per", "net;90;m2"]
-    for sheet, factor in (("Anchors", 4.0), ("Ropes", 3.0), ("Posts", 4.5)):
-        for name in dict.fromkeys(str(one["id"]) for one in given[sheet]):
-            size = int("".join(filter(str.isdigit, name)) or 1)
-            lines.append(f"{name};{factor * size:g};piece")
-            lines += [f"{name};95;m"] if name in anchors and _is_drilled(name) else []
-    return ("\n".join(lines) + "\n").encode()
-
-
-def _is_drilled(name: str) -> bool:
-    """An anchor type with a drilled length."""
-    return any(
-        one["id"] == name and one.get("drilled_length")
-        for one in load_example()["Anchors"]
-    )

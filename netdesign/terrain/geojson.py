@@ -8,11 +8,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from netdesign.numerics.arrays import Floats
-from netdesign.site.columns.all_tables import NETS
 from netdesign.terrain.crs import write_member
 from netdesign.terrain.measure import MeasuredRow
-from netdesign.terrain.plan import ZONE, Plan
-from netdesign.words.catalogue import Language
+from netdesign.terrain.plan import ZONE
 
 Feature = dict[str, Any]
 
@@ -79,16 +77,6 @@ def list_row_features(
             told = {"kind": "post", "row": row.line.id, "post": number}
             found.append(_point(post, told))
     return [*found, *map(_outline, zones)]
-
-
-def list_drawn_features(plan: Plan, language: Language) -> list[Feature]:
-    """Rows as somebody draws them, with columns of sheet Nets; and the zones."""
-    headings = {field.key: field.heading_for(language) for field in NETS.fields}
-    rows = [
-        _line(one.points, {headings[key]: value for key, value in one.cells.items()})
-        for one in plan.lines
-    ]
-    return [*rows, *map(_outline, plan.zones)]
 
 
 def find_exposure(aspect: float) -> str:

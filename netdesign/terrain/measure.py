@@ -221,7 +221,7 @@ def _measure_row(
         length=_measure(posts),
         slopes=slopes,
         slope=_band_slope(surface, slopes, ends, line),
-        flattest=find_flattest(surface, places),
+        flattest=_find_flattest(surface, places),
         aspect=math.atan2(-gradient[0], -gradient[1]) % (2.0 * math.pi),
         upslope=max(ends, key=lambda one: one.length.high),
         bends=drawn.bends,
@@ -244,7 +244,7 @@ def _find_rows(
     return [find_first_crossings(lines, post, others, least=least) for post in posts]
 
 
-def find_flattest(surface: Surface, places: Floats) -> float:
+def _find_flattest(surface: Surface, places: Floats) -> float:
     """Least slope angle at some places, less its error [rad]: there snow is deepest.
 
     Parameters

@@ -139,27 +139,8 @@ def _list_closed_gaps(lines: Sequence[NetLine]) -> Iterator[ClosedGap]:
             )
 
 
-def read_zones(path: Path) -> Plan:
-    """Read starting zones alone; lines in the file do not count.
-
-    Raises
-    ------
-    TerrainError
-        With all faults of the file at once, or if there is no zone.
-    """
-    plan = read_plan(path, has_rows=False)
-    if not plan.zones:
-        told = say(
-            "text.at_place", place=path.name, text=say("layout.no_zone", zone=ZONE)
-        )
-        raise TerrainError(told)
-    return plan
-
-
-def read_plan(path: Path, *, has_rows: bool = True) -> Plan:
+def read_plan(path: Path) -> Plan:
     """Read rows and zones from GeoJSON, a shapefile or a GeoPackage.
-
-    Without ``has_rows`` its zones alone.
 
     Raises
     ------
@@ -168,14 +149,14 @@ def read_plan(path: Path, *, has_rows: bool = True) -> Plan:
     """
     if path.suffix.lower() in (SHAPEFILE, GEOPACKAGE):
         layers = read_layers(path)
-        plan = _build_plan(layers.features, path.name, list(layers.faults), has_rows)
+        plan = _build_plan(layers.features, path.name, list(layers.faults))
         return replace(plan, crs=layers.crs, notes=layers.notes)
     text = read_text(path)
     try:
         document = json.loads(text, parse_constant=_refuse_constant)
     except (ValueError, RecursionError):
         raise TerrainError(say("terrain.no_json", file=path.name)) from None
-    return parse_plan(document, path.name, has_rows=has_rows)
+    return parse_plan(document, path.name)
 
 
 def read_text(path: Path) -> str:
@@ -198,7 +179,7 @@ def _refuse_constant(text: str) -> float:
     raise ValueError(text)
 
 
-def parse_plan(document: object, file: str, *, has_rows: bool = True) -> Plan:
+def parse_plan(document: object, file: str) -> Plan:
     """Rows and zones of a GeoJSON document.
 
     Raises
@@ -207,13 +188,11 @@ def parse_plan(document: object, file: str, *, has_rows: bool = True) -> Plan:
         With all faults at once.
     """
     faults: list[Message] = []
-    plan = _build_plan(_list_features(document, faults), file, faults, has_rows)
+    plan = _build_plan(_list_features(document, faults), file, faults)
     return replace(plan, crs=read_member(document))
 
 
-def _build_plan(
-    features: Iterable[Feature], file: str, faults: list[Message], has_rows: bool
-) -> Plan:
+def _build_plan(features: Iterable[Feature], file: str, faults: list[Message]) -> Plan:
     """Rows and zones of some features, each with its place."""
     lines: list[NetLine] = []
     zones: list[Floats] = []
@@ -221,7 +200,7 @@ def _build_plan(
         kind, parts = _read_geometry(feature, place, faults)
         properties = feature.get("properties")
         given = properties if isinstance(properties, Mapping) else {}
-        if kind == "line" and has_rows:
+        if kind == "line":
             line = _read_line(parts[0], given, place, faults)
             lines += [line] if line else []
         elif kind == "zone" and given.get("kind") == ZONE:
@@ -231,7 +210,7 @@ def _build_plan(
                 faults.append(say("text.at_place", place=place, text=crosses))
     names = Counter(one.id for one in lines)
     faults += [say("terrain.twice", row=one) for one, n in names.items() if n > 1]
-    if has_rows and not lines and not faults:
+    if not lines and not faults:
         faults.append(say("terrain.no_rows"))
     if faults:
         told = [say("text.at_place", place=file, text=one) for one in faults]

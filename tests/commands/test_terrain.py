@@ -222,7 +222,7 @@ def test_the_example_is_measured_and_lacks_nothing(tmp_path, call):
     names = {one.name for one in tmp_path.iterdir()}
     assert names == {
         *("site.xlsx", "rows.geojson", "terrain.html"),
-        *("starting-zone.asc", "rows-drawn.geojson", "types.xlsx", "prices.csv"),
+        *("starting-zone.asc", "rows-drawn.geojson", "types.xlsx"),
     }
     ended = call("check", out, "--dry-run")
     assert ended.code == 0
