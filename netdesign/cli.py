@@ -12,26 +12,14 @@ import signal
 import sys
 import traceback
 from collections import UserDict
-from collections.abc import Iterable
 from importlib import import_module
 from io import StringIO
 from typing import Any, NoReturn
 
 import click
-from click.core import ParameterSource
 
-from netdesign.commands.config import (
-    COMPLETE_VARIABLE,
-    ENVIRONMENT_PREFIX,
-    accept_variables,
-    find_idle_variables,
-    find_language,
-    require_known_variables,
-)
-from netdesign.commands.help_texts import HelpTexts, load_help
-from netdesign.commands.options import take_options
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
-from netdesign.commands.usage import UsageRefusal, tell
+from netdesign.commands.usage import tell
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import flush_streams, guard_streams
@@ -41,76 +29,23 @@ from netdesign.outcome import (
     SiteDataError,
     describe_fault,
 )
-from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 # Of a study almost nothing is ever thrown away: looking for it took a tenth of a run.
 _OBJECTS = 100_000
+COMPLETE_VARIABLE = "_NETDESIGN_COMPLETE"  # of click, by which a shell asks
 _EXIT_USAGE, _EXIT_INTERRUPTED = 2, 130
-
-
-class LanguageFormatter(click.HelpFormatter):
-    """Writes what click has to say in a language."""
-
-    def __init__(self, told: HelpTexts, **widths: Any) -> None:
-        super().__init__(**widths)
-        self.told = told
-
-    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
-        """Write the line on usage."""
-        start = f"{self.told.tell('Usage')}: " if prefix is None else prefix
-        super().write_usage(prog, self.told.translate_signs(args), start)
-
-    def write_heading(self, heading: str) -> None:
-        """Write a heading."""
-        super().write_heading(self.told.tell(heading))
-
-    def write_text(self, text: str) -> None:
-        """Write the paragraphs of a command's help."""
-        super().write_text(self.told.translate_paragraphs(text))
-
-    def write_dl(
-        self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
-    ) -> None:
-        """Write names with their descriptions."""
-        told = [
-            (self.told.translate_signs(name), self.told.translate_option(text))
-            for name, text in rows
-        ]
-        super().write_dl(told, col_max, col_spacing)
-
-
-class LanguageContext(click.Context):
-    """Context of a command whose help is in the language of the run."""
-
-    def make_formatter(self) -> click.HelpFormatter:
-        """Formatter of the help."""
-        root = self.find_root().command
-        return LanguageFormatter(
-            load_help(find_language(root, sys.argv[1:])),
-            width=self.terminal_width,
-            max_width=self.max_content_width,
-        )
-
-
-def print_help(command: click.Command) -> None:
-    """Let the help of a command, and of all below it, be in the language of the run."""
-    command.context_class = LanguageContext
-    for one in getattr(command, "commands", {}).values():
-        print_help(one)
 
 
 class CommandTable(UserDict[str, Any]):
     """Commands of the program; their names are known before they are imported."""
 
     def __getitem__(self, name: str) -> click.Command:
-        """Return a command, its options as variables, its help in every language."""
+        """Return a command, imported when it is asked for."""
         if isinstance(self.data[name], str):  # the place of the command
             module, function = self.data[name].split(".")
-            found = getattr(import_module(f"netdesign.commands.{module}"), function)
-            accept_variables(name, found)
-            print_help(found)
-            self.data[name] = found
+            found = import_module(f"netdesign.commands.{module}")
+            self.data[name] = getattr(found, function)
         command: click.Command = self.data[name]
         return command
 
@@ -151,9 +86,7 @@ none of them; a standard output that cannot be written to ends with 2."
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 @click.version_option(package_name="netdesign")
-@take_options("netdesign")
-@click.pass_context
-def cli(context: click.Context, language: Language) -> None:
+def cli() -> None:
     """Check the anchors of snow nets.
 
     \b
@@ -163,18 +96,6 @@ def cli(context: click.Context, language: Language) -> None:
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
     netdesign diff old.json new.json   what changed between two studies
     """
-    name = context.invoked_subcommand or ""
-    if context.get_parameter_source("language") is ParameterSource.COMMANDLINE:
-        # an option of all commands would be weaker than the variable of one of them
-        refused = say("usage.language_later", command=name, language=language)
-        raise UsageRefusal(refused, context)
-    command = cli.commands[name]
-    require_known_variables(name, command)
-    for idle in find_idle_variables(name, command, _COMMANDS):
-        tell(say("cli.note", text=idle), _speak(), err=True)
-
-
-cli.context_class = LanguageContext  # its commands get theirs when they are imported
 
 
 def main() -> NoReturn:
@@ -191,28 +112,28 @@ def main() -> NoReturn:
     flush_streams()
     if output and output.fault and code in (None, *EXIT_CODES.values()):
         cause = explain_system(output.fault)
-        tell(say("cli.output_lost", cause=cause), _speak(), err=True)
+        tell(say("cli.output_lost", cause=cause), err=True)
         flush_streams()
         code = OutputError.exit_code
     sys.exit(code)
 
 
 class _LogPrinter(logging.Handler):
-    """Tells what rooms below have logged, in the language of the run."""
+    """Tells what rooms below have logged."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Print a note."""
         text = record.msg if isinstance(record.msg, Message) else record.getMessage()
-        tell(say("cli.note", text=text), _speak(), err=True)
+        tell(say("cli.note", text=text), err=True)
 
 
 def _run() -> NoReturn:
     gc.set_threshold(_OBJECTS)
     logging.getLogger("netdesign").handlers[:] = [_LogPrinter()]
     if instruction := os.environ.get(COMPLETE_VARIABLE):
-        from netdesign.commands.completion import answer_shell
+        from click.shell_completion import shell_complete
 
-        sys.exit(answer_shell(cli, instruction))
+        sys.exit(shell_complete(cli, {}, "netdesign", COMPLETE_VARIABLE, instruction))
     if not os.environ.get("SOURCE_DATE_EPOCH"):
         # an empty one counts as none; numpy would stumble over it
         os.environ.pop("SOURCE_DATE_EPOCH", None)
@@ -220,15 +141,13 @@ def _run() -> NoReturn:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
         # not cli.main(): click has exit codes of its own
-        with cli.make_context(
-            "netdesign", sys.argv[1:], auto_envvar_prefix=ENVIRONMENT_PREFIX
-        ) as context:
+        with cli.make_context("netdesign", sys.argv[1:]) as context:
             cli.invoke(context)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
     except (click.Abort, KeyboardInterrupt):
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second one changes nothing
-        tell(say("cli.interrupted", command=own_command()), _speak(), err=True)
+        tell(say("cli.interrupted", command=own_command()), err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
         error.show(shown := StringIO())
@@ -236,22 +155,18 @@ def _run() -> NoReturn:
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
         lines = (error.message, _count_findings(error))
-        tell(say("text.lines", lines=lines), _speak(), err=True)
+        language = context.meta.get("language", "en")
+        tell(say("text.lines", lines=lines), language, err=True)
         sys.exit(error.exit_code)
     except NetDesignError as error:
-        tell(say("cli.error", reason=error.message), _speak(), err=True)
+        tell(say("cli.error", reason=error.message), err=True)
         sys.exit(error.exit_code)
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
             traceback.print_exc()  # raised, it would end like a check that fails
         # what given paths can cause, their readers have handled
-        sys.exit(print_faults({describe_fault(error): ()}, _speak()))
+        sys.exit(print_faults({describe_fault(error): ()}))
     sys.exit(0)
-
-
-def _speak() -> Language:
-    """Language of this run, also where its command line was refused."""
-    return find_language(cli, sys.argv[1:])
 
 
 def _count_findings(error: SiteDataError) -> Message:

@@ -52,8 +52,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     netdesign check site.xlsx --json > study.json
 
     The site is an xlsx, xlsm or csv file, or a folder of csv files. Defaults
-    may stand in netdesign.toml beside it, or in variables such as
-    NETDESIGN_CHECK_JOBS.
+    may stand in netdesign.toml beside it.
     """
     folder = asked["out"] or (None if asked["as_json"] else Path(DEFAULT_FOLDER))
     _refuse_contradictions(site_file, folder, asked)

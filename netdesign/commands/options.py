@@ -7,7 +7,6 @@ for; what is typed may not.
 from __future__ import annotations
 
 import math
-import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,12 +18,11 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from netdesign.commands.usage import UsageRefusal, ValueRefusal, tell
+from netdesign.commands.usage import UsageRefusal, ValueRefusal
 from netdesign.words.message import say
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
 DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
-_TYPED, _SET = ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT
 
 
 def check_delimiter(
@@ -162,9 +160,19 @@ def _build_option(name: str, table: dict[str, Any]) -> Callable[[Any], Any]:
         of_click["type"] = _NUMBERS[kind](*limits)
     if words := of_click.pop("one_of", None):
         of_click["type"] = click.Choice(words)
+    if name == "language":
+        of_click["callback"] = _remember_language
     if reader := of_click.pop("by", None):
         of_click["callback"] = _READERS[reader]
     return click.option(*names, **of_click)
+
+
+def _remember_language(
+    context: click.Context, _: click.Parameter, language: str
+) -> str:
+    """Language of the run; what a command refuses is told in it once it has ended."""
+    context.meta["language"] = language
+    return language
 
 
 def refuse_without(names: Sequence[str], *needed: str) -> None:
@@ -214,27 +222,13 @@ def refuse_jobs(executor: str) -> None:
 
 
 def _refuse(names: Sequence[str], key: str, **why: Any) -> None:
-    """Refuse options where typed; where variables set them, tell that of these.
-
-    Variables may be there for other runs.
-    """
+    """Refuse options where typed; defaults of a file may be there for other runs."""
     context = click.get_current_context()
-    found = [one for one in context.command.params if one.name in names]
     typed = tuple(
-        max(one.opts, key=len) for one in found if _is_from(one, _TYPED, context)
+        max(one.opts, key=len)
+        for one in context.command.params
+        if one.name in names
+        and context.get_parameter_source(one.name) is ParameterSource.COMMANDLINE
     )
     if typed:
         raise UsageRefusal(say(key, options=typed, **why))
-    variables = tuple(
-        next(filter(os.environ.get, one.envvar or ()), "")
-        for one in found
-        if _is_from(one, _SET, context)
-    )
-    if variables:
-        tell(say("cli.note", text=say(key, options=variables, **why)), err=True)
-
-
-def _is_from(
-    option: click.Parameter, source: ParameterSource, context: click.Context
-) -> bool:
-    return context.get_parameter_source(option.name or "") is source

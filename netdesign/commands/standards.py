@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 
 @click.group()
-@take_options("standards")
 def standards() -> None:
     """Show the limit profiles, and start one of your own.
 

@@ -1,4 +1,4 @@
-"""Refusals of a command line, in English as those of click; what a command tells."""
+"""What commands tell, and command lines that are refused."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def tell(
 class UsageRefusal(click.UsageError):
     """A command line that is refused, with a message."""
 
-    def __init__(self, message: Message, ctx: click.Context | None = None) -> None:
-        super().__init__(str(message), ctx)
+    def __init__(self, message: Message) -> None:
+        super().__init__(str(message), click.get_current_context(silent=True))
 
 
 class ValueRefusal(click.BadParameter):

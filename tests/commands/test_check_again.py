@@ -98,8 +98,8 @@ def test_drawn_changes_never_bring_bytes_that_are_not_theirs(place, call, monkey
         changed = nets.replace(",2.5,", f",{thickness},", 1)
         (place / "site" / "Nets.csv").write_text(changed, encoding="utf-8")
         monkeypatch.setenv("OMP_NUM_THREADS", drawn.choice("12"))
-        monkeypatch.setenv("NETDESIGN_CHECK_DETAIL", drawn.choice(["full", "summary"]))
         asked = [*SITE, "--language", drawn.choice(["en", "de"])]
+        asked += ["--detail", drawn.choice(["full", "summary"])]
         asked += [one for one in ("--csv", "--no-html") if drawn.random() < 0.5]
         ended = call(*asked, "--out", f"kept{k}")
         bare = call(*asked, "--out", f"bare{k}", "--no-cache")

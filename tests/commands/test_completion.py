@@ -46,30 +46,3 @@ def test_commands_options_and_choices_are_completed(
 
 def test_an_unknown_shell_ends_with_2(call):
     assert call("completion", "tcsh").code == 2
-
-
-def test_powershell_gets_a_script_that_asks_the_program(call):
-    script = call("completion", "powershell").out
-    assert "Register-ArgumentCompleter -Native -CommandName netdesign" in script
-    assert '$env:_NETDESIGN_COMPLETE = "powershell_complete"' in script
-    assert script.count("{") == script.count("}")
-
-
-@pytest.mark.parametrize(
-    ("words", "current", "completions"),
-    [
-        (["netdesign", "ch"], "ch", {"check"}),
-        (["netdesign", "init", "--lang"], "--lang", {"--language"}),
-        (["netdesign", "init", "--language", "d"], "d", {"de"}),
-        (["netdesign", "init", r"'C:\new site\a.xlsx'", "--f"], "--f", {"--force"}),
-        (["netdesign", "check", "sit"], "sit", set()),  # files are PowerShell's own
-    ],
-)
-def test_powershell_is_answered_one_completion_a_line(
-    call, monkeypatch, words, current, completions
-):
-    monkeypatch.setenv("_NETDESIGN_COMPLETE", "powershell_complete")
-    monkeypatch.setenv("COMP_WORDS", "\n".join(words))
-    monkeypatch.setenv("COMP_CWORD", current)
-    lines = call().out.splitlines()
-    assert {line.partition("\t")[0] for line in lines if line} == completions

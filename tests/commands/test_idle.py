@@ -1,13 +1,8 @@
-"""Options without effect are refused where typed; variables are told."""
+"""Options without effect are refused where typed."""
 
-import ast
-import re
 from pathlib import Path
 
 import pytest
-
-from netdesign.commands.config import _OF_ALL
-from tests.sources import walk_package
 
 LINE = "2003-01-01,10"
 
@@ -84,61 +79,14 @@ def test_options_that_belong_to_another_one(call, words, needed):
     assert refuse(call, *words).endswith(f"no effect without {needed}")
 
 
-def test_jobs_beside_a_cluster(call, monkeypatch):
+def test_jobs_beside_a_cluster(call):
     cluster = ("--executor", "dask://nowhere:1")
     for words in (("check", "--example"), ("winter", "--example"), ("envelope", "s")):
         told = refuse(call, *words, *cluster, "--jobs", "2")
         assert told.endswith("--jobs: no effect beside --executor")
-    monkeypatch.setenv("NETDESIGN_CHECK_JOBS", "2")
-    err = call("check", "--example", "--dry-run", *cluster).err
-    assert "note: NETDESIGN_CHECK_JOBS: no effect beside --executor" in err
 
 
-def test_defaults_for_other_runs_are_no_fault(call, site, monkeypatch):
-    """A variable is told, a file of defaults is not."""
+def test_defaults_for_other_runs_are_no_fault(call, site):
     Path("netdesign.toml").write_text('[check]\ndelimiter = ";"\n', encoding="utf-8")
     ended = call("check", site, "--dry-run")
     assert (ended.code, ended.err.count("no effect")) == (0, 0)
-    monkeypatch.setenv("NETDESIGN_CHECK_DELIMITER", ";")
-    ended = call("check", site, "--dry-run")
-    assert ended.code == 0
-    assert ended.err.splitlines()[0] == (
-        "note: NETDESIGN_CHECK_DELIMITER: no effect, since site.xlsx is a workbook "
-        "and no csv file"
-    )
-
-
-def test_a_variable_that_names_no_command_is_told(call, monkeypatch):
-    monkeypatch.setenv("NETDESIGN_JOBS", "2")
-    ended = call("check", "--example", "--dry-run")
-    assert ended.code == 0
-    line = ended.err.splitlines()[0]
-    assert line.startswith("note: the variable NETDESIGN_JOBS has no effect; that of")
-    assert line.endswith("NETDESIGN_CHECK_JOBS")
-
-
-def test_variables_that_are_read_are_not_told(call, monkeypatch):
-    monkeypatch.setenv("NETDESIGN_WINTER_JOBS", "2")
-    monkeypatch.setenv("NETDESIGN_SUITE_NEED_PROGRAMS", "1")
-    monkeypatch.setenv("NETDESIGN_LANGUAGE", "en")
-    assert "no effect" not in call("check", "--example", "--dry-run").err
-    monkeypatch.setenv("NETDESIGN_HOME", "2")
-    err = call("standards", "list").err
-    assert err == "note: the variable NETDESIGN_HOME has no effect\n"
-
-
-def test_a_variable_of_a_command_without_such_an_option_is_refused(call, monkeypatch):
-    monkeypatch.setenv("NETDESIGN_MAP_JOBS", "2")
-    assert "NETDESIGN_MAP_JOBS" in refuse(call, "map", "site.xlsx")
-    monkeypatch.setenv("NETDESIGN_STANDARDS_JOBS", "2")
-    assert "NETDESIGN_STANDARDS_JOBS" in refuse(call, "standards", "list")
-
-
-def test_every_variable_of_the_program_is_known():
-    texts = {
-        node.value
-        for _, node in walk_package()
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-    }
-    named = {one for one in texts if re.fullmatch(r"NETDESIGN_[A-Z]+", one)}
-    assert named == set(_OF_ALL)

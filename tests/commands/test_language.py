@@ -115,29 +115,15 @@ def test_an_annotated_copy_speaks_the_language(spoil, language, tmp_path):
         "--language {}",
         "--language={}",
         "--language en --language {}",
-        "variable",
         "file",
     ],
 )
-def test_the_language_is_found_where_options_are(
-    call, tmp_path, monkeypatch, language, way
-):
+def test_the_language_is_found_where_options_are(call, tmp_path, language, way):
     options = way.format(language).split() if way.startswith("--") else []
-    if way == "variable":
-        monkeypatch.setenv("NETDESIGN_CHECK_LANGUAGE", language)
     if way == "file":
         (tmp_path / "netdesign.toml").write_text(f'[check]\nlanguage = "{language}"\n')
     ended = call("check", "none.xlsx", *options)
     assert {"fr": "n'existe pas", "de": "gibt es"}[language] in ended.err
-
-
-def test_an_option_overrules_a_variable_and_a_variable_the_file(
-    call, tmp_path, monkeypatch
-):
-    (tmp_path / "netdesign.toml").write_text('[check]\nlanguage = "fr"\n')
-    monkeypatch.setenv("NETDESIGN_CHECK_LANGUAGE", "de")
-    assert "gibt es" in call("check", "none.xlsx").err
-    assert "does not exist" in call("check", "none.xlsx", "--language", "en").err
 
 
 def test_an_unknown_language_is_refused_in_english(call):

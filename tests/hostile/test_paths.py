@@ -49,7 +49,6 @@ UNSEARCHABLE = [
     ("check", "--example", "--out", "locked/out"),
     ("check", "--example", "--standard", "locked"),
     ("check", "--example", "--standard", "locked/profile"),
-    ("check", "site.csv", "--config", "locked/netdesign.toml"),
     ("report", "locked/study.json"),
     ("verify", "--study", "locked/study.json"),
     ("solve", "locked/scene.toml"),

@@ -40,7 +40,7 @@ FAMILIES: tuple[str, ...] = (
     *("bench_word.", "bench_plot.", "bench_value."),
     *("measured.", "model_source.", "validation."),
     *("validation_mark.", "validation_input.", "validation_member.", "variant."),
-    *("formula."),
+    "formula.",
     *("method.", "method_used.", "setting.", "start.", "end."),
     *("paper_call.", "paper_said.", "paper_found.", "paper_reason."),
     *("paper_value.", "paper_plate."),

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from netdesign import words
-from netdesign.commands.help_texts import load_help
 from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import say
 from tests.each import each
@@ -21,12 +20,6 @@ AS_TYPED = re.compile(
 )
 
 
-def list_texts(language):
-    """Texts by their key, and those of help by the English ones."""
-    of_help = load_help(language)  # None of English, where it stands
-    return {**load_texts(language), **(of_help.texts if of_help else {})}
-
-
 def strip(text):
     """Text with a sign for each gap, without what is typed."""
     return AS_TYPED.sub("x", GAP.sub("0", text))
@@ -36,7 +29,7 @@ def find(language, pattern, *, but=()):
     """Where a pattern stands, and what stands there."""
     found = {
         key: [one[0] for one in re.finditer(pattern, strip(text))]
-        for key, text in list_texts(language).items()
+        for key, text in load_texts(language).items()
         if not key.startswith(but)
     }
     return {key: ones for key, ones in found.items() if ones}
