@@ -4,6 +4,7 @@ import io
 import re
 import warnings
 import zipfile
+from dataclasses import dataclass
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -74,24 +75,31 @@ def read_rows(sheet: Worksheet, head: str) -> list[dict[str, object]]:
     return rows
 
 
-def find_steps(sheet: Worksheet) -> list[dict[str, int]]:
-    """Lines of the steps of each check on the sheet of calculations, by symbol.
+@dataclass(frozen=True)
+class ShownCheck:
+    """A check on its sheet: its texts, its utilisation, lines of its steps."""
 
-    A check whose design force is worked out at another one has the lines there.
-    """
-    blocks: list[dict[str, int]] = []
-    for line, (symbol, name, *_, source) in enumerate(
-        sheet.iter_rows(min_row=5, max_col=8, values_only=True), 5
-    ):
-        if symbol and name is None:
-            blocks.append({})
-        elif symbol and (cell := re.fullmatch(r"E(\d+)", source or "")):
-            (other,) = (one for one in blocks if int(cell[1]) in one.values())
-            blocks[-1] |= {x: n for x, n in other.items() if n < int(cell[1])}
-            blocks[-1][symbol] = line
-        elif symbol:
-            blocks[-1][symbol] = line
-    return blocks
+    line: int
+    row: str
+    name: str
+    verdict: str
+    told: str  # reason, clause, case
+    resistance: str
+    used: tuple[object, object, object]  # low, value, high
+    steps: dict[str, int]
+
+
+def read_checks(sheet: Worksheet) -> list[ShownCheck]:
+    """Checks in their order; below the line of each are those of its steps."""
+    checks: list[ShownCheck] = []
+    for line, cells in enumerate(sheet.iter_rows(min_row=5, values_only=True), 5):
+        row, name, verdict, first, *_ = cells
+        if row:
+            texts = (row, name, verdict, first or "", cells[10] or "")
+            checks.append(ShownCheck(line, *texts, cells[6:9], {}))
+        elif first:
+            checks[-1].steps[first] = line
+    return checks
 
 
 def recalculate(books: dict[str, bytes], folder: Path) -> dict[str, bytes]:

@@ -1,4 +1,4 @@
-"""Study -> workbook: the page's tables as numbers, the checks as live formulas."""
+"""Study -> workbook: the page's tables as numbers, steps of checks as formulas."""
 
 from __future__ import annotations
 
@@ -36,11 +36,6 @@ from netdesign.report.sections.schedule import build_quantities, build_schedule
 from netdesign.report.sections.whole import list_properties
 from netdesign.report.what_if import build_what_if
 from netdesign.report.words import Words, show_text
-from netdesign.report.workbook.calculation_sheet import (
-    Calculations,
-    GivenCells,
-    add_calculation_sheet,
-)
 from netdesign.report.workbook.check_sheet import add_check_sheet
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.workbook.writer import DEFAULT_FONT, Book
@@ -54,7 +49,6 @@ SHEETS = (
     "schedule",
     "inputs",
     "checks",
-    "steps",
     "profile",
     "cases",
     "notes",
@@ -109,17 +103,14 @@ def _add_sheets(book: Book, study: Study) -> None:
     words = book.words
     above = build_what_if(study, words) if study.what_if else None
     parts = list_inputs(study, words)
-    profile = build_profile(study, words)
     add_summary_sheet(book, study)
     _add_schedule(book, study)
     stacked = stack_tables(words("heading.typed_and_understood"), parts, words)
     book.add_table_sheet(
         "inputs", words("heading.inputs"), [*([above] if above else []), stacked]
     )
-    cells = GivenCells(book, study, above, parts, profile)
-    calculations = Calculations(book, study, cells)
-    add_check_sheet(book, study, cells, calculations)
-    add_calculation_sheet(book, study, calculations)
+    add_check_sheet(book, study)
+    profile = build_profile(study, words)
     book.add_table_sheet("profile", words("heading.limit_profile"), [profile])
     _add_cases(book, study)
     book.add_table_sheet(
@@ -129,7 +120,6 @@ def _add_sheets(book: Book, study: Study) -> None:
     book.add_table_sheet("provenance", words("heading.provenance"), made)
     if list_records(study):
         _add_reliability(book, study)
-    cells.watch()
     link_sheets(book, SHEETS[1:])
 
 

@@ -171,14 +171,16 @@ class Book:
         """Format of a text; it keeps a distance from a number before it."""
         return self.format(align="left", indent=1, **properties)
 
-    def set_height(self, sheet: Any, row: int, lines: int) -> None:
-        """Height for wrapped text: not every program finds it on its own."""
-        sheet.set_row(row, _LINE_PT * lines + 3)
+    def set_height(self, sheet: Any, row: int, lines: int, **fold: Any) -> None:
+        """Height for wrapped text: not every program finds it on its own.
+
+        ``fold`` says what folds the row or is folded below it.
+        """
+        sheet.set_row(row, _LINE_PT * lines + 3, None, fold)
 
     def add_sheet(self, name: str, title: str, *, paper: int = A4) -> Any:
         """Sheet with a title in its first cell, ready to print on one page width."""
         sheet = self.workbook.add_worksheet(self.name(name))
-        sheet._prepare_formula = _take_as_is
         sheet.hide_gridlines(2)
         sheet.set_landscape()
         sheet.set_paper(paper)
@@ -344,16 +346,6 @@ class Book:
             "max_value": full,
         }
         sheet.conditional_format(*area, rule)
-
-
-def _take_as_is(formula: str, *_: object) -> str:
-    """Formula of ours as the file has it: it needs no prefix, and has no braces.
-
-    XlsxWriter looks in each for some thirty functions newer than the format, one after
-    the other: a third of the time of a workbook. Where it has no such step any more,
-    nobody calls this.
-    """
-    return formula.removeprefix("=")
 
 
 def _find_look(quantity: str, text: str) -> dict[str, Any]:
