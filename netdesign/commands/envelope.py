@@ -35,12 +35,11 @@ if TYPE_CHECKING:
     from netdesign.report.words import Words
     from netdesign.solving.runner import Runner
     from netdesign.solving.solve import Settings
-    from netdesign.study.case_records import EnvelopeRecord
 
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
 _USUAL_CASES = 18  # of a search, for each range
-DOCUMENT, FIGURES = "envelope.json", ("maps.svg", "lines.svg", "drivers.svg")
+_DOCUMENT = "envelope.json"
 
 
 @click.command()
@@ -68,7 +67,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     )
     spans = _build_ranges(given)
     require_valid(read.scene, spans)
-    require_places(out, (DOCUMENT, *FIGURES), asked)
+    require_places(out, (_DOCUMENT,), asked)
     if read.support is not None and not asked["quiet"]:
         tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
@@ -76,11 +75,12 @@ def envelope(scene_file: Path, **asked: Any) -> None:
         confirming = None if confirm == "none" else read.settings
         task = _build_task(read.scene, confirming, spans, asked["accuracy"])
         counts = {name: one.count for name, one in given.items()} if counted else {}
-        document, record = _solve(task, counts, runner, progress, start)
+        document = _solve(task, counts, runner, progress, start)
         progress.enter("outputs")
     failed = print_faults(runner.faults)
     if out:
-        write_outputs(out, _render(document, record), asked)
+        text = f"{json.dumps(document, indent=1, allow_nan=False)}\n"
+        write_outputs(out, {_DOCUMENT: text.encode()}, asked)
     if asked["as_json"]:
         print_document(document)
     else:
@@ -178,39 +178,18 @@ def _solve(
     runner: Runner,
     progress: RunProgress,
     start: float,
-) -> tuple[dict[str, Any], EnvelopeRecord | None]:
-    """Document of a grid with these counts; without any, of a bounded search.
-
-    Of a search there is a model to draw, too.
-    """
+) -> dict[str, Any]:
+    """Document of a grid with these counts; without any, of a bounded search."""
     from netdesign.envelope.search import run_grid, search_rows
     from netdesign.files.cases import write_envelope_document, write_grid_document
 
     if counts:
         grid = run_grid(task, counts, runner)
         elapsed = time.perf_counter() - start
-        return write_grid_document(grid, runner.counts, elapsed, speak()), None
+        return write_grid_document(grid, runner.counts, elapsed, speak())
     (found,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start
     return write_envelope_document(found, runner.counts, elapsed, speak())
-
-
-def _render(
-    document: dict[str, Any], record: EnvelopeRecord | None
-) -> dict[str, bytes]:
-    """Contents of the outputs; a grid has no model to draw."""
-    from netdesign.report.drawing.envelope_maps import (
-        draw_drivers,
-        draw_lines,
-        draw_maps,
-    )
-    from netdesign.report.words import Words
-
-    draws, words = (draw_maps, draw_lines, draw_drivers), Words(speak())
-    pictures = [draw(record.bounds, words) if record else "" for draw in draws]
-    texts = [f"{json.dumps(document, indent=1, allow_nan=False)}\n", *pictures]
-    names = (DOCUMENT, *FIGURES)
-    return {name: one.encode() for name, one in zip(names, texts, strict=True)}
 
 
 def _show(document: dict[str, Any]) -> None:

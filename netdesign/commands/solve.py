@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,19 +21,23 @@ from netdesign.commands.running import (
 )
 from netdesign.commands.usage import speak, tell
 from netdesign.outcome import SENTENCE, Fault, Outcome, Verdict, catch_fault
+from netdesign.structure.members import SOLVED_MEMBERS, Member
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping, Sequence
 
     from netdesign.coupling.scene import Scene
-    from netdesign.coupling.solution import Solution
+    from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
     from netdesign.files.scene import GivenScene
-    from netdesign.report.page.solution_page import Solved
     from netdesign.solving.solve import Settings
-    from netdesign.study.support_records import PanelRecord
+
+    Solved = Solution | WallSolution | FailedSolution
+
+
+_DOCUMENT, _HISTORY = "solution.json", "history.csv"
 
 
 @click.command()
@@ -53,21 +58,17 @@ def solve(scene_file: Path, **asked: Any) -> None:
 
     given, out = read_scene_file(scene_file, asked["method"]), asked["out"]
     scene, settings = given.scene, given.settings
-    if out is not None:  # the page takes as long to import as all else
-        require_places(out, _list_names(given), asked)
+    require_places(out, (_DOCUMENT, _HISTORY), asked)
     start = time.perf_counter()
     solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
     bound = None if failed else _bound_refused(scene, settings, solution)
-    support, panel = _resolve_support(solution, given)
+    support = _resolve_support(solution, given)
     document = write_solution_document(
         solution, settings, elapsed, bound, asked["language"], support
     )
     if out is not None:
-        from netdesign.report.page.solution_page import render_solution
-
-        shown = (solution, document, scene_file.name, speak(), panel)
-        write_outputs(out, render_solution(*shown), asked)
+        write_outputs(out, _render(document), asked)
     if asked["as_json"]:
         print_document(document)
     elif document["outcome"] == "converged":
@@ -92,24 +93,44 @@ def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     return failed, print_faults({solution: ()})
 
 
-def _resolve_support(
-    solution: Solved, given: GivenScene
-) -> tuple[dict[str, Any] | None, PanelRecord | None]:
-    """Support of a net for the document, and its panel to be drawn.
-
-    Both are None without a solution or a support.
-    """
+def _resolve_support(solution: Solved, given: GivenScene) -> dict[str, Any] | None:
+    """Support of a net for the document; None without a solution or a support."""
     if given.support is None:
-        return None, None
+        return None
     from netdesign.coupling.solution import Solution
     from netdesign.files.cases import resolve_support, write_support
-    from netdesign.study.record_support import record_solved_panel
 
     if not isinstance(solution, Solution):
-        return None, None
+        return None
     result = resolve_support(solution, given.settings, given.support)
-    panel = record_solved_panel(result)
-    return write_support(result, given.support, speak()), panel
+    return write_support(result, given.support, speak())
+
+
+def _render(document: dict[str, Any]) -> dict[str, bytes]:
+    """Contents of the outputs by name: the document, of a history its table, too."""
+    files = {_DOCUMENT: json.dumps(document, indent=1, allow_nan=False).encode()}
+    if moments := document.get("history"):
+        files[_HISTORY] = write_history(moments)
+    return files
+
+
+def write_history(moments: Sequence[Mapping[str, Any]]) -> bytes:
+    """History of a solution document as CSV, one moment a line."""
+    from netdesign.report.blocks import write_csv
+
+    plain = [key for key in moments[0] if key != "node_forces"]
+    count = len(moments[0]["node_forces"])
+    nodes = [
+        f"node_{k + 1}_{axis}_kN_per_m" for k in range(count) for axis in ("x", "y")
+    ]
+    rows = [
+        [
+            *(moment[key] for key in plain),
+            *(part for node in moment["node_forces"] for part in node),
+        ]
+        for moment in moments
+    ]
+    return write_csv([*plain, *nodes], rows)
 
 
 def _bound_refused(
@@ -180,17 +201,16 @@ def _describe_support(support: dict[str, Any] | None) -> Iterator[Message]:
     """Forces of both sets, ropes and row end, a line each."""
     if support is None:
         return
-    from netdesign.report.page.solved_support import find_force, list_shown
-
     if "reason" in support:
         yield say("solve.support_lack", reason=support["reason"])
-    for member in list_shown(support):
+    for member in SOLVED_MEMBERS:
         forces = {
             name: force
             for name, part in (("section", "plain"), ("panel", "panel"))
-            if (force := find_force(support[part], member)) is not None
+            if (force := (support[part] or {}).get(f"{member}_kN")) is not None
         }
-        if forces:
+        is_idle = member == Member.POST_FOOT and not any(forces.values())
+        if forces and not is_idle:  # a post's foot is shown where the post pulls
             both = "panel" in forces
             key = "solve.support_with_panel" if both else "solve.support"
             name = render(name_member(member), speak())  # padded as a text
@@ -226,17 +246,4 @@ def _describe_plateau(document: dict[str, Any]) -> Message:
         foot=plateau["foot_kN_per_m"],
         head=plateau["head_kN_per_m"],
         drift=plateau["drift_per_efold"],
-    )
-
-
-def _list_names(given: GivenScene) -> list[str]:
-    """Names of the outputs of a scene."""
-    from netdesign.report.page.solution_page import list_solution_files
-    from netdesign.snow.wall import Wall
-    from netdesign.solving.solve import method_of
-
-    return list_solution_files(
-        method_of(given.settings),
-        is_wall=isinstance(given.scene.net, Wall),
-        has_panel=given.support is not None and given.support.panel is not None,
     )

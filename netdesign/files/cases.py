@@ -30,7 +30,7 @@ from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support
 from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
-from netdesign.study.case_records import BoundRecord, EnvelopeRecord
+from netdesign.study.case_records import BoundRecord
 from netdesign.study.record_envelope import record_envelope, show_case, show_coincident
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.catalogue import Language, render
@@ -47,8 +47,8 @@ QUANTITY_KEYS = {
 
 def write_envelope_document(
     envelope: RowEnvelope, counts: Counts, wall_s: float, language: Language = "en"
-) -> tuple[dict[str, Any], EnvelopeRecord]:
-    """Document and record of a searched envelope.
+) -> dict[str, Any]:
+    """Document of a searched envelope.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def write_envelope_document(
         Of the reason.
     """
     record = record_envelope(envelope, tuple(QUANTITY_KEYS))
-    document = {
+    return {
         "schema": SCHEMA,
         "outcome": "not_proven" if envelope.gap else "bounded",
         "reason": render(envelope.gap or "", language),
@@ -93,7 +93,6 @@ def write_envelope_document(
             "settings": {"accuracy": envelope.task.settings.accuracy},
         },
     }
-    return document, record
 
 
 def write_grid_document(

@@ -82,27 +82,6 @@ def record_panel(
     )
 
 
-def record_solved_panel(result: CaseResult) -> PanelRecord | None:
-    """Panel of one case alone, without types of ropes; None where it has none."""
-    if not isinstance(result.panel, PanelForces):
-        return None
-    solved = result.panel.solution
-    panel = solved.panel
-    return PanelRecord(
-        cut=panel.cut,
-        has_mid_anchors=panel.has_mid_anchors,
-        ropes=[
-            _record_rope(name, rope, forces.along, forces.tension)
-            for name, rope, forces in (
-                ("lower", panel.lower, solved.lower),
-                ("upper", panel.upper, solved.upper),
-            )
-        ],
-        extremes=[],
-        drawing=_draw(result),
-    )
-
-
 def _draw(drawn: CaseResult) -> PanelDrawing | None:
     """Half a panel of a case; None where it has none."""
     panel, anchors = drawn.panel, drawn.anchors
@@ -264,9 +243,8 @@ def _record_drawing(
 
 def list_pressures(net: NetState) -> list[float | None]:
     """Pressure of the snow on each net point [kPa]; None where it is not known."""
-    face = find_net_face(net, friction=None)
-    pressure, _ = face.tractions
-    values = (pressure[face.inner] / 1e3).round(_PRESSURE_DECIMALS).tolist()
+    face = find_net_face(net)
+    values = (face.pressures[face.inner] / 1e3).round(_PRESSURE_DECIMALS).tolist()
     before = face.inner.start
     after = net.net_curve.shape[1] - before - len(values)
     return [*[None] * before, *values, *[None] * after]

@@ -1,7 +1,5 @@
 """Findings and reports in French and German; the language is found."""
 
-import html
-import json
 import re
 
 import openpyxl
@@ -144,16 +142,3 @@ def scene(tmp_path, monkeypatch):
     monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "cases.sqlite"))
     (tmp_path / "scene.toml").write_text(SCENE)
     return tmp_path / "scene.toml"
-
-
-def test_the_page_of_a_solution_tells_each_flag_once(call, scene, language):
-    scene.write_text(SCENE.replace("horizon_days = 3", "horizon_days = 0.02"))
-    options = ("--method", "transient", "--out", "out", "--language", language)
-    assert call("solve", scene, *options).code in (0, 4)
-    out = scene.parent / "out"
-    document = json.loads((out / "solution.json").read_text(encoding="utf-8"))
-    flags = [" ".join(flag.split()) for flag in document["flags"]]
-    page = html.unescape((out / "index.html").read_text(encoding="utf-8"))
-    assert flags
-    assert [" ".join(page.split()).count(flag) for flag in flags] == [1] * len(flags)
-    assert find_english(" ".join(flags)) == set()

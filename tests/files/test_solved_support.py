@@ -13,14 +13,8 @@ from netdesign.files.support_tables import GivenSupport
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.row_forces import compute_end_forces
 from netdesign.panel.solve import solve_panel
-from netdesign.report.blocks import Part, Table
-from netdesign.report.drawing.panel_figure import draw_panel
-from netdesign.report.page.solved_support import show_support
-from netdesign.report.words import Words
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
-from netdesign.study.record_support import record_solved_panel
-from tests.digits import write_force
 
 SETTINGS = SolverSettings(accuracy=0.1)
 LAYOUT = SupportLayout(
@@ -32,16 +26,6 @@ PANEL = Panel(
     upper=Rope(stiffness=16e6, sag=0.062),
     cut="upper",
 )
-
-
-def list_tables(part):
-    return [one for one in part.blocks if isinstance(one, Table)]
-
-
-def list_sentences(part):
-    """Sentences of the notes below the tables."""
-    notes = [one for one in part.blocks if isinstance(one, Part)]
-    return [text for note in notes for items in note.blocks for text in items.items]
 
 
 @pytest.fixture
@@ -112,43 +96,19 @@ def test_without_an_angle_guy_and_end_post_are_not_known(section):
     written, _ = write(section, panel=PANEL)
     assert written["row_end"]["end_guy_kN"] is None
     assert written["row_end"]["post_kN"] is None
-    told = list_sentences(show_support(written, Words("en")))
-    assert any("panel.end_guy_deg" in one for one in told)
 
 
 @pytest.mark.parametrize("language", ["en", "de", "fr"])
 def test_a_panel_that_fails_leaves_its_reason(section, language):
     low = Rope(stiffness=2e7, sag=0.3)
     panel = replace(PANEL, lower=low, upper=low, post_spacing=9.3, cut="fitted")
-    written, solved = write(section, language, panel=panel)
+    written, _ = write(section, language, panel=panel)
     assert written["plain"]["post_kN"] > 0.0
     assert written["panel"] is None
-    shown_part = show_support(written, Words(language))
-    assert written["reason"] in list_sentences(shown_part)[0]
-    assert len(list_tables(shown_part)) == 2
-    assert record_solved_panel(solved) is None
+    assert written["reason"]
 
 
 def test_a_staggered_history_has_no_panel(section):
     written, _ = write(replace(section, method="staggered"), panel=PANEL)
     assert written["panel"] is None
     assert "staggered exchange" in written["reason"]
-
-
-@pytest.mark.parametrize("language", ["en", "de", "fr"])
-def test_page_has_every_force_and_a_drawing(section, language):
-    written, solved = write(section, panel=PANEL, end_guy_angle=0.7)
-    shown_part = show_support(written, Words(language))
-    assert [len(one.rows) for one in list_tables(shown_part)] == [4, 5, 2]
-    shown = {
-        cell.text for one in list_tables(shown_part) for row in one.rows for cell in row
-    }
-    for force in (
-        written["panel"]["uphill_guy_kN"],
-        written["row_end"]["foot_kN"]["z"],
-        written["panel"]["upper_rope"]["T_kN"],
-    ):
-        assert Words(language).write(write_force(force)) in shown
-    drawn = draw_panel(record_solved_panel(solved), Words(language))
-    size = written["row_end"]["foot_kN"]["size"]
-    assert Words(language).write(write_force(size)) in drawn

@@ -282,9 +282,9 @@ def test_a_fault_in_one_scene_is_written_to_its_folder(call, scene, monkeypatch)
     raise_in_solve(monkeypatch, IndexError("spoilt 7 times"))
     ended = call("solve", scene, "--out", "out")
     assert ended.code == 5
-    page = (scene.parent / "out" / "index.html").read_text(encoding="utf-8")
-    assert str(SENTENCE) in page
-    assert "spoilt" not in page + ended.out
+    text = (scene.parent / "out" / "solution.json").read_text(encoding="utf-8")
+    assert str(SENTENCE) in text
+    assert "spoilt" not in text + ended.out
 
 
 def test_a_refusal_of_one_scene_stays_a_refusal(call, scene, monkeypatch):

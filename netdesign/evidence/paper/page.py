@@ -6,6 +6,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign import __version__
+from netdesign.coupling.moments import (
+    LEAST_STRAIN,
+    NODE_DRIFT,
+    PULL_DRIFT,
+    REST_SHARE,
+    REST_WAY,
+)
 from netdesign.evidence.paper.findings import (
     SETTLED,
     list_findings,
@@ -47,7 +54,6 @@ from netdesign.report.blocks import (
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import MeshPicture, draw_meshes
 from netdesign.report.page.render import render_page
-from netdesign.report.page.solution_page import describe_criterion
 from netdesign.report.words import ENGLISH, Words
 from netdesign.units import day_from_second, kilonewton_from_newton
 from netdesign.words.catalogue import Language
@@ -357,7 +363,14 @@ def _describe_method(scene: dict[str, str], words: Words) -> list[Paragraph]:
     histories = words(
         "paper.how_histories",
         days=scene["days"],
-        criterion=describe_criterion(words),
+        criterion=words(
+            "solved.criterion",
+            strain=LEAST_STRAIN,
+            pull=PULL_DRIFT,
+            node=NODE_DRIFT,
+            rest=REST_SHARE,
+            way=REST_WAY,
+        ),
         time_scale=scene["time_scale"],
     )
     told = (words("paper.how_forces"), histories, words("paper.how_files"))

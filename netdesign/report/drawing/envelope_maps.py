@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.label_board import LINE_PT
-from netdesign.report.drawing.letters import measure_words, wrap_words
+from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -32,7 +32,6 @@ from netdesign.report.words import (
 from netdesign.study.case_records import (
     BoundRecord,
     CasePoint,
-    DriverRecord,
     ExtremeRecord,
     LineRecord,
     MapRecord,
@@ -195,20 +194,6 @@ def _paint_lines(
     return _HEAD + _PANEL + _FOOT + (names - 1) * LINE_PT
 
 
-def draw_drivers(every: Sequence[BoundRecord], words: Words = ENGLISH) -> str:
-    """SVG of what drives each force: tornado about the governing case."""
-    bounds = [bound for bound in _list_loaded(every) if bound.drivers]
-    if not bounds:
-        return ""
-    chart, top = Chart(language=words.language), 0.0
-    for bound in bounds:
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, words), bold=True)
-        top += 14.0
-        top += _paint_tornado(chart, bound, top, words)
-    values = [_show_driver(one, words) for bound in bounds for one in bound.drivers]
-    return chart.write(top, _title("drawing.drivers", every, values, words))
-
-
 def _list_cells(
     frame: Frame, one: MapRecord, low: float, high: float
 ) -> list[tuple[float, float, float, float, str]]:
@@ -301,41 +286,6 @@ def _paint_line(
     return _name_axis(chart, frame, name_heading(words, one.key))
 
 
-def _paint_tornado(chart: Chart, bound: BoundRecord, top: float, words: Words) -> float:
-    """Bars of one force; their height on the page."""
-    drivers = sorted(bound.drivers, key=lambda one: one.least_kN - one.most_kN)
-    low = min(one.least_kN for one in drivers)
-    high = max(one.most_kN for one in drivers)
-    bar = 13.0
-    names = [name_heading(words, one.key) for one in drivers]
-    left = 12.0 + max(measure_words(one, TEXT_PT) for one in names)
-    frame = Frame(
-        left=left,
-        top=top,
-        width=WIDTH - 130.0 - left,
-        height=bar * len(drivers),
-        x_low=low,
-        x_high=high,
-        y_low=0.0,
-        y_high=1.0,
-    )
-    for place, (one, name_of) in enumerate(zip(drivers, names, strict=True)):
-        y = top + place * bar
-        start, end = frame.x(one.least_kN), frame.x(one.most_kN)
-        chart.rectangle(start, y + 2.0, end - start, bar - 4.0, PALE)
-        base = y + bar / 2 + TEXT_PT / 3
-        chart.text(frame.left - 6.0, base, name_of, anchor="end")
-        chart.text(
-            frame.left + frame.width + 8.0,
-            base,
-            words("drawing.sobol", first=one.first_order, total=one.total),
-        )
-    mark = frame.x(bound.max_kN)
-    chart.line([(mark, top), (mark, top + frame.height)], stroke=ACCENT, width=0.8)
-    chart.axes(frame, y_ticks=False)
-    return frame.height + 18.0
-
-
 def _place_panel(
     column: int, columns: int, room: tuple[float, float], one: MapRecord
 ) -> Frame:
@@ -423,11 +373,6 @@ def _show_forces(
         largest=words.show_number("max_kN", bound.max_kN),
         case=at,
     )
-
-
-def _show_driver(one: DriverRecord, words: Words) -> str:
-    forces = words.show_band("max_kN", one.least_kN, one.most_kN)
-    return words("show.label", label=name_heading(words, one.key), text=forces)
 
 
 def draw_envelope(row: RowStudy, words: Words) -> str:

@@ -7,17 +7,14 @@ from datetime import date, timedelta
 
 import numpy as np
 
-from netdesign.coupling.face import Face
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.charts import draw_monitoring
 from netdesign.report.drawing.envelope_maps import (
     bound_grid,
-    draw_drivers,
     draw_lines,
     draw_maps,
 )
-from netdesign.report.drawing.net_figures import draw_node_forces, draw_stick_slip
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.drawing.winter_figure import draw_winter
@@ -58,10 +55,7 @@ def draw_all(rng: random.Random, words) -> list[str]:
     envelope = build_envelope(rng)
     return [
         draw_section(build_section(rng), "s", words),
-        *(
-            draw(envelope.bounds, words)
-            for draw in (draw_maps, draw_lines, draw_drivers)
-        ),
+        *(draw(envelope.bounds, words) for draw in (draw_maps, draw_lines)),
         draw_panel(build_panel(rng), words),
         draw_chains(build_chains(rng), words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
@@ -69,15 +63,10 @@ def draw_all(rng: random.Random, words) -> list[str]:
     ]
 
 
-def draw_slow(rng: random.Random, words) -> list[str]:
-    """The kinds that matplotlib writes, and the grid of cases."""
-    face = build_face(rng)
+def draw_grid(rng: random.Random, words) -> list[str]:
+    """The grid of cases."""
     row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
-    return [
-        draw_maps(bound_grid(row), words),
-        draw_node_forces(face, words),
-        draw_stick_slip(face, words),
-    ]
+    return [draw_maps(bound_grid(row), words)]
 
 
 MODES = {
@@ -290,20 +279,6 @@ def build_winter(rng: random.Random) -> dict:
         "height_max_date": f"{rng.choice(days)}",
         "governing_date": f"{rng.choice(days)}",
     }
-
-
-def build_face(rng: random.Random) -> Face:
-    """Plane face under a pressure that varies."""
-    heights = np.linspace(0.0, rng.uniform(1.0, 6.0), 25)
-    pressure = 10 ** rng.uniform(2.0, 5.0) * (1.2 + np.sin(heights))
-    forces = np.array([pressure, -0.2 * pressure]) * (heights[1] - heights[0])
-    return Face(
-        points=np.array([0.4 * heights, heights]),
-        forces=forces,
-        slides=heights > 0.6 * heights[-1],
-        friction=0.5,
-        is_quadratic=False,
-    )
 
 
 def build_monitoring(rng: random.Random) -> MonitoringRecord:

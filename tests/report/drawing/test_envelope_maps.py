@@ -7,7 +7,6 @@ import pytest
 
 from netdesign.report.drawing.envelope_maps import (
     bound_grid,
-    draw_drivers,
     draw_lines,
     draw_maps,
 )
@@ -59,7 +58,7 @@ def build_bound(quantity, *, size=100.0):
 
 
 BOUNDS = [build_bound("foot_anchor"), build_bound("downhill_guy", size=0.0)]
-DRAWINGS = [draw_maps, draw_lines, draw_drivers]
+DRAWINGS = [draw_maps, draw_lines]
 
 
 def shapes(svg, tag):
