@@ -137,8 +137,6 @@ def _run() -> NoReturn:
     if not os.environ.get("SOURCE_DATE_EPOCH"):
         # an empty one counts as none; numpy would stumble over it
         os.environ.pop("SOURCE_DATE_EPOCH", None)
-    # nobody's plugin of pydantic belongs in a check; it would look for one for long
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
         # not cli.main(): click has exit codes of its own
         with cli.make_context("netdesign", sys.argv[1:]) as context:

@@ -6,15 +6,12 @@ takes longer than a solve (tests/snow/test_triangulation.py compares the two).
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.numerics.scipy_start import importing_parts_of
 from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
 
@@ -45,14 +42,9 @@ class Triangulation:
     boundary: Ints
 
 
-@cache
 def load_delaunay() -> Any:
     """SciPy's triangulation: the longest import of a solve, when first asked for."""
-    with suppress(ImportError), importing_parts_of("scipy.linalg", "scipy.spatial"):
-        from scipy.spatial._qhull import Delaunay
-
-        return Delaunay
-    from scipy.spatial import Delaunay  # of a SciPy that has it elsewhere
+    from scipy.spatial import Delaunay
 
     return Delaunay
 
