@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parent.parent / "pyproject.toml"
-EXTRAS = ("dask", "docx", "terrain", "test")  # what the tests need
+EXTRAS = ("dask", "docx", "plot", "terrain", "test")  # what the tests need
 
 
 def main():

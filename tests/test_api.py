@@ -1,6 +1,7 @@
 """The door from Python: a workbook to reports, and the parts of a solve."""
 
 import json
+import sys
 from dataclasses import replace
 from math import radians
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import netdesign as nd
+from netdesign.outcome import NetDesignError
 from netdesign.words.catalogue import LANGUAGES
 from tests.short_example import write_short_example
 
@@ -105,6 +107,13 @@ def test_forces_of_a_support_balance_the_net(tmp_path):
     figure = solution.plot(tmp_path / "net.png")
     assert (tmp_path / "net.png").read_bytes().startswith(b"\x89PNG")
     assert figure.axes[0].get_xlabel() == "downslope [m]"
+
+
+def test_a_picture_without_matplotlib_says_what_to_install(monkeypatch):
+    solution = nd.solve_steady(build_scene())
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    with pytest.raises(NetDesignError, match=r'pip install "netdesign\[plot\]"'):
+        solution.plot()
 
 
 def test_the_envelope_bounds_the_cases_in_it():

@@ -121,7 +121,7 @@ THIRD_PARTY = {
     "rasterio": ("terrain.geotiff", "terrain.crs"),
     "pyogrio": ("terrain.layers",),
     "ezdxf": ("files.verdict_map",),
-    "PIL": ("report.drawing.raster",),  # matplotlib writes PNG by it
+    "PIL": ("report.drawing.raster",),
     "matplotlib": (
         *("report.drawing.*", "examples.*"),
         "coupling.solution",  # plots itself

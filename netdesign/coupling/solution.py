@@ -14,7 +14,7 @@ from netdesign.coupling.moments import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.outcome import Fault, Outcome, SolveError
+from netdesign.outcome import Fault, Outcome, OutputError, SolveError
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.words.message import Message, say
@@ -239,8 +239,16 @@ class Solution:
         -------
         Figure
             Of matplotlib.
+
+        Raises
+        ------
+        OutputError
+            If that is not installed: it is an extra, ``netdesign[plot]``.
         """
-        from matplotlib.figure import Figure
+        try:
+            from matplotlib.figure import Figure
+        except ImportError:
+            raise OutputError(say("program.no_matplotlib")) from None
 
         x, y = self.net_curve
         figure = Figure(figsize=(5.0, 3.4), layout="constrained")

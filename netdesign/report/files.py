@@ -128,8 +128,10 @@ def _print_page(page: bytes) -> bytes:
 
 
 def _render_docx(study: Study, style: ReportStyle) -> bytes:
+    from netdesign.report.document.template import require_docx
     from netdesign.report.document.word import render_document
 
+    require_docx()
     return render_document(
         study, style.language, style.detail, style.template, style.places
     )

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from docx.document import Document
 
 
+_NEEDED = ("docx", "PIL", "matplotlib")  # the last two for drawings without SVG
 _MOST_BYTES = 20 * 2**20
 # What zipfile, the XML parser and python-docx raise on a file that is no document.
 _DAMAGE = (
@@ -43,9 +44,9 @@ def require_docx() -> None:
     Raises
     ------
     OutputError
-        If the library is not installed.
+        If a library is not installed: they are an extra, ``netdesign[docx]``.
     """
-    if find_spec("docx") is None:
+    if not all(map(find_spec, _NEEDED)):
         raise OutputError(say("program.no_python_docx"))
 
 
