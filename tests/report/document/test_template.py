@@ -12,7 +12,6 @@ from netdesign.outcome import OutputError  # noqa: E402
 from netdesign.report.document import template  # noqa: E402
 from netdesign.report.document.template import read_template, require_docx  # noqa: E402
 from netdesign.report.document.word import render_document  # noqa: E402
-from netdesign.words.catalogue import render  # noqa: E402
 from tests.report.build_study import build_study  # noqa: E402
 from tests.report.document.reading import list_parts  # noqa: E402
 
@@ -108,10 +107,7 @@ def test_a_file_that_is_no_document_is_refused_by_its_name(tmp_path, name):
     (tmp_path / name).write_bytes(SPOILT[name])
     with pytest.raises(OutputError) as caught:
         read_template(tmp_path / name)
-    for language, word in (("en", "template"), ("fr", "modèle"), ("de", "Vorlage")):
-        told = render(caught.value.message, language)
-        assert name in told
-        assert word in told
+    assert f"{name} is no template" in str(caught.value)
 
 
 def test_a_template_that_is_not_there_or_too_large_is_refused(tmp_path, monkeypatch):
