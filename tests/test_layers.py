@@ -118,8 +118,10 @@ THIRD_PARTY = {
     "markupsafe": ("report.page.*",),
     "weasyprint": ("report.files",),
     "docx": ("report.document.*",),
-    "rasterio": ("terrain.geotiff", "terrain.crs"),
-    "pyogrio": ("terrain.layers",),
+    "rasterio": ("terrain.grid", "terrain.crs"),
+    "pyogrio": ("terrain.plan",),
+    "shapely": ("terrain.*", "report.drawing.terrain_map"),
+    "contourpy": ("report.drawing.terrain_map",),
     "ezdxf": ("files.verdict_map",),
     "PIL": ("report.drawing.raster",),
     "matplotlib": (

@@ -29,7 +29,7 @@ def tell(
 class UsageRefusal(click.UsageError):
     """A command line that is refused, with a message."""
 
-    def __init__(self, message: Message) -> None:
+    def __init__(self, message: Message | str) -> None:
         super().__init__(str(message), click.get_current_context(silent=True))
 
 

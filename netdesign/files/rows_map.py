@@ -9,12 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from netdesign.edge.causes import explain
+from netdesign.edge.given_files import decode_utf8, read_bounded
 from netdesign.outcome import StudyError, TerrainError
 from netdesign.site.model import Site
-from netdesign.terrain.geojson import Feature
-from netdesign.terrain.plan import ZONE, read_text
 from netdesign.words.message import say
 
+Feature = dict[str, Any]
+_ZONE = "starting zone"
+_MOST_BYTES = 20_000_000
 _FAR = 1e8  # beyond it nothing lies on a map in metres [m]
 Ring = Sequence[tuple[float, float]]
 
@@ -47,16 +50,20 @@ def read_places(path: Path) -> tuple[dict[str, MeasuredPlace], Any]:
     TerrainError
         If the file is not one that ``netdesign terrain`` wrote.
     """
-    text = read_text(path)
+    try:
+        text = decode_utf8(read_bounded(path, _MOST_BYTES))
+    except (OSError, ValueError) as error:
+        told = say("rows_map.unreadable", file=path.name, cause=explain(error))
+        raise TerrainError(told) from None
     try:
         document = json.loads(text)
         rows = document["features"]
         rows = [one for one in rows if one["properties"]["kind"] == "net row"]
         found = {str(one["properties"]["id"]): _read_place(one) for one in rows}
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise TerrainError(say("terrain.no_places", file=path.name)) from None
+        raise TerrainError(say("rows_map.no_places", file=path.name)) from None
     if not found:
-        raise TerrainError(say("terrain.no_places", file=path.name))
+        raise TerrainError(say("rows_map.no_places", file=path.name))
     return found, document
 
 
@@ -109,13 +116,13 @@ def read_rows_map(path: Path) -> RowsMap:
     own = [one.feature["properties"] for one in rows.values()]
     grids = {(str(one.get("grid")), str(one.get("grid_sha256"))) for one in own}
     if len(grids) > 1:
-        raise TerrainError(say("terrain.two_grids", file=path.name))
+        raise TerrainError(say("rows_map.two_grids", file=path.name))
     ((grid, sha256),) = grids
     zones = _read_zones(document, path.name)
     points = [point for place in rows.values() for point in place.posts]
     corners = [point for zone in zones for point in zone]
     if not all(abs(part) < _FAR for point in (*points, *corners) for part in point):
-        raise TerrainError(say("terrain.no_places", file=path.name))
+        raise TerrainError(say("rows_map.no_places", file=path.name))
     return RowsMap(file=path.name, grid=grid, sha256=sha256, rows=rows, zones=zones)
 
 
@@ -125,11 +132,11 @@ def _read_zones(document: Any, file: str) -> tuple[Ring, ...]:
         rings = [
             one["geometry"]["coordinates"][0]
             for one in document["features"]
-            if one["properties"]["kind"] == ZONE
+            if one["properties"]["kind"] == _ZONE
         ]
         return tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings)
     except (ValueError, KeyError, TypeError, IndexError):
-        raise TerrainError(say("terrain.no_places", file=file)) from None
+        raise TerrainError(say("rows_map.no_places", file=file)) from None
 
 
 def require_rows(places: RowsMap, site: Site) -> None:
@@ -147,7 +154,7 @@ def require_rows(places: RowsMap, site: Site) -> None:
         if row.post_count not in (None, len(places.rows[row.id].posts))
     )
     if others:
-        raise StudyError(say("terrain.other_posts", file=places.file, rows=others))
+        raise StudyError(say("rows_map.other_posts", file=places.file, rows=others))
 
 
 def require_named(places: RowsMap, rows: Sequence[str]) -> None:
@@ -160,4 +167,4 @@ def require_named(places: RowsMap, rows: Sequence[str]) -> None:
     """
     missing = tuple(one for one in rows if one not in places.rows)
     if missing:
-        raise StudyError(say("terrain.not_drawn", file=places.file, rows=missing))
+        raise StudyError(say("rows_map.not_drawn", file=places.file, rows=missing))

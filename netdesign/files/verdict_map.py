@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -12,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.checks import Standard
 from netdesign.checks.schema import ACCEPTANCE_TEST
-from netdesign.files.rows_map import MeasuredPlace
-from netdesign.outcome import OutputError, StudyError, merge_verdicts
+from netdesign.files.rows_map import Feature, MeasuredPlace
+from netdesign.outcome import StudyError, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.anchor_distance import Bore
 from netdesign.structure.layout import SupportPoints
@@ -21,9 +22,6 @@ from netdesign.structure.members import Member
 from netdesign.study.bores import place_anchors, place_end_anchors
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.sideways import place_row
-from netdesign.terrain.geojson import Feature, write_features
-from netdesign.terrain.layers import write_geopackage
-from netdesign.terrain.libraries import require_extra
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 from netdesign.words.names import name_check, name_member
@@ -37,8 +35,7 @@ SETTING_OUT = (
     *("row", "post", "part", "type", "east_m", "north_m", "height_m"),
     *("azimuth_deg", "dip_deg", "length_m", "design_kN", "proof_kN", "verdict"),
 )
-GEOJSON = ".geojson"
-FORMATS = (GEOJSON, ".gpkg", ".dxf")
+FORMATS = (".geojson", ".dxf")
 _SHADES = {
     "pass": "44,122,75,255",
     "fail": "178,48,30,255",
@@ -73,17 +70,19 @@ def map_verdicts(
         If it is a what-if, or a row of the study has no place.
     """
     if study.what_if:
-        raise StudyError(say("terrain.what_if"))
+        raise StudyError(
+            "the study is a what-if, not the site: check the workbook as it is"
+        )
     by_id = {row.id: row for row in site.rows}
-    missing = tuple(row.id for row in study.rows if row.id not in places)
+    missing = [row.id for row in study.rows if row.id not in places]
     if missing:
-        raise StudyError(say("terrain.no_place", rows=missing))
+        raise StudyError(f"not on the map: {', '.join(missing)}")
     found = []
     for row in study.rows:
         place, given = places[row.id], by_id[row.id]
         points = place_row(given, _find_inclination(row))
         found.append(_map_row(row, place, language))
-        found += _map_posts(row, points, place, language)
+        found += _map_posts(row, points, place)
         found += _map_anchors(row, given, points, standard, place, language)
     return found
 
@@ -101,13 +100,16 @@ def _map_row(row: RowStudy, place: MeasuredPlace, language: Language) -> Feature
 
 
 def _map_posts(
-    row: RowStudy, points: SupportPoints, place: MeasuredPlace, language: Language
+    row: RowStudy, points: SupportPoints, place: MeasuredPlace
 ) -> Iterator[Feature]:
     """Feet of the net and of the posts, with the verdict of each support."""
     for number, post in enumerate(place.posts, 1):
         checks = _list_checks(row, place, number)
         verdict = merge_verdicts(one.verdict for one in checks).value
-        for kind, x in (("net_foot", 0.0), ("post", points.post_base[0])):
+        for kind, part, x in (
+            ("net_foot", "Foot of the net", 0.0),
+            ("post", "Base of the post", points.post_base[0]),
+        ):
             bore = Bore(start=(x, 0.0, 0.0), direction=(0.0, -1.0, 0.0), length=None)
             head, _, _ = turn_to_map(bore, post, place, number)
             yield _point(
@@ -116,7 +118,7 @@ def _map_posts(
                     "kind": kind,
                     "row": row.id,
                     "post": number,
-                    "part": render(say(f"terrain.part_{kind}"), language),
+                    "part": part,
                     "verdict": verdict,
                 },
             )
@@ -265,44 +267,27 @@ def _point(place: Sequence[float], properties: dict[str, Any]) -> Feature:
     return {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
-def require_format(name: str) -> None:
-    """Refuse a map of another format, or one that needs what is not installed.
-
-    Raises
-    ------
-    OutputError
-        Naming the file.
-    """
-    if not name.lower().endswith(FORMATS):
-        raise OutputError(say("terrain.no_format", file=name, formats=FORMATS))
-    if not name.lower().endswith(GEOJSON):
-        require_extra(name, OutputError)
-
-
 def write_verdicts(
-    features: Sequence[Feature], name: str, crs: str, language: Language
+    document: Mapping[str, Any], name: str, language: Language
 ) -> dict[str, bytes]:
     """Contents by file: the map, its style for QGIS, setting-out table.
 
     Parameters
     ----------
-    features : sequence of dict
-        As ``map_verdicts`` gives them.
+    document : mapping
+        GeoJSON with the features that ``map_verdicts`` gives.
     name : str
         Of the map; its end tells the format.
-    crs : str
-        Reference system of the coordinates; empty where nobody knows.
     language : str
         Of the layers of a drawing.
     """
     stem, _, end = name.rpartition(".")
+    features: Sequence[Feature] = document["features"]
     table = {f"{stem}-setting-out.csv": _write_setting_out(features).encode()}
     if end.lower() == "dxf":
         return {name: _draw_all(features, language)} | table
-    if end.lower() == "gpkg":
-        return {name: write_geopackage(features, crs)} | table
-    style = {f"{stem}.qml": _write_style().encode()}
-    return {name: write_features(features, crs)} | style | table
+    text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
+    return {name: text.encode(), f"{stem}.qml": _write_style().encode()} | table
 
 
 def _write_setting_out(features: Sequence[Feature]) -> str:
@@ -394,7 +379,7 @@ def _find_layer(
     from ezdxf.colors import rgb2int
 
     verdict = properties["verdict"]
-    part = properties.get("part") or render(say("terrain.part_row"), language)
+    part = properties.get("part", "Net row")
     word = render(say(f"verdict.{verdict}"), language)
     name = _NO_NAME.sub(" ", f"{part} - {word}")
     if name not in drawing.layers:

@@ -2,37 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import Any
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import TerrainError
-from netdesign.words.message import Message, say
 
-if TYPE_CHECKING:
-    from rasterio.crs import CRS
-
-_CODE = re.compile(r"[A-Z]{2,10}:\w{1,20}")  # never a file or an address
-_MEMBER = re.compile(r"(?:urn:ogc:def:crs:)?(EPSG|OGC):(?:[\d.]*:)?(\w{1,20})")
-_MERCATOR = re.compile(r'PROJECTION\["(Popular_Visualisation_Pseudo_)?Mercator')
-_LONGEST_NAME = 60
-
-
-def read_member(document: object) -> str:
-    """Code of the system that a GeoJSON document names, as QGIS does; "" of none."""
-    for key in ("crs", "properties", "name"):
-        document = document.get(key) if isinstance(document, Mapping) else None
-    found = _MEMBER.fullmatch(document) if isinstance(document, str) else None
-    return f"{found[1]}:{found[2]}" if found else ""
-
-
-def write_member(crs: str) -> dict[str, object]:
-    """The same member for a document; nothing of a system without a code."""
-    if not crs.startswith("EPSG:"):
-        return {}
-    name = f"urn:ogc:def:crs:EPSG::{crs.removeprefix('EPSG:')}"
-    return {"crs": {"type": "name", "properties": {"name": name}}}
+_MERCATOR = ("Mercator", "Popular Visualisation")  # its metres grow with latitude
 
 
 def require_plane(crs: str) -> str:
@@ -41,7 +17,7 @@ def require_plane(crs: str) -> str:
     Parameters
     ----------
     crs : str
-        Code as ``EPSG:2056``, WKT, or nothing.
+        Code or WKT, as GDAL gives it; empty where the file names none.
 
     Returns
     -------
@@ -54,23 +30,33 @@ def require_plane(crs: str) -> str:
     TerrainError
         Naming the system.
     """
+    if not crs:
+        return ""
     import rasterio
+    from rasterio.crs import CRS
 
     with rasterio.Env():
-        found = _read(crs) if crs else None
-        if found is None:
+        found = CRS.from_user_input(crs)
+        system: Mapping[str, Any] = found.to_dict(projjson=True)
+        if system["type"] == "CompoundCRS":  # a plane with a system of heights
+            system = system["components"][0]
+            found = CRS.from_dict(system)
+        name, code = _name(found), found.to_epsg()
+        system = system.get("source_crs", system)
+        if system["type"] not in ("ProjectedCRS", "EngineeringCRS"):
+            told = "which is no map plane: project them in metres, to the national grid"
+            raise TerrainError(f"coordinates in {name}, {told} or UTM")
+        unit = system["coordinate_system"]["axis"][0]["unit"]
+        if unit != "metre":
+            unit = unit["name"] if isinstance(unit, Mapping) else unit
+            told = f"in the unit {unit}: give them in metres"
+            raise TerrainError(f"coordinates in {name}, {told}")
+        if system["type"] == "EngineeringCRS":
             return ""
-        is_local = found.to_wkt().startswith("LOCAL_CS")
-        if not (found.is_projected or is_local):
-            raise TerrainError(say("terrain.unprojected", crs=_name(found)))
-        unit, size = found.units_factor
-        if size != 1.0:
-            told = say("terrain.crs_unit", crs=_name(found), unit=make_printable(unit))
-            raise TerrainError(told)
-        if _MERCATOR.search(found.to_wkt()):
-            raise TerrainError(say("terrain.mercator", crs=_name(found)))
-        code = found.to_epsg()
-        return "" if is_local else f"EPSG:{code}" if code else found.to_wkt()
+        if system["conversion"]["method"]["name"].startswith(_MERCATOR):
+            told = "whose metres are no metres on the ground: project them to the"
+            raise TerrainError(f"coordinates in {name}, {told} national grid or UTM")
+        return f"EPSG:{code}" if code else str(found.to_wkt())
 
 
 def require_same(grid: str, rows: str) -> None:
@@ -79,7 +65,7 @@ def require_same(grid: str, rows: str) -> None:
     Parameters
     ----------
     grid, rows : str
-        As ``require_plane`` gives them; of rows perhaps any code.
+        As ``require_plane`` gives them.
 
     Raises
     ------
@@ -89,52 +75,17 @@ def require_same(grid: str, rows: str) -> None:
     if not (grid and rows) or grid == rows:
         return
     import rasterio
+    from rasterio.crs import CRS
 
     with rasterio.Env():
-        one, other = _read(grid), _read(rows)
-        if one is not None and one == other:
-            return
-        names = {
-            "grid": _name(one) if one else grid,
-            "rows": _name(other) if other else rows,
-        }
-    raise TerrainError(say("terrain.crs_differ", **names))
+        one, other = CRS.from_user_input(grid), CRS.from_user_input(rows)
+        if one != other:
+            told = "are two reference systems: give the grid and all rows in one"
+            raise TerrainError(f"{_name(one)} and {_name(other)} {told}")
 
 
-def _read(crs: str) -> CRS | None:
-    """System of a code or a WKT, without its heights; None of what is neither.
-
-    Any other text might be taken for a file or an address.
-    """
-    from rasterio.crs import CRS
-    from rasterio.errors import CRSError
-
-    try:
-        if _CODE.fullmatch(crs):
-            crs = CRS.from_user_input(crs).to_wkt()
-        return CRS.from_wkt(_cut_heights(crs))
-    except CRSError:
-        return None
-
-
-def _cut_heights(wkt: str) -> str:
-    """Map plane of a system that has heights, too."""
-    start = wkt.find("PROJCS[")
-    if not wkt.startswith("COMPD_CS") or start < 0:
-        return wkt
-    depth, is_quoted = 0, False
-    for place in range(start, len(wkt)):
-        sign = wkt[place]
-        is_quoted ^= sign == '"'
-        depth += 0 if is_quoted else {"[": 1, "]": -1}.get(sign, 0)
-        if sign == "]" and depth == 0:
-            return wkt[start : place + 1]
-    return wkt
-
-
-def _name(crs: CRS) -> Message | str:
+def _name(crs: Any) -> str:
     """Name as people know it, with its code."""
-    _, _, rest = crs.to_wkt().partition('"')
-    name = make_printable(rest.partition('"')[0])[:_LONGEST_NAME]
+    name = make_printable(str(crs.to_dict(projjson=True)["name"]))[:60]
     code = crs.to_epsg()
-    return say("terrain.crs_name", name=name, code=code) if code else name
+    return f"{name} (EPSG:{code})" if code else name

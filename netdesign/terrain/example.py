@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 
 import numpy as np
+from shapely import LineString, Polygon
 
 from netdesign.edge.output import write_files
 from netdesign.numerics.arrays import Floats
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.template.workbook import load_example, render_workbook
+from netdesign.terrain.geojson import Feature, make_feature, write_features
 from netdesign.terrain.grid import Grid
+from netdesign.terrain.plan import ZONE
 from netdesign.terrain.surface import Surface
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
 TYPES_FILE = "types.xlsx"
+_STEP = 3.0  # along a contour: bends are those of the ground, not of the noise [m]
 _EAST, _NORTH, _CELL, _SIZE = 2_700_000.0, 1_180_000.0, 1.0, 200  # nobody's place
 _SEED, _NOISE = 20_261_126, 0.05  # of the heights [m]
-_STEP = 3.0  # of a drawn line: its bends are those of the ground, not of the noise [m]
 _EDGE = 150.0  # north of it the ground is flatter [m]
 _ZONE = (
     *((42.0, 94.0), (80.0, 94.0), (100.0, 89.0), (124.0, 88.0)),
@@ -87,7 +89,7 @@ def write_example(folder: Path, *, overwrite: bool) -> tuple[Path, Path, Path]:
     ground = build_example()
     contents = {
         folder / GRID_FILE: write_grid(ground),
-        folder / ROWS_FILE: write_rows(ground),
+        folder / ROWS_FILE: write_features(list_rows(ground)),
         folder / TYPES_FILE: write_types(),
     }
     write_files(contents, overwrite=overwrite)
@@ -107,69 +109,46 @@ def write_grid(grid: Grid) -> bytes:
     return (head + "\n".join(rows) + "\n").encode()
 
 
-def write_rows(grid: Grid) -> bytes:
-    """Rows of the made-up zone along its contours, as GeoJSON."""
+def list_rows(grid: Grid) -> list[Feature]:
+    """Rows of the made-up zone along its contours, and the zone."""
     surface = Surface(grid, 7, _NOISE)
     origin = np.array((_EAST, _NORTH))
-    features = [
-        {
-            "type": "Feature",
-            "properties": {"id": name, **_list_properties()},
-            "geometry": {
-                "type": "LineString",
-                "coordinates": _list_points(
-                    _follow_contour(surface, origin + np.array(start), length)
-                ),
-            },
-        }
+    model = next(one for one in load_example()["Nets"] if one["id"] == _MODEL)
+    headings = {field.key: field.heading_for("en") for field in NETS.fields}
+    cells = {
+        headings[key]: value
+        for key, value in {**model, **_OWN}.items()
+        if key not in _DERIVED
+    }
+    rows = [
+        make_feature(
+            LineString(follow_contour(surface, origin + np.array(start), length)),
+            {"id": name, **cells},
+        )
         for name, start, length in _ROWS
     ]
-    zone = origin + np.array((*_ZONE, _ZONE[0]))
-    features.append(
-        {
-            "type": "Feature",
-            "properties": {"kind": "starting zone"},
-            "geometry": {"type": "Polygon", "coordinates": [_list_points(zone)]},
-        }
-    )
-    document = {"type": "FeatureCollection", "features": features}
-    return json.dumps(document, indent=1).encode()
+    zone = Polygon(origin + np.array(_ZONE))
+    return [*rows, make_feature(zone, {"kind": ZONE})]
 
 
-def _list_properties() -> dict[str, object]:
-    """Columns of a row of the example site, but those of its ground and its ends."""
-    headings = {field.key: field.heading_for("en") for field in NETS.fields}
-    return {headings[key]: value for key, value in _list_cells().items()}
-
-
-def _list_cells() -> dict[str, object]:
-    model = next(one for one in load_example()["Nets"] if one["id"] == _MODEL)
-    own = {**model, **_OWN}
-    return {key: value for key, value in own.items() if key not in _DERIVED}
-
-
-def write_types() -> bytes:
-    """Workbook of the zone's types, and of the ends of its rows."""
-    given = load_example()
-    lines = {name: given[name] for name in _TYPES}
-    lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
-    return render_workbook({**lines, "Ends": [_ENDS]})
-
-
-def _follow_contour(surface: Surface, start: Floats, length: float) -> Floats:
-    """Points along the contour through a point, the slope to the left, shape (n, 2)."""
+def follow_contour(surface: Surface, start: Floats, length: float) -> Floats:
+    """Points along the contour through a point, the slope to the left, (n, 2) [m]."""
     points = [start]
     for _ in range(math.ceil(length / _STEP)):
         middle = points[-1] + 0.5 * _STEP * _turn(surface, points[-1])
         points.append(points[-1] + _STEP * _turn(surface, middle))
-    return np.stack(points)
+    return np.stack(points).round(2)
 
 
 def _turn(surface: Surface, place: Floats) -> Floats:
-    """Direction along the contour, uphill on its left, shape (2,)."""
-    east, north = surface.at(place[None]).gradient[0]
+    """Direction along the contour, uphill on its left."""
+    ((east, north),) = surface.at(place[None]).gradient
     return np.array((north, -east)) / math.hypot(east, north)
 
 
-def _list_points(points: Floats) -> list[list[float]]:
-    return [[round(float(one), 2) for one in point] for point in points]
+def write_types() -> bytes:
+    """Workbook of the zone's types and of the ends of its rows."""
+    given = load_example()
+    lines = {name: given[name] for name in _TYPES}
+    lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
+    return render_workbook({**lines, "Ends": [_ENDS]})

@@ -1,4 +1,4 @@
-"""Rows, posts and verdicts as GeoJSON, in the coordinates of the grid."""
+"""Measured rows and their posts as GeoJSON, in the coordinates of the grid."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from netdesign.numerics.arrays import Floats
-from netdesign.terrain.crs import write_member
+import shapely
+from shapely import LineString, Point, Polygon
+from shapely.geometry import mapping
+
 from netdesign.terrain.measure import MeasuredRow
 from netdesign.terrain.plan import ZONE
 
@@ -25,16 +27,16 @@ def write_features(features: Iterable[Feature], crs: str = "") -> bytes:
     crs : str
         Reference system, as ``EPSG:2056``: a map then finds the place.
     """
-    document = {
-        "type": "FeatureCollection",
-        **write_member(crs),
-        "features": list(features),
-    }
+    document: dict[str, Any] = {"type": "FeatureCollection"}
+    if crs.startswith("EPSG:"):
+        name = f"urn:ogc:def:crs:EPSG::{crs.removeprefix('EPSG:')}"
+        document["crs"] = {"type": "name", "properties": {"name": name}}
+    document["features"] = list(features)
     return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False).encode()
 
 
 def list_row_features(
-    rows: Sequence[MeasuredRow], zones: Sequence[Floats], grid: str, sha256: str
+    rows: Sequence[MeasuredRow], zones: Sequence[Polygon], grid: str, sha256: str
 ) -> list[Feature]:
     """Rows with what was measured, their posts with number and height, and the zones.
 
@@ -42,8 +44,8 @@ def list_row_features(
     ----------
     rows : sequence of MeasuredRow
         On the terrain.
-    zones : sequence of ndarray, shape (n, 2)
-        Outlines of the starting zones [m].
+    zones : sequence of Polygon
+        Starting zones [m].
     grid, sha256 : str
         Name and digest of the grid's file.
     """
@@ -72,11 +74,11 @@ def list_row_features(
             "grid": grid,
             "grid_sha256": sha256,
         }
-        found.append(_line(row.posts, properties))
+        found.append(make_feature(LineString(row.posts), properties))
         for number, post in enumerate(row.posts, 1):
             told = {"kind": "post", "row": row.line.id, "post": number}
-            found.append(_point(post, told))
-    return [*found, *map(_outline, zones)]
+            found.append(make_feature(Point(post), told))
+    return [*found, *(make_feature(one, {"kind": ZONE}) for one in zones)]
 
 
 def find_exposure(aspect: float) -> str:
@@ -97,19 +99,7 @@ def _degrees(angle: float) -> float:
     return round(math.degrees(angle), 3)
 
 
-def _line(points: Floats, properties: dict[str, Any]) -> Feature:
-    coordinates = [[round(float(one), 3) for one in point] for point in points]
-    geometry = {"type": "LineString", "coordinates": coordinates}
-    return {"type": "Feature", "properties": properties, "geometry": geometry}
-
-
-def _outline(zone: Floats) -> Feature:
-    ring = [[round(float(one), 3) for one in point] for point in (*zone, zone[0])]
-    geometry = {"type": "Polygon", "coordinates": [ring]}
-    return {"type": "Feature", "properties": {"kind": ZONE}, "geometry": geometry}
-
-
-def _point(point: Floats, properties: dict[str, Any]) -> Feature:
-    coordinates = [round(float(one), 3) for one in point]
-    geometry = {"type": "Point", "coordinates": coordinates}
-    return {"type": "Feature", "properties": properties, "geometry": geometry}
+def make_feature(geometry: Any, properties: dict[str, Any]) -> Feature:
+    """Feature of a shape, its coordinates to a millimetre."""
+    rounded = shapely.transform(geometry, lambda one: one.round(3), include_z=None)
+    return {"type": "Feature", "properties": properties, "geometry": mapping(rounded)}

@@ -2,29 +2,38 @@
 
 from __future__ import annotations
 
+import codecs
 import math
-import warnings
+import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from netdesign.edge.causes import explain
-from netdesign.edge.given_files import read_bounded
+from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.terrain.libraries import require_extra
-from netdesign.words.message import Message, say
+from netdesign.terrain.crs import require_plane
+from netdesign.terrain.reading import DAMAGE, keep_quiet, read_file
 
-GEOTIFF = (".tif", ".tiff")
+if TYPE_CHECKING:
+    from rasterio.io import DatasetReader
+
 MOST_CELLS = 16_000_000  # 4,000 x 4,000
 MOST_BYTES = 400_000_000
 LOWEST, HIGHEST = -500.0, 9000.0  # of any ground [m]
+_GEOTIFF = (".tif", ".tiff")
 _LEAST_CELL, _LARGEST_CELL = 0.1, 100.0  # [m]
 _DEGREES = 0.05  # a cell smaller than this near small coordinates is one of degrees
-_NUMBERS = ("ncols", "nrows", "cellsize", "nodata_value")
-_CORNERS = ("xllcorner", "yllcorner")
-_CENTRES = ("xllcenter", "yllcenter")
+_NO_HEIGHT = -9999.0  # of an ASCII grid that does not say
+_ALIKE = 1e-6  # of the sides of a cell
+_METRES = ("", "m", "metre", "meter", "metres", "meters", "unknown")
+_HEADER = re.compile(rb"(?:\s*[A-Za-z_]{2,}[ \t]+\S+[ \t]*[\r\n]+)*")
+_HEADER_BYTES = 1024  # in which it ends
+_DIGITS = b"0123456789+-.,eE \t\r\n\v\f\x1a"
+# Nothing beside the file is looked for or written.
+_SETTINGS = {"GDAL_PAM_ENABLED": "NO", "GDAL_DISABLE_READDIR_ON_OPEN": "EMPTY_DIR"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,8 +50,8 @@ class Grid:
         From south to north and west to east [m]; NaN where nobody knows.
     crs : str
         Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
-    notes : tuple of Message
-        What its reader has to be told.
+    bands : int
+        Of its file; the first one is read as heights.
     """
 
     west: float
@@ -50,155 +59,162 @@ class Grid:
     cell: float
     heights: Floats
     crs: str = ""
-    notes: tuple[Message, ...] = ()
-
-    @property
-    def east(self) -> float:
-        """Middle of the last cell of a line [m]."""
-        return self.west + self.cell * (int(self.heights.shape[1]) - 1)
-
-    @property
-    def north(self) -> float:
-        """Middle of the last cell of a column [m]."""
-        return self.south + self.cell * (len(self.heights) - 1)
+    bands: int = 1
 
 
 def read_grid(path: Path) -> Grid:
     """Read an ESRI ASCII grid or a GeoTIFF, in metres.
+
+    GDAL sees the bytes of this file and no other one.
 
     Raises
     ------
     TerrainError
         If the file is none; names what is accepted.
     """
-    is_geotiff = path.suffix.lower() in GEOTIFF
-    if is_geotiff:
-        require_extra(path.name)
+    from rasterio._err import CPLE_BaseError
+    from rasterio.errors import RasterioError
+
+    content = read_file(path, MOST_BYTES)
+    is_geotiff = path.suffix.lower() in _GEOTIFF
+    if not is_geotiff:
+        content = _clean(content)
     try:
-        content = read_bounded(path, MOST_BYTES)
-    except (OSError, ValueError) as error:
-        raise TerrainError(
-            say("terrain.unreadable", file=path.name, cause=explain(error))
-        ) from None
-    try:
-        return _parse_geotiff(content) if is_geotiff else parse_grid(content)
+        with keep_quiet():
+            return parse_grid(content, is_geotiff=is_geotiff)
     except TerrainError as error:
-        told = say("text.at_place", place=path.name, text=error.message)
-        raise TerrainError(told) from None
+        told = str(error)
+    except (*DAMAGE, RasterioError, CPLE_BaseError):
+        told = "no ESRI ASCII grid (.asc) or GeoTIFF (.tif), or damaged: save it again"
+    raise TerrainError(f"{path.name}: {told}")
 
 
-def _parse_geotiff(content: bytes) -> Grid:
-    from netdesign.terrain.geotiff import parse_geotiff  # which makes grids, too
+def parse_grid(content: bytes, *, is_geotiff: bool) -> Grid:
+    """Grid of the bytes of a file; what is none ends in an error of any kind."""
+    import rasterio
 
-    return parse_geotiff(content)
-
-
-def parse_grid(content: bytes) -> Grid:
-    """Grid of the bytes of an ESRI ASCII grid.
-
-    Raises
-    ------
-    TerrainError
-        If they are none.
-    """
-    header, rest = _read_header(content)
-    columns, lines = int(header["ncols"]), int(header["nrows"])
-    cell = header["cellsize"]
-    places = _CENTRES if _CENTRES[0] in header else _CORNERS
-    west, south = (header[one] for one in places)
-    require_metres(cell, west, south)
-    if places == _CORNERS:
-        west, south = west + 0.5 * cell, south + 0.5 * cell
-    values = _read_numbers(rest, columns * lines)
-    nodata = header.get("nodata_value", -9999.0)
-    is_known = values != nodata
-    require_heights(values[is_known])
-    heights = np.where(is_known, values, math.nan).reshape(lines, columns)
-    return Grid(west=west, south=south, cell=cell, heights=heights[::-1].copy())
+    driver, options = "GTiff", {}
+    if not is_geotiff:
+        driver, options = "AAIGrid", {"DATATYPE": "Float64"}
+    with (
+        rasterio.Env(**_SETTINGS),
+        rasterio.MemoryFile(content) as file,
+        file.open(driver=driver, **options) as dataset,
+    ):
+        require_size(dataset.width, dataset.height)
+        if is_geotiff:
+            _require_memory(dataset)
+            _require_whole(dataset)
+        else:
+            _require_numbers(content, dataset.width * dataset.height)
+        return _read_dataset(dataset)
 
 
-def _read_header(content: bytes) -> tuple[dict[str, float], bytes]:
-    """Lines of a word and a number that a grid begins with, and what follows them."""
-    found: dict[str, float] = {}
-    rest = content
-    while True:
-        line, _, after = rest.partition(b"\n")
-        words = line.decode("latin-1").split()
-        if not words or not words[0][0].isalpha() or words[0].lower() == "nan":
-            break
-        if len(words) != 2 or words[0].lower() in found:
-            raise _refuse_header(line.decode("latin-1"))
-        found[words[0].lower()] = _read_number(words)
-        rest = after
-    for needed in ("ncols", "nrows", "cellsize"):
-        if needed not in found:
-            raise TerrainError(say("terrain.no_header", key=needed))
-    if not any(all(one in found for one in pair) for pair in (_CORNERS, _CENTRES)):
-        raise TerrainError(say("terrain.no_header", key=_CORNERS[0]))
-    unknown = set(found) - {*_NUMBERS, *_CORNERS, *_CENTRES}
-    if unknown:
-        raise _refuse_header(min(unknown))
-    require_size(found["ncols"], found["nrows"])
-    return found, rest
+def _clean(content: bytes) -> bytes:
+    """ASCII grid without byte order mark, and blanks before the words of its header."""
+    plain = content.removeprefix(codecs.BOM_UTF8)
+    start = re.sub(rb"(?m)^\s+", b"", plain[:_HEADER_BYTES])
+    return start + plain[_HEADER_BYTES:]
 
 
-def _read_number(words: list[str]) -> float:
-    try:
-        number = float(words[1])
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise _refuse_header(" ".join(words))
-    return number
+def _read_dataset(dataset: DatasetReader) -> Grid:
+    """Heights of the first band; everything that the header says is judged before."""
+    cell, west, north = _read_place(dataset)
+    crs = require_plane(dataset.crs.to_wkt() if dataset.crs else "")
+    unit = (dataset.units[0] or "").strip()
+    if unit.casefold() not in _METRES:
+        unit = make_printable(unit)[:40]
+        raise TerrainError(f"heights in the unit {unit}: give them in metres")
+    require_metres(cell, west, north)
+    return Grid(
+        west=west + 0.5 * cell,
+        south=north - (dataset.height - 0.5) * cell,
+        cell=cell,
+        heights=_read_heights(dataset)[::-1].copy(),
+        crs=crs,
+        bands=dataset.count,
+    )
 
 
-def _refuse_header(line: str) -> TerrainError:
-    if not line.strip().isprintable():
-        return TerrainError(say("terrain.no_text"))
-    return TerrainError(say("terrain.header", line=f"{line.strip()!r:.60}"))
-
-
-def require_heights(values: Floats) -> None:
-    """Refuse what no ground has.
-
-    Parameters
-    ----------
-    values : ndarray, shape (n,)
-        Heights that are said to be known [m].
-
-    Raises
-    ------
-    TerrainError
-        Naming the first that is none.
-    """
-    wrong = values[~((values >= LOWEST) & (values <= HIGHEST))]
-    if wrong.size:
-        ends = {"low": LOWEST, "high": HIGHEST}
-        raise TerrainError(say("terrain.no_height", value=f"{wrong[0]:g}", **ends))
-
-
-def require_size(columns: float, lines: float) -> None:
-    """Refuse a number of cells that is none, or too large.
+def require_size(columns: int, lines: int) -> None:
+    """Refuse a number of cells that is too small or too large.
 
     Raises
     ------
     TerrainError
         Naming it.
     """
-    is_whole = float(columns).is_integer() and float(lines).is_integer()
-    if not is_whole or not (min(columns, lines) >= 3 and columns * lines <= MOST_CELLS):
-        size = {"columns": f"{columns:g}", "lines": f"{lines:g}"}
-        raise TerrainError(say("terrain.size", **size, most=MOST_CELLS))
+    if not (min(columns, lines) >= 3 and columns * lines <= MOST_CELLS):
+        told = f"{columns} x {lines} cells: 3 x 3 to {MOST_CELLS} cells are read"
+        raise TerrainError(told)
 
 
-def require_metres(cell: float, west: float, south: float) -> None:
+def _require_numbers(content: bytes, cells: int) -> None:
+    """Refuse words among the heights of an ASCII grid, and another number of them.
+
+    GDAL takes a word for 0, and leaves out what is too much.
+    """
+    match = _HEADER.match(content)
+    start = match.end() if match else 0
+    words = content[start:].translate(None, _DIGITS).lower()
+    if re.sub(rb"nan|null", b"", words):
+        raise TerrainError("a height is no number")
+    is_sign = np.frombuffer(content, dtype=np.uint8, offset=start) > ord(" ")
+    count = int(is_sign[:1].sum()) + np.count_nonzero(is_sign[1:] > is_sign[:-1])
+    if count != cells:
+        raise TerrainError(f"{count} heights, where the header says {cells}")
+
+
+def _require_memory(dataset: DatasetReader) -> None:
+    """Refuse numbers that are no heights, and blocks that take too much memory.
+
+    A block is opened as a whole, with all bands that may lie in it.
+    """
+    kinds = [np.dtype(one) for one in dataset.dtypes]
+    if kinds[0].kind not in "iuf":
+        raise ValueError(kinds)
+    lines, columns = dataset.block_shapes[0]
+    size = lines * columns * sum(one.itemsize for one in kinds)
+    if size > MOST_BYTES:
+        told = f"a block of {size / 1e6:.0f} MB: save the grid in tiles of 256 x 256"
+        raise TerrainError(f"{told} cells, with one band")
+
+
+def _require_whole(dataset: DatasetReader) -> None:
+    """Refuse blocks that are not there: where no value says so, they would be zeros."""
+    lines, columns = dataset.block_shapes[0]
+    across, down = -(-dataset.width // columns), -(-dataset.height // lines)
+    if dataset.nodata is None and not all(
+        dataset.get_tag_item(f"BLOCK_OFFSET_{x}_{y}", "TIFF", bidx=1)
+        for y in range(down)
+        for x in range(across)
+    ):
+        raise ValueError(dataset.nodata)
+
+
+def _read_place(dataset: DatasetReader) -> tuple[float, float, float]:
+    """Side of the cells, west and north edge [m]."""
+    place = dataset.transform
+    is_nowhere = place.c == place.f == 0.0  # as GDAL has it of a header without corner
+    if is_nowhere or not all(map(math.isfinite, place)):
+        raise TerrainError("the file does not say where its cells lie")
+    if place.b or place.d or not place.a >= 0.0 >= place.e:
+        told = "the grid is rotated or upside down: save it with its lines running east"
+        raise TerrainError(f"{told}, the first one in the north")
+    if abs(place.a + place.e) > _ALIKE * place.a:
+        sides = f"{place.a:g} x {-place.e:g} m"
+        raise TerrainError(f"cells of {sides}: save the grid with square cells")
+    return float(place.a), float(place.c), float(place.f)
+
+
+def require_metres(cell: float, west: float, north: float) -> None:
     """Refuse cells of degrees, or of a size that no grid of a slope has.
 
     Parameters
     ----------
     cell : float
         Its side [m].
-    west, south : float
+    west, north : float
         A corner of the grid [m].
 
     Raises
@@ -206,32 +222,21 @@ def require_metres(cell: float, west: float, south: float) -> None:
     TerrainError
         Naming it.
     """
-    if 0.0 < cell < _DEGREES and abs(west) <= 360.0 and abs(south) <= 90.0:
-        raise TerrainError(say("terrain.degrees", cell=f"{cell:g}"))
+    if 0.0 < cell < _DEGREES and abs(west) <= 360.0 and abs(north) <= 90.0:
+        told = f"a cell of {cell:g} degrees: give the grid in metres, projected to the"
+        raise TerrainError(f"{told} national grid or UTM")
     if not _LEAST_CELL <= cell <= _LARGEST_CELL:
-        ends = {"least": _LEAST_CELL, "most": _LARGEST_CELL}
-        raise TerrainError(say("terrain.cell", cell=f"{cell:g}", **ends))
+        ends = f"{_LEAST_CELL:g} to {_LARGEST_CELL:g} m"
+        raise TerrainError(f"a cell of {cell:g} m: {ends} are read")
 
 
-def _read_numbers(text: bytes, count: int) -> Floats:
-    """Heights of the cells; the file must have as many as it says.
-
-    A count that does not fit is refused before memory is asked for.
-    """
-    if len(text) < 2 * count - 1:
-        given = len(text.split())
-        raise TerrainError(say("terrain.count", given=given, wanted=count))
-    values = _parse(text)
-    if values.size != count:
-        raise TerrainError(say("terrain.count", given=values.size, wanted=count))
+def _read_heights(dataset: DatasetReader) -> Floats:
+    """Heights from north to south [m], NaN where none is known."""
+    found = dataset.read(1, masked=True, out_dtype="float64")
+    values: Floats = found.data * dataset.scales[0] + dataset.offsets[0]
+    values[np.ma.getmaskarray(found) | (found.data == _NO_HEIGHT)] = math.nan
+    wrong = values[(values < LOWEST) | (values > HIGHEST)]
+    if wrong.size:
+        told = f"a height of {wrong[0]:g} m: {LOWEST:g} to {HIGHEST:g} m are read, and"
+        raise TerrainError(f"{told} the no-data value that the file declares")
     return values
-
-
-def _parse(text: bytes) -> Floats:
-    """Numbers of a text; a warning of NumPy tells that something else is among them."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            return np.fromstring(text.decode("latin-1"), dtype=np.float64, sep=" ")
-        except (ValueError, DeprecationWarning):
-            raise TerrainError(say("terrain.no_number")) from None

@@ -11,15 +11,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import shapely
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crossings import find_exit, find_first_crossings
+from netdesign.terrain.crossings import Rows, find_exit, find_first_crossings
 from netdesign.terrain.fall_line import LONGEST_BENCH, FallLines, follow_fall
 from netdesign.terrain.grid import Grid
 from netdesign.terrain.plan import NetLine, Plan
 from netdesign.terrain.surface import Surface, choose_window
-from netdesign.words.message import Message, say
 
 LEAST_STEEP = math.radians(25.0)  # below it the snow holds itself
 KINK, BROKEN = math.radians(5.0), math.radians(15.0)  # bends of a row at a post
@@ -167,19 +167,19 @@ def measure_rows(
 def _draw_rows(surface: Surface, plan: Plan, most: float) -> list[_DrawnRow]:
     """Posts of all rows; their lines of fall are followed at once."""
     found: list[tuple[NetLine, Floats, Floats]] = []
-    faults: list[Message] = []
+    faults: list[str] = []
     for line in plan.lines:
         try:
             posts = place_posts(surface, line)
         except TerrainError as error:
-            faults.append(error.message)
+            faults.append(str(error))
             continue
         bends = find_bends(posts[:, :2])
         if bends.size and bends.max() > BROKEN:
             faults.append(_refuse_bend(line, bends))
         found.append((line, posts, bends))
     if faults:
-        raise TerrainError(say("text.lines", lines=tuple(faults)))
+        raise TerrainError("\n".join(faults))
     places = np.concatenate([posts[:, :2] for _, posts, _ in found])
     above = follow_fall(surface, places, most=most, is_up=True)
     below = follow_fall(surface, places, most=most, is_up=False)
@@ -196,9 +196,8 @@ def _measure_row(
 ) -> MeasuredRow:
     line, posts, above, below = drawn.line, drawn.posts, drawn.above, drawn.below
     places = posts[:, :2]
-    plan = plan.cut_to(np.concatenate((above.points, below.points)))
-    least = surface.grid.cell
-    crossed = _find_rows(plan, line, above, least)
+    least, others = surface.grid.cell, _list_others(plan, line)
+    crossed = _list_crossings(others, above, least)
     bench = min(line.net_height, LONGEST_BENCH)
     zone_ends = _list_zone_ends(plan, above)
     ends = tuple(
@@ -212,7 +211,7 @@ def _measure_row(
         ]
     )
     gradient = surface.at(places).gradient.mean(axis=0)
-    crossed_below = _find_rows(plan, line, below, least)
+    crossed_below = _list_crossings(others, below, least)
     nearest = [(at, name) for one in crossed_below for name, at in one.items()]
     length, row = min(nearest, default=(None, ""))
     return MeasuredRow(
@@ -233,13 +232,19 @@ def _measure_row(
     )
 
 
-def _find_rows(
-    plan: Plan, line: NetLine, lines: FallLines, least: float
+def _list_others(plan: Plan, line: NetLine) -> Rows:
+    """Other rows and closed gaps, with their names."""
+    found = [(one.id, one.points) for one in plan.lines if one.id != line.id]
+    gaps = [one for one in plan.closed_gaps if line.id not in one.rows]
+    found += [(one.rows[0], one.points) for one in gaps]
+    names = [name for name, _ in found]
+    return names, [shapely.LineString(points) for _, points in found]
+
+
+def _list_crossings(
+    others: Rows, lines: FallLines, least: float
 ) -> list[dict[str, float]]:
     """Lengths at which each line of fall crosses other rows and closed gaps [m]."""
-    others = [(one.id, one.points) for one in plan.lines if one.id != line.id]
-    gaps = [one for one in plan.closed_gaps if line.id not in one.rows]
-    others += [(one.rows[0], one.points) for one in gaps]
     posts = range(lines.points.shape[1])
     return [find_first_crossings(lines, post, others, least=least) for post in posts]
 
@@ -258,10 +263,10 @@ def _find_flattest(surface: Surface, places: Floats) -> float:
     return max(0.0, float(surface.at(places).steepness.min()) - error)
 
 
-def _refuse_bend(line: NetLine, bends: Floats) -> Message:
+def _refuse_bend(line: NetLine, bends: Floats) -> str:
     angle, limit = (math.degrees(one) for one in (float(bends.max()), BROKEN))
-    post = int(bends.argmax()) + 2
-    return say("terrain.broken", row=line.id, post=post, angle=angle, limit=limit)
+    told = f"row {line.id} bends by {angle:.1f}° at post {int(bends.argmax()) + 2}"
+    return f"{told}: above {limit:g}° draw two rows"
 
 
 def place_posts(surface: Surface, line: NetLine) -> Floats:
@@ -274,18 +279,16 @@ def place_posts(surface: Surface, line: NetLine) -> Floats:
     heights = surface.at(fine).height
     if np.isnan(heights).any():
         at = fine[int(np.flatnonzero(np.isnan(heights))[0])]
-        east, north = map(float, at)
-        raise TerrainError(say("terrain.off_grid", row=line.id, east=east, north=north))
+        told = f"row {line.id} leaves the grid, or meets a hole in it, at"
+        raise TerrainError(f"{told} {at[0]:.1f}, {at[1]:.1f}")
     ground = np.column_stack((fine, heights))
     along = np.concatenate(
         ([0.0], np.cumsum(np.linalg.norm(np.diff(ground, axis=0), axis=1)))
     )
     count = math.floor(along[-1] / line.post_spacing + 1e-6) + 1
     if count < 2:
-        whole, spacing = float(along[-1]), line.post_spacing
-        raise TerrainError(
-            say("terrain.short", row=line.id, length=whole, spacing=spacing)
-        )
+        told = f"row {line.id} is {along[-1]:.1f} m long, shorter than its post spacing"
+        raise TerrainError(f"{told} of {line.post_spacing:g} m")
     left = max(0.0, float(along[-1]) - line.post_spacing * (count - 1))
     wanted = 0.5 * left + line.post_spacing * np.arange(count)
     return np.column_stack([np.interp(wanted, along, part) for part in ground.T])
@@ -349,8 +352,9 @@ def _list_zone_ends(plan: Plan, above: FallLines) -> list[float | None]:
 
     Above a post beside the zone lies none of its snow: 0, if other posts have some.
     """
+    zones = shapely.union_all(plan.zones)
     posts = range(above.points.shape[1])
-    found = [find_exit(above, post, plan.zones) for post in posts]
+    found = [find_exit(above, post, zones) for post in posts]
     has_zone = any(one is not None for one in found)
     return [0.0 if one is None and has_zone else one for one in found]
 
@@ -426,17 +430,14 @@ def _band_slope(
     return Band(low=value - spread, value=value, high=value + spread)
 
 
-def describe_kinks(row: MeasuredRow) -> Message | None:
-    """Sentence on the posts at which a row bends; None of a straight one."""
+def describe_kinks(row: MeasuredRow) -> str:
+    """Sentence on the posts at which a row bends; empty for a straight one."""
     if not row.kinks:
-        return None
-    return say(
-        "terrain.kinks",
-        row=row.line.id,
-        posts=tuple(map(str, row.kinks)),
-        angle=math.degrees(float(row.bends.max())),
-        limit=math.degrees(KINK),
-    )
+        return ""
+    posts = ", ".join(map(str, row.kinks))
+    bend, limit = math.degrees(float(row.bends.max())), math.degrees(KINK)
+    told = f"row {row.line.id} bends by up to {bend:.1f}° at post {posts}: beyond"
+    return f"{told} {limit:g}° check such a post as the end of a row on both sides"
 
 
 def measure_plan(
@@ -468,10 +469,22 @@ def measure_plan(
     return surface, measure_rows(surface, plan, most=most, on_row=on_row)
 
 
-def describe_steep_above(row: MeasuredRow) -> Message | None:
+def describe_steep_above(row: MeasuredRow) -> str:
     """Sentence on steep ground beyond the zone's edge, whose snow does not count."""
     beyond = [one.steep - one.length.value for one in row.ends if one.end == "zone"]
     most = max(beyond, default=0.0)
     if most < _BEYOND:
-        return None
-    return say("terrain.steep_above", row=row.line.id, length=most)
+        return ""
+    told = f"Above row {row.line.id} the ground stays steep for {most:.0f} m beyond"
+    return f"{told} the edge of the starting zone: its snow does not count"
+
+
+def describe_end(upslope: Upslope) -> str:
+    """Words on what ends the snow above a row."""
+    return {
+        "row": f"up to row {upslope.row}",
+        "zone": "up to the edge of the starting zone",
+        "flat": "up to where the ground is flatter than 25°",
+        "cap": "the largest length that was looked for",
+        "edge": "up to a top, the edge of the grid, or a hole in it",
+    }[upslope.end]

@@ -1,32 +1,32 @@
-"""Net rows as lines on a map: GeoJSON in the coordinates of the grid."""
+"""Net rows as lines on a map, in the coordinates of the grid."""
 
 from __future__ import annotations
 
-import json
-import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import shapely
 
-from netdesign.edge.causes import explain
-from netdesign.edge.given_files import decode_utf8, list_faults, read_bounded
+from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.site.columns.all_tables import NETS
-from netdesign.site.columns.fields import convert_unit, normalise_unit, split_heading
-from netdesign.site.columns.lexicon import Lexicon
-from netdesign.terrain.crossings import crosses_itself
-from netdesign.terrain.crs import read_member
-from netdesign.terrain.layers import GEOPACKAGE, SHAPEFILE, Feature, read_layers
-from netdesign.words.message import Message, say
+from netdesign.site.as_typed import read_typed_cells
+from netdesign.terrain.crs import require_plane, require_same
+from netdesign.terrain.reading import DAMAGE, keep_quiet, read_file
 
-MOST_BYTES = 20_000_000
 ZONE = "starting zone"
-CLOSED = 2.0 + 1e-6  # a gap between two rows up to it holds as they do [m]
-_OPEN = ("id", "post_spacing", "net_height")  # that the terrain cannot be asked
+_MOST_BYTES = 20_000_000
+_CLOSED = 2.0 + 1e-6  # a gap between two rows up to it holds as they do [m]
+_FARTHEST = 1e8  # of a coordinate [m]
+# That the terrain cannot be asked, and what a refusal calls it.
+_OPEN = {"id": "id", "net_height": "net height", "post_spacing": "post spacing"}
+# What a file begins with, by the end of its name; all others are GeoJSON.
+_STARTS = {".shp": b"\x00\x00\x27\x0a", ".gpkg": b"SQLite format 3\x00"}
+_GEOJSON = "GeoJSON:"  # before a name: read so, or not at all
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,43 +85,25 @@ class Plan:
     ----------
     lines : tuple of NetLine
         In the order of the file.
-    zones : tuple of ndarray, shape (n, 2)
-        Outer rings of the starting zones [m].
+    zones : tuple of Polygon
+        Starting zones [m].
     crs : str
         Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
-    notes : tuple of Message
-        What the reader of the file has to be told.
+    unread : tuple of str
+        Properties of rows that are no columns of sheet Nets.
     closed_gaps : tuple of ClosedGap
         Between its rows.
     """
 
     lines: tuple[NetLine, ...]
-    zones: tuple[Floats, ...] = ()
+    zones: tuple[shapely.Polygon, ...] = ()
     crs: str = ""
-    notes: tuple[Message, ...] = ()
+    unread: tuple[str, ...] = ()
     closed_gaps: tuple[ClosedGap, ...] = field(init=False)
 
     def __post_init__(self) -> None:
         """Find the gaps once: each line of fall is held against them."""
         object.__setattr__(self, "closed_gaps", tuple(_list_closed_gaps(self.lines)))
-
-    def cut_to(self, places: Floats) -> Plan:
-        """Plan with the rows alone that the rectangle around places may meet.
-
-        Parameters
-        ----------
-        places : ndarray, shape (..., 2)
-            [m]; NaN does not count.
-        """
-        known = places[np.isfinite(places).all(axis=-1)]
-        low, high = known.min(axis=0) - CLOSED, known.max(axis=0) + CLOSED
-        near = (
-            one
-            for one in self.lines
-            if (one.points.max(axis=0) >= low).all()
-            and (one.points.min(axis=0) <= high).all()
-        )
-        return replace(self, lines=tuple(near))
 
 
 def _list_closed_gaps(lines: Sequence[NetLine]) -> Iterator[ClosedGap]:
@@ -129,7 +111,7 @@ def _list_closed_gaps(lines: Sequence[NetLine]) -> Iterator[ClosedGap]:
     ends = [(one, end) for one in lines for end in (0, -1)]
     places = np.array([one.points[end] for one, end in ends]).reshape(-1, 2)
     apart = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1))
-    for k, other_k in np.argwhere(np.triu(apart <= CLOSED, 1)):
+    for k, other_k in np.argwhere(np.triu(apart <= _CLOSED, 1)):
         (one, end), (other, of_other) = ends[k], ends[other_k]
         if one is not other:
             yield ClosedGap(
@@ -147,194 +129,134 @@ def read_plan(path: Path) -> Plan:
     TerrainError
         With all faults of the file at once.
     """
-    if path.suffix.lower() in (SHAPEFILE, GEOPACKAGE):
-        layers = read_layers(path)
-        plan = _build_plan(layers.features, path.name, list(layers.faults))
-        return replace(plan, crs=layers.crs, notes=layers.notes)
-    text = read_text(path)
+    start = _STARTS.get(path.suffix.lower())
+    content = read_file(path, _MOST_BYTES)
     try:
-        document = json.loads(text, parse_constant=_refuse_constant)
-    except (ValueError, RecursionError):
-        raise TerrainError(say("terrain.no_json", file=path.name)) from None
-    return parse_plan(document, path.name)
-
-
-def read_text(path: Path) -> str:
-    """Text of a GeoJSON file.
-
-    Raises
-    ------
-    TerrainError
-        If it cannot be read.
-    """
-    try:
-        return decode_utf8(read_bounded(path, MOST_BYTES))
-    except (OSError, ValueError) as error:
-        raise TerrainError(
-            say("terrain.unreadable", file=path.name, cause=explain(error))
-        ) from None
-
-
-def _refuse_constant(text: str) -> float:
-    raise ValueError(text)
-
-
-def parse_plan(document: object, file: str) -> Plan:
-    """Rows and zones of a GeoJSON document.
-
-    Raises
-    ------
-    TerrainError
-        With all faults at once.
-    """
-    faults: list[Message] = []
-    plan = _build_plan(_list_features(document, faults), file, faults)
-    return replace(plan, crs=read_member(document))
-
-
-def _build_plan(features: Iterable[Feature], file: str, faults: list[Message]) -> Plan:
-    """Rows and zones of some features, each with its place."""
-    lines: list[NetLine] = []
-    zones: list[Floats] = []
-    for place, feature in features:
-        kind, parts = _read_geometry(feature, place, faults)
-        properties = feature.get("properties")
-        given = properties if isinstance(properties, Mapping) else {}
-        if kind == "line":
-            line = _read_line(parts[0], given, place, faults)
-            lines += [line] if line else []
-        elif kind == "zone" and given.get("kind") == ZONE:
-            zones += parts
-            if any(crosses_itself(one) for one in parts):
-                crosses = say("terrain.zone_crosses")
-                faults.append(say("text.at_place", place=place, text=crosses))
-    names = Counter(one.id for one in lines)
-    faults += [say("terrain.twice", row=one) for one, n in names.items() if n > 1]
-    if not lines and not faults:
-        faults.append(say("terrain.no_rows"))
+        if start and not content.startswith(start):
+            raise ValueError(path)
+        with keep_quiet():
+            source = f"{'' if start else _GEOJSON}{path.absolute()}"
+            features, crs = _list_features(source)
+    except TerrainError as error:
+        raise TerrainError(f"{path.name}: {error}") from None
+    except DAMAGE:
+        told = "no GeoJSON, shapefile (.shp) or GeoPackage (.gpkg), or damaged"
+        raise TerrainError(f"{path.name}: {told}") from None
+    faults: list[str] = []
+    plan = _build_plan(features, crs, faults)
     if faults:
-        told = [say("text.at_place", place=file, text=one) for one in faults]
-        raise TerrainError(list_faults(told))
-    return Plan(lines=tuple(lines), zones=tuple(zones))
+        raise TerrainError("\n".join(f"{path.name}: {one}" for one in faults))
+    return plan
 
 
-def _list_features(document: object, faults: list[Message]) -> Iterator[Feature]:
-    features = document.get("features") if isinstance(document, Mapping) else None
-    if not isinstance(features, Sequence) or isinstance(features, str):
-        faults.append(say("terrain.no_features"))
-        return
-    for number, feature in enumerate(features, 1):
-        place = say("terrain.feature", number=number)
-        if isinstance(feature, Mapping):
-            yield place, feature
-        else:
-            faults.append(say("text.at_place", place=place, text=say("terrain.shape")))
+@dataclass(frozen=True, slots=True)
+class _Feature:
+    """A line of a layer: its place in the file, its shape and its properties."""
+
+    place: str
+    shape: Any
+    properties: Mapping[str, object]
 
 
-def _read_geometry(
-    feature: Mapping[str, object], place: Message, faults: list[Message]
-) -> tuple[str, list[Floats]]:
-    """Kind of a feature that counts here, and its points; "" of any other one."""
-    geometry = feature.get("geometry")
-    given = geometry if isinstance(geometry, Mapping) else {}
-    kind, points = given.get("type"), given.get("coordinates")
-    if kind == "MultiLineString" and isinstance(points, Sequence) and len(points) > 1:
-        told = say("terrain.parts", count=len(points))
-        faults.append(say("text.at_place", place=place, text=told))
-        return "", []
-    if kind == "MultiLineString":
-        found, least, named = [_read_points(_first(points))], 2, "line"
-    elif kind == "LineString":
-        found, least, named = [_read_points(points)], 2, "line"
-    elif kind == "Polygon":
-        found, least, named = [_read_points(_first(points))], 4, "zone"
-    elif kind == "MultiPolygon" and isinstance(points, Sequence):
-        found, least, named = [_read_points(_first(one)) for one in points], 4, "zone"
-    else:
-        return "", []
-    if named == "zone" and _has_hole(kind, points):
-        faults.append(say("text.at_place", place=place, text=say("terrain.zone_hole")))
-        return "", []
-    known = [one for one in found if one is not None and len(one) >= least]
-    if len(known) < len(found) or not found:
-        faults.append(say("text.at_place", place=place, text=say("terrain.points")))
-        return "", []
-    return named, known
+def _list_features(source: str) -> tuple[list[_Feature], str]:
+    """Features of all layers that have geometries, and their reference system."""
+    from pyogrio import list_layers, raw
+
+    found: list[_Feature] = []
+    crs = ""
+    layers = [str(name) for name, kind in list_layers(source) if kind is not None]
+    for layer in layers:
+        meta, _, content, columns = raw.read(source, layer)
+        shapes = shapely.from_wkb(list(content), on_invalid="ignore")
+        shapes = shapely.force_2d(shapes)
+        own = _find_system(source, meta["crs"] or "", shapes)
+        require_same(crs, own)
+        crs = crs or own
+        place = f"layer {make_printable(layer)[:60]}, " if len(layers) > 1 else ""
+        for number, shape in enumerate(shapes):
+            values = (_take(column[number]) for column in columns)
+            properties = dict(zip(map(str, meta["fields"]), values, strict=True))
+            found.append(_Feature(f"{place}feature {number + 1}", shape, properties))
+    return found, crs
 
 
-def _has_hole(kind: object, points: object) -> bool:
-    polygons = points if kind == "MultiPolygon" else [points]
-    return isinstance(polygons, Sequence) and any(
-        isinstance(one, Sequence) and len(one) > 1 for one in polygons
-    )
+def _find_system(source: str, crs: str, shapes: Any) -> str:
+    """System of a layer; GDAL gives degrees to GeoJSON that names none."""
+    ends = shapely.total_bounds(shapes)
+    if source.startswith(_GEOJSON) and crs == "EPSG:4326":
+        is_far = not (np.abs(ends) <= (180.0, 90.0, 180.0, 90.0)).all()
+        return "" if is_far else require_plane(crs)
+    return require_plane(crs)
 
 
-def _first(rings: object) -> object:
-    is_list = isinstance(rings, Sequence) and len(rings) > 0
-    return rings[0] if is_list and isinstance(rings, Sequence) else None
+def _take(value: Any) -> object:
+    """Plain value of a cell; None of an empty one, which is NaN in a column."""
+    plain = value.item() if hasattr(value, "item") else value
+    return None if plain != plain else plain
 
 
-def _read_points(points: object) -> Floats | None:
-    """Points that are finite numbers, each once; None of anything else."""
-    if not isinstance(points, Sequence) or isinstance(points, str):
-        return None
-    try:
-        found = np.array([(float(one[0]), float(one[1])) for one in points])
-    except (TypeError, ValueError, IndexError, KeyError, OverflowError):
-        return None
-    if found.size == 0 or not (np.abs(found) < 1e8).all():
-        return None
-    moves = np.ones(len(found), dtype=bool)
-    moves[1:] = (np.diff(found, axis=0) != 0.0).any(axis=1)
-    return found[moves]
+def _build_plan(features: Sequence[_Feature], crs: str, faults: list[str]) -> Plan:
+    lines: list[NetLine] = []
+    zones: list[shapely.Polygon] = []
+    unread: dict[str, None] = {}
+    for feature in features:
+        try:
+            if feature.properties.get("kind") == ZONE:
+                zones += _read_zones(feature.shape)
+                continue
+            line = _read_line(feature, unread)
+            lines += [line] if line else []
+        except TerrainError as error:
+            faults += [f"{feature.place}: {one}" for one in str(error).split("\n")]
+    names = Counter(one.id for one in lines)
+    faults += [f"two rows are named {one}" for one, n in names.items() if n > 1]
+    if not lines and not faults:
+        faults.append("no line with the properties of a net row")
+    return Plan(lines=tuple(lines), zones=tuple(zones), crs=crs, unread=tuple(unread))
 
 
-def _read_line(
-    points: Floats,
-    properties: Mapping[str, object],
-    place: Message,
-    faults: list[Message],
-) -> NetLine | None:
-    cells: dict[str, float | str] = {}
-    lexicon, count = Lexicon.of(NETS.fields, NETS), len(faults)
-    for heading, value in properties.items():
-        meaning = lexicon.match(str(heading))
-        field = meaning.field
-        if meaning.is_unclear:
-            readings = tuple(one.name for one in meaning.readings)
-            told = say("terrain.unclear", name=f"{heading!r:.60}", readings=readings)
-            faults.append(say("text.at_place", place=place, text=told))
-        if field is None or value is None:
-            continue
-        found = _read_value(str(heading), value, field.unit)
-        if found is None or field.key in cells:
-            told = say("terrain.property", name=f"{heading!r:.60}")
-            faults.append(say("text.at_place", place=place, text=told))
-        else:
-            cells[field.key] = found
-    for key in _OPEN:
-        is_number = isinstance(cells.get(key), float) and float(cells[key]) > 0.0
-        if not (cells.get(key) if key == "id" else is_number):
-            told = say("terrain.no_property", name=say(f"column.Nets.{key}"))
-            faults.append(say("text.at_place", place=place, text=told))
-    if len(faults) > count:
-        return None
-    name = cells["id"]
-    return NetLine(
-        id=f"{name:g}" if isinstance(name, float) else name, points=points, cells=cells
-    )
+def _read_zones(shape: Any) -> list[shapely.Polygon]:
+    """Polygons of a starting zone."""
+    zones = list(shapely.get_parts(shape)) if shape is not None else []
+    if not zones or not all(isinstance(one, shapely.Polygon) for one in zones):
+        raise TerrainError("a starting zone is a polygon of finite coordinates")
+    _require_finite(shape)
+    if any(one.interiors for one in zones):
+        raise TerrainError("a starting zone with a hole: draw zones without holes")
+    if not all(one.is_valid for one in zones):
+        told = "the outline of a starting zone crosses itself: draw its corners one"
+        raise TerrainError(f"{told} after the other")
+    return zones
 
 
-def _read_value(heading: str, value: object, unit: str) -> float | str | None:
-    """Number in the column's first unit, or words; None of what is neither."""
-    if isinstance(value, str):
-        return value.strip() or None
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return None
-    own = normalise_unit(split_heading(heading)[1])
-    if not math.isfinite(value):
-        return None
-    try:
-        return convert_unit(float(value), own, unit) if own and unit else float(value)
-    except KeyError:
-        return None
+def _require_finite(shape: Any) -> None:
+    if not (np.abs(shapely.get_coordinates(shape)) < _FARTHEST).all():
+        raise TerrainError("its coordinates are no finite numbers")
+
+
+def _read_line(feature: _Feature, unread: dict[str, None]) -> NetLine | None:
+    """Net row of a feature; None of a point or an area that is none."""
+    typed = read_typed_cells(feature.properties)
+    parts = shapely.get_parts(feature.shape).tolist() if feature.shape else []
+    is_line = bool(parts) and all(isinstance(one, shapely.LineString) for one in parts)
+    if not is_line:
+        if feature.shape is not None and len(_OPEN.keys() & typed.cells) < len(_OPEN):
+            return None
+        raise TerrainError("a net row without a line that can be read: draw it")
+    if len(parts) > 1:
+        told = "lines in one feature: draw a feature for each row"
+        raise TerrainError(f"{len(parts)} {told}")
+    _require_finite(feature.shape)
+    faults = list(typed.faults)
+    for key, name in _OPEN.items():
+        value = typed.cells.get(key)
+        if not value or (key != "id" and not (isinstance(value, float) and value > 0)):
+            told = f"the property {name!r} is missing, or is no number above 0"
+            faults.append(f"{told}; names in a shapefile end after ten letters")
+    if faults:
+        raise TerrainError("\n".join(faults))
+    unread |= dict.fromkeys(typed.unread)
+    points = shapely.get_coordinates(shapely.remove_repeated_points(feature.shape))
+    given = typed.cells["id"]
+    name = f"{given:.15g}" if isinstance(given, float) else given
+    return NetLine(id=name, points=points, cells=typed.cells)

@@ -5,47 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from io import BytesIO
-from pathlib import Path
 
-from netdesign.outcome import SiteDataError
-from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import (
-    ANCHORS,
-    ENDS,
-    LINKS,
-    NETS,
-    POSTS,
-    PROJECT,
-    RANGES,
-    ROPES,
-    SHEETS,
-    TESTS,
-)
-from netdesign.site.columns.fields import normalise
-from netdesign.site.headings import Table
-from netdesign.site.lines import ALL_ROWS
-from netdesign.site.reader import read_cells
-from netdesign.site.tables import find_table, read_rows
-from netdesign.site.template.workbook import (
-    list_starting_lines,
-    start_book,
-    write_notes,
-    write_sheet,
-)
+from netdesign.site.as_typed import Lines
+from netdesign.site.template.workbook import list_starting_lines, render_workbook
 from netdesign.terrain.measure import (
     CARED_ANGLE,
     CARED_LENGTH,
     LEAST_LENGTH,
     Band,
     MeasuredRow,
+    describe_end,
 )
 from netdesign.terrain.neighbours import find_gap
-from netdesign.words.catalogue import Language, render
-from netdesign.words.message import Message, say
-
-Lines = Mapping[str, Sequence[Mapping[str, object]]]
-_TAKEN = (PROJECT, RANGES, ANCHORS, ROPES, POSTS, LINKS, TESTS)  # that name no row
+from netdesign.words.catalogue import Language
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,13 +30,13 @@ class DerivedCell:
         Of the column.
     value : float, int or str
         In the column's first unit, or a word of the column.
-    note : Message
+    note : str
         Stretch, band, and what was typed instead.
     """
 
     key: str
     value: float | int | str
-    note: Message
+    note: str
 
 
 def derive_cells(
@@ -83,30 +55,31 @@ def derive_cells(
     grid : str
         Name of the grid's file, for the notes.
     """
+    of_row = f"From {grid}: posts at their spacing along the ground."
     cells = [
         _derive_slope(row, grid),
         *_derive_snow(row, grid),
         DerivedCell(
             key="altitude",
             value=round(float(row.posts[:, 2].max()), 1),
-            note=say("terrain.of_altitude", grid=grid),
+            note=f"From {grid}: the highest post.",
         ),
         DerivedCell(
             key="row_length",
             value=round(row.length, 2),
-            note=say("terrain.of_row", grid=grid),
+            note=of_row,
         ),
         DerivedCell(
             key="post_count",
             value=len(row.posts),
-            note=say("terrain.of_row", grid=grid),
+            note=of_row,
         ),
     ]
     if "snow_height" in row.line.cells and "snow_thickness" not in row.line.cells:
         cells.append(_derive_thickness(row, grid))
     gap = find_gap(row, rows)
     if gap is not None:
-        note = say("terrain.of_gap", grid=grid)
+        note = f"From {grid}: to the row beside, the larger of both ends."
         cells.append(DerivedCell(key="gap", value=round(gap, 2), note=note))
     return cells
 
@@ -117,114 +90,48 @@ def _derive_thickness(row: MeasuredRow, grid: str) -> DerivedCell:
     The row's slope is that of its snow: where its foot is flatter, snow is deeper.
     """
     height = float(row.line.cells["snow_height"])
+    told = f"From {grid}: {height:g} m of vertical snow height, normal to the flattest"
     return DerivedCell(
         key="snow_thickness",
         value=round(height * math.cos(row.flattest), 3),
-        note=say(
-            "terrain.of_thickness",
-            grid=grid,
-            height=height,
-            flattest=math.degrees(row.flattest),
-        ),
+        note=f"{told} ground at a post, {math.degrees(row.flattest):.1f}°.",
     )
 
 
 def _derive_slope(row: MeasuredRow, grid: str) -> DerivedCell:
     slope = row.slope
+    low, high, mean = map(math.degrees, (slope.low, slope.high, row.slopes.mean()))
     return DerivedCell(
         key="slope_angle",
         value=round(math.degrees(_choose(slope, CARED_ANGLE)), 2),
-        note=say(
-            "terrain.of_slope",
-            grid=grid,
-            posts=len(row.posts),
-            low=math.degrees(slope.low),
-            high=math.degrees(slope.high),
-            mean=math.degrees(float(row.slopes.mean())),
-        ),
+        note=f"From {grid}: mean on the line of fall of each post, over the snow of "
+        f"the row; the steepest of {len(row.posts)} posts. {low:.1f}° to {high:.1f}° "
+        f"by the grid's noise; mean of the posts {mean:.1f}°. "
+        "Where the band is wider than 0.5° its upper end stands here.",
     )
 
 
 def _derive_snow(row: MeasuredRow, grid: str) -> Iterator[DerivedCell]:
     """Longest snow above any post; and whether a row stands above any of them."""
-    length = row.upslope.length
-    end = say(f"terrain.end_{row.upslope.end}", row=row.upslope.row)
+    length, end = row.upslope.length, describe_end(row.upslope)
     yield DerivedCell(
         key="upslope_length",
         value=round(_choose(length, CARED_LENGTH), 2),
-        note=say(
-            "terrain.of_length", grid=grid, low=length.low, high=length.high, end=end
-        ),
+        note=f"From {grid}: along the line of fall, {end}; the longest of the posts. "
+        f"{length.low:.1f} to {length.high:.1f} m by the rule of 25°. "
+        "Where the band is wider than 0.1 m its upper end stands here.",
     )
     if row.has_row_above is not None:  # left empty, a row above alike is taken
         yield DerivedCell(
             key="row_above",
             value="alike" if row.has_row_above else "none",
-            note=say("terrain.of_row_above", grid=grid, end=end),
+            note=f"From {grid}: the upslope length goes {end}; "
+            "its anchors may stand near.",
         )
 
 
 def _choose(band: Band, cared: float) -> float:
     return band.high if band.high - band.low > cared else band.value
-
-
-def read_other_sheets(path: Path, rows: Sequence[str]) -> tuple[Lines, tuple[str, ...]]:
-    """Lines of a workbook's project, ranges, types and row ends, as typed.
-
-    Of sheet Ends those of the rows that the plan has, or of all rows.
-
-    Parameters
-    ----------
-    path : Path
-        Workbook.
-    rows : sequence of str
-        Names of the plan's rows.
-
-    Returns
-    -------
-    mapping, tuple of str
-        Lines by sheet; names on sheet Ends that the plan does not have.
-
-    Raises
-    ------
-    SiteDataError
-        If one of them cannot be read.
-    """
-    workbook = read_cells(path)
-    findings: list[Finding] = []
-    found: dict[str, list[Mapping[str, object]]] = {}
-    for plan in (*_TAKEN, ENDS):
-        table = find_table(workbook, plan, findings)
-        if table is None:
-            continue
-        if plan is RANGES:  # its units stand in a column of their own
-            found[plan.name] = list(_list_as_typed(table))
-            continue
-        found[plan.name] = [
-            {key: one.value for key, one in row.items() if one.state == "given"}
-            for row in read_rows(table, findings)
-        ]
-    errors = [one for one in findings if one.severity == "error"]
-    if errors:
-        raise SiteDataError(errors)
-    ends = found.get(ENDS.name, [])
-    found[ENDS.name] = [one for one in ends if _is_of_plan(one, rows)]
-    others = (str(one.get("row")) for one in ends if not _is_of_plan(one, rows))
-    return found, tuple(dict.fromkeys(others))
-
-
-def _is_of_plan(line: Mapping[str, object], rows: Sequence[str]) -> bool:
-    name = str(line.get("row", ""))
-    return name in rows or normalise(name) in ALL_ROWS
-
-
-def _list_as_typed(table: Table) -> Iterator[Mapping[str, object]]:
-    for row in table.rows:
-        cells = {
-            key: table.sheet.cell(row, column.number)
-            for key, column in table.columns.items()
-        }
-        yield {key: one.value for key, one in cells.items() if not one.is_blank}
 
 
 def write_workbook(
@@ -241,7 +148,7 @@ def write_workbook(
     others : mapping or None
         Lines of the other sheets.
     language : str
-        Of sheets, headings and notes.
+        Of sheets and headings.
     """
     lines, notes = [], []
     for row in rows:
@@ -252,23 +159,9 @@ def write_workbook(
         values = {key: one.value for key, one in derived.items() if _is_told(one)}
         lines.append({**values, **typed, "id": row.line.id})
         notes.append({key: _tell(one, typed) for key, one in derived.items()})
-    content = BytesIO()
-    book = start_book(content, language)
-    write_notes(book.workbook, language)
-    kept = {**list_starting_lines(), **{k: v for k, v in (others or {}).items() if v}}
-    columns = {field.key: column for column, field in enumerate(NETS.fields)}
-    for plan in SHEETS:
-        if plan is not NETS:
-            write_sheet(book, plan, kept.get(plan.name, ()))
-            continue
-        sheet = write_sheet(book, plan, lines)
-        for number, of_row in enumerate(notes, start=1):
-            for key, note in of_row.items():
-                text = render(note, language)
-                size = {"x_scale": 2.4, "y_scale": 1.6, "author": ""}
-                sheet.write_comment(number, columns[key], text, size)
-    book.workbook.close()
-    return content.getvalue()
+    kept = {name: own for name, own in (others or {}).items() if own}
+    sheets = {**list_starting_lines(), **kept, "Nets": lines}
+    return render_workbook(sheets, language, notes={"Nets": notes})
 
 
 def _is_told(cell: DerivedCell) -> bool:
@@ -277,8 +170,9 @@ def _is_told(cell: DerivedCell) -> bool:
     return not is_length or float(cell.value) >= LEAST_LENGTH
 
 
-def _tell(cell: DerivedCell, typed: Mapping[str, object]) -> Message:
+def _tell(cell: DerivedCell, typed: Mapping[str, object]) -> str:
     """Note on a cell; of one that the row's properties give, what the grid says."""
     if cell.key not in typed:
         return cell.note
-    return say("terrain.typed", value=f"{cell.value}", note=cell.note)
+    told = "Typed as a property of the row. The terrain gives"
+    return f"{told} {cell.value}. {cell.note}"

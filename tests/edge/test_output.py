@@ -173,7 +173,6 @@ WRITING = {
     ("standards", "copy"): "standards copy eurocode {}/mine",
     ("tests",): "tests {}/site.xlsx --plan --out {}/form.xlsx",
     ("terrain",): "terrain --example --out {}/ground.xlsx",
-    ("layout",): "layout --example --out {}",
 }
 
 

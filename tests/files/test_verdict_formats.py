@@ -1,18 +1,14 @@
-"""The map of verdicts as GeoPackage and as drawing, read back by their libraries."""
+"""The map of verdicts as GeoJSON and as drawing, read back by their libraries."""
 
+import json
 import math
-import subprocess
-import sys
 
 import ezdxf
 import numpy as np
 import pyogrio.raw
 import pytest
 
-from netdesign.files.verdict_map import require_format, write_verdicts
-from netdesign.outcome import OutputError, TerrainError
-from netdesign.terrain.crs import read_member
-from netdesign.terrain.wkb import decode_wkb
+from netdesign.files.verdict_map import write_verdicts
 
 VERDICTS = ("pass", "fail", "not_proven", "declared")
 EVIL = "A|1;\n0\nSECTION %%u <>/"
@@ -49,57 +45,21 @@ def make(properties, coordinates, kind="Point"):
     return {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
-def write(tmp_path, name, features, *, crs="EPSG:2056", language="en"):
-    contents = write_verdicts(features, name, crs, language)
-    assert contents == write_verdicts(features, name, crs, language)  # no time in it
+def write(tmp_path, name, features, language="en"):
+    contents = write_verdicts({"features": features}, name, language)
+    # no time in it
+    assert contents == write_verdicts({"features": features}, name, language)
     for file, content in contents.items():
         (tmp_path / file).write_bytes(content)
     return tmp_path / name
-
-
-def test_a_geopackage_has_a_layer_of_each_kind_with_all_columns(tmp_path):
-    features = draw_features()
-    path = write(tmp_path, "m.gpkg", features)
-    layers = dict(pyogrio.list_layers(path).tolist())
-    assert layers == {"net row": "LineString Z", "post": "Point Z", "anchor": "Point Z"}
-    for kind in layers:
-        own = [one for one in features if one["properties"]["kind"] == kind]
-        meta, _, shapes, columns = pyogrio.raw.read(path, layer=kind)
-        assert meta["crs"] == "EPSG:2056"
-        for one, shape in zip(own, shapes, strict=True):
-            flat = np.array(one["geometry"]["coordinates"])
-            read = decode_wkb(shape)["coordinates"]
-            assert np.array(read) == pytest.approx(flat[..., :2], abs=0.0)
-            heights = np.frombuffer(
-                shape, "<f8", offset=len(shape) - 24 * flat[..., 0].size
-            )
-            assert heights[2::3] == pytest.approx(flat[..., 2].ravel(), abs=0.0)
-        for name, column in zip(meta["fields"], columns, strict=True):
-            for one, value in zip(own, column, strict=True):
-                assert is_same(one["properties"].get(name), value), name
-    assert (tmp_path / "m-setting-out.csv").exists()
-
-
-def is_same(given, value):
-    if given is None:
-        return value is None or math.isnan(value)
-    return value == (", ".join(map(str, given)) if isinstance(given, list) else given)
-
-
-def test_a_geopackage_without_a_system_has_none_and_degrees_are_refused(tmp_path):
-    path = write(tmp_path, "m.gpkg", draw_features(), crs="")
-    named = pyogrio.raw.read(path, layer="post")[0]["crs"]
-    assert named is None or "EPSG" not in named
-    with pytest.raises(TerrainError, match="no map plane"):
-        write_verdicts(draw_features(), "m.gpkg", "EPSG:4326", "en")
 
 
 @pytest.mark.parametrize(
     ("language", "layers"),
     [
         ("en", {"Net row - FAIL", "Foot anchor - NOT PROVEN"}),
-        ("fr", {"Ligne de filets - NON VÉRIFIÉ", "Foot anchor - NON JUSTIFIÉ"}),
-        ("de", {"Werkreihe - NICHT ERFÜLLT", "Foot anchor - NICHT NACHGEWIESEN"}),
+        ("fr", {"Net row - NON VÉRIFIÉ", "Foot anchor - NON JUSTIFIÉ"}),
+        ("de", {"Net row - NICHT ERFÜLLT", "Foot anchor - NICHT NACHGEWIESEN"}),
     ],
 )
 def test_a_drawing_has_posts_heads_and_axes_in_metres(tmp_path, language, layers):
@@ -145,39 +105,12 @@ def test_names_that_would_break_a_drawing_do_not(tmp_path):
     assert all("SECTION" in one and "%%" not in one for one in texts)
 
 
-def test_geojson_names_its_system_where_it_is_known():
-    import json
-
-    written = write_verdicts(draw_features(), "m.geojson", "EPSG:2056", "en")
+def test_geojson_is_written_with_all_that_the_rows_had_and_read_again(tmp_path):
+    name = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}
+    document = {"type": "FeatureCollection", "crs": name, "features": draw_features()}
+    written = write_verdicts(document, "m.geojson", "en")
     assert set(written) == {"m.geojson", "m.qml", "m-setting-out.csv"}
-    assert read_member(json.loads(written["m.geojson"])) == "EPSG:2056"
-    plain = write_verdicts(draw_features(), "m.geojson", "", "en")
-    assert "crs" not in json.loads(plain["m.geojson"])
-
-
-def test_a_format_is_refused_before_any_work(monkeypatch):
-    from netdesign.terrain import libraries
-
-    with pytest.raises(OutputError, match=r"ends in \.geojson, \.gpkg, \.dxf"):
-        require_format("m.dwg")
-    require_format("M.DXF")
-    monkeypatch.setattr(libraries, "find_spec", lambda _: None)
-    require_format("m.geojson")
-    for name in ("m.dxf", "m.gpkg"):
-        with pytest.raises(OutputError, match="pip install"):
-            require_format(name)
-
-
-def test_libraries_are_loaded_for_their_format_alone():
-    program = """
-import sys
-from netdesign.files.verdict_map import write_verdicts
-for name in (None, "m.geojson", "m.dxf"):
-    if name:
-        write_verdicts([], name, "", "en")
-    print({"ezdxf", "pyogrio", "rasterio"} & set(sys.modules))
-"""
-    ended = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
-    assert ended.stdout.splitlines() == ["set()", "set()", "{'ezdxf'}"]
+    assert json.loads(written["m.geojson"]) == document
+    (tmp_path / "m.geojson").write_bytes(written["m.geojson"])
+    meta, _, shapes, _ = pyogrio.raw.read(tmp_path / "m.geojson")
+    assert (meta["crs"], len(shapes)) == ("EPSG:2056", len(document["features"]))

@@ -1,14 +1,15 @@
 """Grids and rows as the files that offices have, written by the libraries."""
 
 import json
-import struct
 import warnings
 
 import numpy as np
 import pyogrio.raw
 import rasterio
+import shapely
 from rasterio.transform import Affine
 
+SHORT = {"net height [m]": "net height", "post spacing [m]": "post dist"}
 SWISS = "EPSG:2056"
 GIVEN = {"id": "A", "net height [m]": 3.5, "post spacing [m]": 3.0}
 
@@ -25,6 +26,11 @@ def write_asc(grid):
     return (head + "\n".join(rows)).encode()
 
 
+def find_north(grid):
+    """Middle of the last cell of a column."""
+    return grid.south + grid.cell * (len(grid.heights) - 1)
+
+
 def write_tif(grid, *, crs=SWISS, transform=None, tags=None, place=True, **special):
     """Bytes of a GeoTIFF of a grid; its first band holds the heights."""
     heights = np.nan_to_num(grid.heights[::-1], nan=-9999.0)
@@ -37,7 +43,7 @@ def write_tif(grid, *, crs=SWISS, transform=None, tags=None, place=True, **speci
         "crs": crs,
     } | special
     if place:
-        west, north = grid.west - 0.5 * grid.cell, grid.north + 0.5 * grid.cell
+        west, north = grid.west - 0.5 * grid.cell, find_north(grid) + 0.5 * grid.cell
         profile["transform"] = transform or Affine(
             grid.cell, 0.0, west, 0.0, -grid.cell, north
         )
@@ -48,15 +54,13 @@ def write_tif(grid, *, crs=SWISS, transform=None, tags=None, place=True, **speci
         return file.read()
 
 
-def pack_wkb(points, kind=2, size=3):
-    """Line, ring or point as WKB of OGC, with heights or without."""
-    code = kind | (0x80000000 if size == 3 else 0)
-    flat = [one for point in points for one in (*point, 1500.0)[:size]]
-    numbers = struct.pack(f"<{len(flat)}d", *flat)
-    if kind == 1:
-        return struct.pack("<BI", 1, code) + numbers
-    counts = (1, len(points)) if kind == 3 else (len(points),)
-    return struct.pack(f"<BI{len(counts)}I", 1, code, *counts) + numbers
+def pack_shapes(drawn, kind=2, size=3):
+    """Lines, rings or points as WKB, with heights or without."""
+    shape = {1: lambda one: shapely.Point(one[0]), 2: shapely.LineString}
+    shapes = [shape.get(kind, shapely.Polygon)(one) for one in drawn]
+    return shapely.to_wkb(
+        shapely.force_3d(shapes, 1500.0) if size == 3 else shapely.force_2d(shapes)
+    )
 
 
 def write_rows(path, rows, *, kind=2, layer="rows", crs=SWISS, size=3, **special):
@@ -66,7 +70,9 @@ def write_rows(path, rows, *, kind=2, layer="rows", crs=SWISS, size=3, **special
         return path
     names = list(rows[0][1])
     columns = [stack([given[name] for _, given in rows]) for name in names]
-    geometry = stack([pack_wkb(points, kind, size) for points, _ in rows])
+    if path.suffix == ".shp":
+        names = [SHORT.get(one, one) for one in names]
+    geometry = pack_shapes([points for points, _ in rows], kind, size)
     shape = {1: "Point", 2: "LineString", 3: "Polygon"}[kind]
     with warnings.catch_warnings(action="ignore"):  # of names that are cut
         pyogrio.raw.write(

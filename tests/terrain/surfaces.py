@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import shapely
 
 from netdesign.terrain.grid import Grid
 from netdesign.terrain.plan import NetLine, Plan
@@ -39,7 +40,7 @@ def draw_line(points, *, name="R1", turned=0.0, shift=(0.0, 0.0), **cells):
 
 
 def plan_of(*lines, zones=()):
-    return Plan(lines=lines, zones=zones)
+    return Plan(lines=lines, zones=tuple(map(shapely.Polygon, zones)))
 
 
 def plane(angle):

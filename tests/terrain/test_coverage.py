@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from netdesign.terrain.coverage import find_coverage
-from netdesign.terrain.crossings import is_inside
 from netdesign.terrain.measure import measure_plan
 from netdesign.terrain.neighbours import find_gap
 from netdesign.terrain.site_lines import derive_cells
@@ -59,12 +58,6 @@ def test_gap_of_rows_beside_and_above():
     assert find_gap(a, [a, b, c, d]) == pytest.approx(3.0)
     assert find_gap(a, [a, b, d]) is None  # one end is free
     assert find_gap(d, [a, b, c, d]) is None
-
-
-def test_places_inside_a_ring_with_a_bay():
-    shape = ring((0, 0), (4, 0), (4, 4), (2, 1), (0, 4))
-    places = ring((1, 1), (2, 3), (3.5, 3), (5, 1), (2, 0.5))
-    assert is_inside(places, shape).tolist() == [True, False, True, False, True]
 
 
 def test_a_row_above_some_posts_alone_is_one():

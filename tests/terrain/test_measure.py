@@ -256,11 +256,10 @@ def test_steep_ground_beyond_a_zone_is_told():
     zone = np.array([(-40.0, -30.0), (40.0, -30.0), (40.0, -4.0), (-40.0, -4.0)])
     row = measure(grid, draw_line(ALONG_CONTOUR), zones=(zone,))
     told = describe_steep_above(row)
-    assert told is not None
     beyond = row.ends[0].steep - row.upslope.length.value
-    assert told.arguments["length"] == pytest.approx(beyond)
+    assert f" {beyond:.0f} m " in told
     assert beyond > 20.0
-    assert describe_steep_above(measure(grid, draw_line(ALONG_CONTOUR))) is None
+    assert describe_steep_above(measure(grid, draw_line(ALONG_CONTOUR))) == ""
 
 
 def test_a_row_below_a_zone_has_its_snow_and_one_beside_it_none():

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from netdesign.outcome import TerrainError
-from netdesign.terrain.plan import parse_plan, read_plan
+from netdesign.terrain.plan import read_plan
 
 
 def feature(points, shape="LineString", **properties):
@@ -17,6 +17,18 @@ def feature(points, shape="LineString", **properties):
 
 def collect(*features):
     return {"type": "FeatureCollection", "features": list(features)}
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Plan of a document."""
+
+    def parse(document):
+        path = tmp_path / "rows.geojson"
+        path.write_text(json.dumps(document))
+        return read_plan(path)
+
+    return parse
 
 
 LINE = [[700.0, 200.0], [730.0, 201.0, 1500.0], [760.0, 203.0]]
@@ -31,30 +43,30 @@ GIVEN = {"id": "A", "net height [m]": 3.5, "post spacing": 3.0}
         {"ligne": "A", "hauteur du filet [cm]": 350.0, "entraxe des montants": 3},
     ],
 )
-def test_properties_are_the_workbooks_columns_in_any_language(properties):
-    plan = parse_plan(collect(feature(LINE, **properties)), "rows.geojson")
+def test_properties_are_the_workbooks_columns_in_any_language(read, properties):
+    plan = read(collect(feature(LINE, **properties)))
     (line,) = plan.lines
     assert (line.id, line.net_height, line.post_spacing) == ("A", 3.5, 3.0)
     assert line.points.tolist() == [[700, 200], [730, 201], [760, 203]]
 
 
-def test_zones_other_columns_and_what_is_no_matter_are_read():
+def test_zones_other_columns_and_what_is_no_matter_are_read(read):
     ring = [[0, 0], [9, 0], [9, 9], [0, 0]]
-    plan = parse_plan(
+    plan = read(
         collect(
             feature(LINE, **GIVEN, **{"ground of the anchors": "till"}, colour="red"),
             feature([ring], "Polygon", kind="starting zone"),
             feature([[ring], [ring]], "MultiPolygon", kind="starting zone"),
             feature([ring], "Polygon", kind="house"),
             feature([1, 2], "Point", kind="station"),
-        ),
-        "rows.geojson",
+        )
     )
     assert len(plan.zones) == 3
     assert plan.lines[0].cells["ground"] == "till"
+    assert plan.unread == ("'colour'",)
 
 
-def test_a_zone_whose_outline_crosses_itself_is_refused():
+def test_a_zone_whose_outline_crosses_itself_is_refused(read):
     """Corners on a circle in turn, then two neighbours exchanged."""
     draws = random.Random(51)
     for count in (4, 7, 12):
@@ -72,15 +84,15 @@ def test_a_zone_whose_outline_crosses_itself_is_refused():
             closed = [*points, points[0]]
             lines = feature(LINE, **GIVEN), feature([closed], "Polygon", kind=kind)
             if not crosses:
-                parse_plan(collect(*lines), "rows.geojson")
+                read(collect(*lines))
                 continue
             with pytest.raises(TerrainError) as refused:
-                parse_plan(collect(*lines), "rows.geojson")
-            assert "feature 2" in str(refused.value.message)
-            assert "crosses itself" in str(refused.value.message)
+                read(collect(*lines))
+            assert "feature 2" in str(refused.value)
+            assert "crosses itself" in str(refused.value)
 
 
-def test_all_faults_are_told_at_once():
+def test_all_faults_are_told_at_once(read):
     bad = collect(
         feature(LINE, **GIVEN),
         feature(LINE, **GIVEN),
@@ -88,14 +100,21 @@ def test_all_faults_are_told_at_once():
         feature([[1.0, 2.0]], **GIVEN),
         feature(LINE, id="B", net_height=-3.0),
         feature(LINE, **{**GIVEN, "id": "C", "net height": 4.0}),
-        "nothing",
+        {**feature(LINE, **{**GIVEN, "id": "D"}), "geometry": None},
+        feature([LINE], "Polygon", **{**GIVEN, "id": "E"}),
     )
     with pytest.raises(TerrainError) as caught:
-        parse_plan(bad, "rows.geojson")
+        read(bad)
     told = str(caught.value).splitlines()
-    assert len(told) == 7
+    assert len(told) == 8
     assert all(line.startswith("rows.geojson") for line in told)
-    for part in ("two rows are named A", "feature 3", "feature 7", "'net height'"):
+    for part in (
+        "two rows are named A",
+        "feature 3",
+        "feature 7",
+        "feature 8",
+        "'net height'",
+    ):
         assert [line for line in told if part in line]
 
 
@@ -110,7 +129,15 @@ def test_what_is_no_geojson_is_refused_in_words(tmp_path, text):
         read_plan(path)
 
 
-def test_written_rows_are_read_again(tmp_path):
+def test_written_rows_are_read_again(read):
+    assert read(collect(feature(LINE, **GIVEN))).lines[0].id == "A"
+
+
+def test_degrees_are_refused_and_a_byte_order_mark_is_none(tmp_path):
     path = tmp_path / "rows.geojson"
-    path.write_text(json.dumps(collect(feature(LINE, **GIVEN))))
+    degrees = [[9.81, 46.81], [9.82, 46.81]]
+    path.write_text(json.dumps(collect(feature(degrees, **GIVEN))))
+    with pytest.raises(TerrainError, match="no map plane"):
+        read_plan(path)
+    path.write_text(json.dumps(collect(feature(LINE, **GIVEN))), encoding="utf-8-sig")
     assert read_plan(path).lines[0].id == "A"

@@ -32,8 +32,6 @@ FAMILIES: tuple[str, ...] = (
         "route.",
         "shared_sum.",
         "tested.",
-        "terrain.",
-        "terrain_page.",
     ),
     *("reference.", "case_kind.", "piece.", "verify_table."),
     *("against_figure.", "against_clock.", "against_table."),

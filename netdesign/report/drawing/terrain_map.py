@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
+import shapely
+from contourpy import contour_generator
 
 from netdesign.numerics.arrays import Floats
 from netdesign.report.drawing.label_board import LabelBoard, write_label
@@ -20,7 +22,6 @@ from netdesign.report.drawing.plain_svg import (
     Frame,
     show_place,
 )
-from netdesign.report.words import Words
 from netdesign.terrain.coverage import Coverage
 from netdesign.terrain.measure import MeasuredRow
 from netdesign.terrain.plan import Plan
@@ -58,8 +59,8 @@ class Extract:
 
 def extract_ground(surface: Surface, plan: Plan) -> Extract:
     """Ground around the rows and zones of a plan."""
-    corners = [*(line.points for line in plan.lines), *plan.zones]
-    points = np.concatenate(corners)
+    lines = [line.points for line in plan.lines]
+    points = np.concatenate([*lines, shapely.get_coordinates(plan.zones)])
     low, high = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
     width, height = high - low
     side = max(surface.grid.cell, float(max(width, height)) / _TILES)
@@ -92,15 +93,14 @@ def draw_map(
     plan: Plan,
     rows: Sequence[MeasuredRow],
     coverage: Coverage,
-    words: Words,
 ) -> str:
     """Relief with contours, rows, lines of fall, zones, and what no row holds."""
-    chart = Chart(language=words.language)
+    chart = Chart(language="en")
     _paint(chart, extract, _shade_relief(extract))
     _hatch(chart, extract.frame, coverage)
     step = _draw_contours(chart, extract)
     for zone in plan.zones:
-        ring = np.vstack((zone, zone[:1]))
+        ring = shapely.get_coordinates(zone)
         chart.line(extract.frame.place(ring), width=1.2, dash="6 3")
     for row in rows:
         for post, end in enumerate(row.ends):
@@ -109,14 +109,13 @@ def draw_map(
             chart.line(extract.frame.place(path), stroke=GREY, width=0.4)
     _draw_rows(chart, extract.frame, rows)
     below = _draw_scale(chart, extract.frame)
-    told = words("terrain_page.contours", step=step)
-    chart.text(extract.frame.left, below, told)
-    return chart.write(below + 8.0, words("terrain_page.map"))
+    chart.text(extract.frame.left, below, f"contours every {step:g} m")
+    return chart.write(below + 8.0, "Map")
 
 
-def draw_slopes(extract: Extract, rows: Sequence[MeasuredRow], words: Words) -> str:
+def draw_slopes(extract: Extract, rows: Sequence[MeasuredRow]) -> str:
     """Slope classes in greys, with the rows."""
-    chart = Chart(language=words.language)
+    chart = Chart(language="en")
     angles = np.degrees(np.arctan(np.hypot(*np.moveaxis(extract.gradient, -1, 0))))
     classes = np.searchsorted(SLOPE_CLASSES, angles, side="right").astype(float)
     classes[~np.isfinite(angles)] = math.nan
@@ -130,10 +129,10 @@ def draw_slopes(extract: Extract, rows: Sequence[MeasuredRow], words: Words) -> 
         chart.rectangle(left, below, width, 9.0, fill)
         first = f"{SLOPE_CLASSES[place - 1]}°" if place else "0°"
         chart.text(left + 1.0, below + 10.0 + TEXT_PT, first)
-    return chart.write(below + 16.0 + TEXT_PT, words("terrain_page.slopes"))
+    return chart.write(below + 16.0 + TEXT_PT, "Slope classes")
 
 
-def draw_profile(row: MeasuredRow, words: Words) -> str:
+def draw_profile(row: MeasuredRow) -> str:
     """Profile of the ground along the line of fall of the steepest post."""
     post = int(np.argmax(row.slopes))
     above = row.above
@@ -158,7 +157,7 @@ def draw_profile(row: MeasuredRow, words: Words) -> str:
         y_low=float(heights.min()) - 0.5,
         y_high=float(heights.min()) - 0.5 + rise,
     )
-    chart = Chart(language=words.language)
+    chart = Chart(language="en")
     chart.axes(frame)
     chart.line(frame.place(zip(out, heights, strict=True)))
     net = [(0.0, float(heights[0])), (-head[0], head[1])]
@@ -166,10 +165,15 @@ def draw_profile(row: MeasuredRow, words: Words) -> str:
     at = float(np.interp(end, above.lengths[keep, post], out))
     top = frame.y(float(np.interp(at, out, heights)))
     chart.line([(frame.x(at), top - 12.0), (frame.x(at), top)], dash="2 2")
-    told = words("terrain_page.of_profile", post=post + 1, slope=math.degrees(slope))
+    told = f"post {post + 1}, mean slope {math.degrees(slope):.1f}°"
     chart.text(frame.left + 6.0, frame.top + TEXT_PT, told)
-    title = words("terrain_page.profile", row=row.line.id)
-    return chart.write(frame.top + frame.height + 24.0, title)
+    return chart.write(frame.top + frame.height + 24.0, name_profile(row))
+
+
+def name_profile(row: MeasuredRow) -> str:
+    """Caption of a row's profile."""
+    told = "ground along the line of fall, net and end of its snow; axes in metres"
+    return f"Row {row.line.id}: {told}"
 
 
 def _shade_relief(extract: Extract) -> Floats:
@@ -235,47 +239,19 @@ def _draw_contours(chart: Chart, extract: Extract) -> float:
         (one for one in _CONTOURS if (high - low) / one <= _MOST_CONTOURS),
         _CONTOURS[-1],
     )
-    paths = []
-    for level in np.arange(math.ceil(low / step) * step, high, step):
-        for x0, y0, x1, y1 in list_contour(extract, float(level)):
-            start = f"M{show_place(x0)} {show_place(y0)}"
-            paths.append(f"{start}L{show_place(x1)} {show_place(y1)}")
-    path = "".join(paths)
+    frame = extract.frame
+    lines, columns = extract.heights.shape
+    east = frame.x_low + extract.side * (np.arange(columns) + 0.5)
+    north = frame.y_low + extract.side * (np.arange(lines) + 0.5)
+    drawn = contour_generator(east, north, np.ma.masked_invalid(extract.heights))
+    path = "".join(
+        "M" + "L".join(f"{show_place(x)} {show_place(y)}" for x, y in frame.place(line))
+        for level in np.arange(math.ceil(low / step) * step, high, step)
+        for line in map(np.asarray, drawn.lines(float(level)))
+    )
     look = f'stroke="{GREY}" stroke-width="0.4" fill="none"'
     chart.shapes.append(f'<path d="{path}" {look}/>')
     return float(step)
-
-
-def list_contour(
-    extract: Extract, level: float
-) -> list[tuple[float, float, float, float]]:
-    """Short lines of a contour on the page: one through each triangle that it meets."""
-    frame, side, z = extract.frame, extract.side, extract.heights - level
-    lines, columns = z.shape
-    places = np.meshgrid(
-        frame.x_low + side * (np.arange(columns) + 0.5),
-        frame.y_low + side * (np.arange(lines) + 0.5),
-    )
-    found = []
-    for corners in (((0, 0), (0, 1), (1, 1)), ((0, 0), (1, 1), (1, 0))):
-        parts = [
-            [one[j : lines - 1 + j, i : columns - 1 + i] for one in (z, *places)]
-            for j, i in corners
-        ]
-        ends = []
-        for one, other in ((0, 1), (1, 2), (2, 0)):
-            (za, xa, ya), (zb, xb, yb) = parts[one], parts[other]
-            meets = (za > 0.0) != (zb > 0.0)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                share = np.where(meets, za / (za - zb), math.nan)
-            ends.append(np.stack((xa + share * (xb - xa), ya + share * (yb - ya))))
-        sides = np.stack(ends)  # edges, coordinates, lines, columns
-        met = np.isfinite(sides[:, 0]).sum(axis=0) == 2
-        for j, i in np.argwhere(met):
-            cut = sides[:, :, j, i]
-            (x0, y0), (x1, y1) = cut[np.isfinite(cut[:, 0])]
-            found.append((frame.x(x0), frame.y(y0), frame.x(x1), frame.y(y1)))
-    return found
 
 
 def _draw_rows(chart: Chart, frame: Frame, rows: Sequence[MeasuredRow]) -> None:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from netdesign.report.blocks import (
+    Column,
     Figure,
     Paragraph,
     Part,
     Table,
     fixed_cell,
-    key_columns,
     masthead,
     notes,
     section,
@@ -22,23 +22,34 @@ from netdesign.report.drawing.terrain_map import (
     draw_profile,
     draw_slopes,
     extract_ground,
+    name_profile,
 )
 from netdesign.report.page.render import render_page
 from netdesign.report.words import Words, show_text
 from netdesign.terrain.coverage import Coverage
-from netdesign.terrain.measure import MeasuredRow, describe_kinks, describe_steep_above
+from netdesign.terrain.measure import (
+    MeasuredRow,
+    describe_end,
+    describe_kinks,
+    describe_steep_above,
+)
 from netdesign.terrain.plan import Plan
 from netdesign.terrain.surface import Surface
-from netdesign.words.catalogue import Language
-from netdesign.words.message import say
 
-PAGE_FILE = "terrain.html"
-_COLUMNS = (
-    *("row", "slope", "band", "mean", "aspect", "altitude", "length", "posts"),
-    *("upslope", "upslope_end", "below", "kinks"),
+_TITLE = "Net rows on the terrain"
+_MAP = (
+    "Relief with contours; rows thick, lines of fall up to the end of their snow thin, "
+    "starting zones dashed. Crosses: steeper than 25° and held by no row."
 )
-
-_TEXTS = ("row", "upslope_end", "below", "kinks")
+_SLOPES = (
+    "Slope angle in classes, the darker the steeper; a class begins at the number on "
+    "its left."
+)
+_NUMBERS = (
+    *("Slope of the steepest post [°]", "Its band [°]", "Mean of the posts [°]"),
+    *("Aspect [°]", "Altitude [m]", "Length [m]", "Posts", "Upslope length [m]"),
+)
+_TEXTS = ("It ends", "Row below, distance [m]", "Kinks at posts")
 # Names on the maps are read on paper and on a telephone.
 _STYLE = """
 p { overflow-wrap: anywhere; }
@@ -53,7 +64,6 @@ def render_terrain(
     rows: Sequence[MeasuredRow],
     coverage: Coverage,
     grid: tuple[str, str],
-    language: Language,
 ) -> bytes:
     """Page of rows on terrain.
 
@@ -63,109 +73,79 @@ def render_terrain(
         What was measured.
     grid : tuple of str
         Name of the grid's file, and its SHA-256.
-    language : str
-        Of the page.
     """
-    words = Words(language)
+    words = Words("en")
     extract = extract_ground(surface, plan)
-    first = _describe_grid(surface, coverage, grid, words)
     told = (
         find(row) for row in rows for find in (describe_kinks, describe_steep_above)
     )
-    kinks = [words.show(one) for one in told if one]
+    kinks = [one for one in told if one]
     maps = (
-        Figure(
-            svg=draw_map(extract, plan, rows, coverage, words),
-            caption=words("terrain_page.map_caption"),
-            look="plate",
-        ),
-        Figure(
-            svg=draw_slopes(extract, rows, words),
-            caption=words("terrain_page.slopes_caption"),
-            look="plate",
-        ),
+        (draw_map(extract, plan, rows, coverage), _MAP),
+        (draw_slopes(extract, rows), _SLOPES),
     )
+    profiles = ((draw_profile(row), name_profile(row)) for row in rows)
+    first = _describe_grid(surface, coverage, grid)
     blocks = (
-        masthead("netdesign terrain", words("terrain_page.title")),
+        masthead("netdesign terrain", _TITLE),
         Part(id="grid", blocks=(*(Paragraph(text=one) for one in first),)),
-        section("map", words("terrain_page.map"), *maps),
+        section("map", "Map", *_show(maps)),
         section(
             "rows",
-            words("terrain_page.rows"),
+            "Rows",
             _tabulate(rows, words).shown("study"),
             *([notes(*kinks, look="notes open")] if kinks else []),
         ),
-        section(
-            "profiles",
-            words("terrain_page.profiles"),
-            *(
-                Figure(
-                    svg=draw_profile(row, words),
-                    caption=words("terrain_page.profile", row=row.line.id),
-                    look="plate",
-                )
-                for row in rows
-            ),
-        ),
+        section("profiles", "Profiles", *_show(profiles)),
     )
-    title = words("terrain_page.title")
-    return render_page(blocks, title, language, style=_STYLE).encode()
+    return render_page(blocks, _TITLE, "en", style=_STYLE).encode()
+
+
+def _show(drawings: Iterable[tuple[str, str]]) -> Iterator[Figure]:
+    for svg, caption in drawings:
+        yield Figure(svg=svg, caption=caption, look="plate")
 
 
 def _describe_grid(
-    surface: Surface, coverage: Coverage, grid: tuple[str, str], words: Words
+    surface: Surface, coverage: Coverage, grid: tuple[str, str]
 ) -> list[str]:
     """Sentences on the grid, its fit, and the coverage of the starting zones."""
     name, sha256 = grid
+    cells = f"{surface.window} x {surface.window} cells of {surface.grid.cell:g} m"
     first = [
-        words("terrain_page.grid", file=show_text(name), sha256=sha256),
-        words(
-            "terrain_page.fit",
-            noise=surface.noise,
-            window=surface.window,
-            cell=surface.grid.cell,
-        ),
+        f"Grid {show_text(name)}, SHA-256 {sha256}.",
+        f"A quadratic is fitted to {cells} around each point. The heights leave it by "
+        f"{surface.noise:.2g} m (standard deviation).",
     ]
-    if coverage.area:
-        told = say(
-            "terrain.coverage",
-            area=coverage.area,
-            uncovered=coverage.uncovered,
-            share=100.0 * coverage.share,
-        )
-        first.append(words.show(told))
-    return first
+    return [*first, coverage.sentence] if coverage.area else first
 
 
 def _tabulate(rows: Sequence[MeasuredRow], words: Words) -> Table:
     lines = []
     for row in rows:
-        slope = row.slope
-        below = row.below_length
+        slope, below = row.slope, row.below_length
         ends = (f"{math.degrees(one):.1f}" for one in (slope.low, slope.high))
+        near = "-" if below is None else f"{row.below_row}, {below:.1f}"
         lines.append(
             (
                 text_cell(row.line.id),
                 fixed_cell(words, math.degrees(slope.value), 1),
-                text_cell(words.write("–".join(ends))),
+                text_cell("–".join(ends)),
                 fixed_cell(words, math.degrees(float(row.slopes.mean())), 1),
                 fixed_cell(words, math.degrees(row.aspect), 0),
                 fixed_cell(words, float(row.posts[:, 2].max()), 0),
                 fixed_cell(words, row.length, 1),
                 fixed_cell(words, len(row.posts), 0),
                 fixed_cell(words, row.upslope.length.value, 1),
-                text_cell(words(f"terrain.end_{row.upslope.end}", row=row.upslope.row)),
-                text_cell(
-                    f"{row.below_row}, {words.write(f'{below:.1f}')}"
-                    if below is not None
-                    else "-"
-                ),
+                text_cell(describe_end(row.upslope)),
+                text_cell(near),
                 text_cell(", ".join(map(str, row.kinks)) or "-"),
             )
         )
-    numbers = [one for one in _COLUMNS if one not in _TEXTS]
-    return Table(
-        caption=words("terrain_page.rows_caption"),
-        columns=key_columns(words, "terrain_page.column_", _COLUMNS, numbers=numbers),
-        rows=tuple(lines),
+    columns = (
+        Column(heading="Row"),
+        *(Column(heading=one, is_number=True) for one in _NUMBERS),
+        *(Column(heading=one) for one in _TEXTS),
     )
+    caption = "What the grid says of each row"
+    return Table(caption=caption, columns=columns, rows=tuple(lines))

@@ -108,13 +108,32 @@ def write_site_workbook(
     write_files({path: render_workbook(lines, language)}, overwrite=overwrite)
 
 
-def render_workbook(lines: Mapping[str, _Lines], language: Language = "en") -> bytes:
-    """Input workbook with some lines by sheet; a sheet without any is empty."""
+def render_workbook(
+    lines: Mapping[str, _Lines],
+    language: Language = "en",
+    notes: Mapping[str, Sequence[Mapping[str, str]]] | None = None,
+) -> bytes:
+    """Input workbook with some lines by sheet; a sheet without any is empty.
+
+    Parameters
+    ----------
+    lines : mapping
+        By sheet, then line, then field key.
+    language : str
+        Of sheets, headings, words and notes.
+    notes : mapping, optional
+        On cells of the lines, in the same order.
+    """
     content = BytesIO()
     book = start_book(content, language)
     write_notes(book.workbook, language)
     for plan in SHEETS:
-        write_sheet(book, plan, lines.get(plan.name, ()))
+        sheet = write_sheet(book, plan, lines.get(plan.name, ()))
+        keys = [field.key for field in plan.fields if field.is_offered]
+        for row, of_line in enumerate((notes or {}).get(plan.name, ()), start=1):
+            for key, note in of_line.items():
+                size = {"x_scale": 2.4, "y_scale": 1.6, "author": ""}
+                sheet.write_comment(row, keys.index(key), note, size)
     book.workbook.close()
     return content.getvalue()
 

@@ -1,4 +1,4 @@
-"""Libraries of the extra ``terrain``: whether they are there, how they fail."""
+"""Files of other programs, as GDAL reads them: bounded, local, quiet."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.util import find_spec
+from pathlib import Path
 
-from netdesign.outcome import NetDesignError, TerrainError
-from netdesign.words.message import say
+from netdesign.edge.given_files import read_bounded
+from netdesign.outcome import TerrainError
 
-_LIBRARIES = ("rasterio", "pyogrio", "ezdxf")
 # What rasterio and pyogrio raise on a damaged file, faults of their own among it.
 DAMAGE = (
     *(ArithmeticError, AttributeError, LookupError, OSError, RuntimeError),
@@ -19,23 +18,19 @@ DAMAGE = (
 )
 
 
-def require_extra(file: str, refusal: type[NetDesignError] = TerrainError) -> None:
-    """Refuse a file that needs the extra where it is not installed.
-
-    Parameters
-    ----------
-    file : str
-        Its name.
-    refusal : type
-        Of an input or of an output.
+def read_file(path: Path, most: int) -> bytes:
+    """Content of a file of at most ``most`` bytes.
 
     Raises
     ------
-    NetDesignError
-        Of that type.
+    TerrainError
+        If it cannot be read, or is larger.
     """
-    if any(find_spec(one) is None for one in _LIBRARIES):
-        raise refusal(say("terrain.no_extra", file=file))
+    try:
+        return read_bounded(path, most)
+    except (OSError, ValueError) as error:
+        cause = getattr(error, "strerror", None) or error
+        raise TerrainError(f"{path.name}: cannot be read: {cause}") from None
 
 
 @contextmanager
