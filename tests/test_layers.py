@@ -129,6 +129,7 @@ THIRD_PARTY = {
         "coupling.solution",  # plots itself
     ),
     "pandas": ("study.records",),
+    "rapidfuzz": ("site.guesses",),
     "click": ("cli", "commands.*"),
     "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),
 }

@@ -60,7 +60,7 @@ def read_typed_cells(given: Mapping[str, object]) -> TypedCells:
         meaning = lexicon.match(heading)
         if value is None or value == "":
             continue
-        if meaning.is_unclear:
+        if meaning.readings:
             readings = ", ".join(str(one.name) for one in meaning.readings)
             told = f"property {heading!r:.60} may mean: {readings}"
             faults.append(f"{told}; name it as the workbook does")

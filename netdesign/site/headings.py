@@ -1,4 +1,4 @@
-"""Finds the headings of a sheet: in any order, merged or grouped, with their units."""
+"""Finds the headings of a sheet, in any order, with their units."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from typing import NamedTuple
 
-from netdesign.resistance.products import find_product
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
-from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
-from netdesign.site.cells.numbers import parse_number, read_grade
+from netdesign.site.cells.findings import Finding, Severity, quote
 from netdesign.site.columns.all_tables import POSTS
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
@@ -18,39 +16,29 @@ from netdesign.site.columns.fields import (
     Field,
     SheetPlan,
     normalise,
+    split_heading,
 )
-from netdesign.site.columns.lexicon import (
-    UNKNOWN,
-    Lexicon,
-    Meaning,
-    has_no_part,
-    list_symbols,
-    says_length,
-    says_sag,
-)
+from netdesign.site.columns.lexicon import Lexicon, Meaning, has_no_part, says_sag
 from netdesign.site.readings import refuse_stored
 from netdesign.site.titles import (
-    Title,
     explain,
+    find_heading_unit,
     find_near,
     find_own_unit,
     is_asked,
     is_number,
     is_unit,
-    list_titles,
     quote_title,
     read_unit,
     refuse_unit,
     understand,
 )
-from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.words.message import say
 
 _HEADING_ROWS = 20  # from the first filled one: a title block may stand above them
+_LEAST_TEXTS = 3  # in a row of headings of which none is known
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 _EXAMPLES = 3  # cells that show how a column is written
-_BY_CELLS = ("glide_factor", "section")
-_GUYS = frozenset(("uphill_guy", "downhill_guy"))
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
 
@@ -65,7 +53,7 @@ class Column:
     unit: str | None
 
 
-Titles = Sequence[tuple[Title, Meaning]]
+Titles = Sequence[tuple[Cell, Meaning]]
 
 
 class Pair(NamedTuple):
@@ -85,14 +73,12 @@ class Table:
     ----------
     sheet, plan
         As read, and what it should hold.
-    titles : sequence of Title and Meaning
+    titles : sequence of Cell and Meaning
         Its headings with what each is taken for.
     heading_row, first_data_row : int
-        The row that names the fields, below groups; the first below headings and units.
+        The row that names the fields; the first below headings and units.
     units_row : int or None
         A row of units below the headings.
-    group_rows : frozenset of int
-        Rows above that hold merged groups of headings, or headings merged downwards.
     columns : mapping of str to Column
         By field key; absent headings are absent.
     rows : tuple of int
@@ -108,7 +94,6 @@ class Table:
     heading_row: int = 0
     units_row: int | None = None
     first_data_row: int = 1
-    group_rows: frozenset[int] = frozenset()
     rows: tuple[int, ...] = ()
     above: tuple[Pair, ...] = ()
 
@@ -117,10 +102,10 @@ class Table:
         column = self.columns.get(key)
         return self.sheet.cell(row, column.number) if column else None
 
-    def list_named(self) -> list[Title]:
+    def list_named(self) -> list[Cell]:
         """Names in the lines of a table of items, and its headings."""
         cells = [self.cell(row, self.plan.fields[0].key) for row in self.rows]
-        named = [Title(one) for one in cells if one is not None and not one.is_blank]
+        named = [one for one in cells if one is not None and not one.is_blank]
         return [*named, *(title for title, _ in self.titles)]
 
     def examples(self, column: int) -> list[Cell]:
@@ -150,7 +135,7 @@ def find_headings(
         Without its lines; None if there is no row of headings, which is a finding.
     """
     lexicon = Lexicon.of(plan.fields, plan)
-    row = _find_row(sheet, lexicon)
+    row = _find_row(sheet, lexicon, plan)
     if row is None and plan.has_pairs:
         return _read_as_pairs(sheet, plan)
     if row is None:
@@ -158,8 +143,9 @@ def find_headings(
         accepted = say("heading.such_as", headings=wanted)
         findings.append(sheet.finding(say("heading.no_row"), accepted))
         return None
+    findings.extend(_refuse_groups(sheet, row))
     titles = [
-        (title, _understand(title, lexicon, sheet)) for title in list_titles(sheet, row)
+        (cell, understand(cell, lexicon, sheet.answers)) for cell in sheet.row(row)
     ]
     units_row = _find_units_row(sheet, titles, row, findings)
     merged_to = [
@@ -179,22 +165,21 @@ def find_headings(
         units_row=units_row,
         first_data_row=first_data_row,
         columns={},
-        group_rows=frozenset(
-            above
-            for merged in sheet.merged
-            for above in range(merged.row, merged.last_row + 1)
-            if merged.last_row >= row - 1 and above < row
-        ),
     )
     return replace(table, columns=_find_columns(table, findings))
 
 
-def _understand(title: Title, lexicon: Lexicon, sheet: Sheet) -> Meaning:
-    """Meaning of a heading, by its unit where its words say too little."""
-    meaning = understand(title, lexicon, sheet.answers)
-    if meaning == UNKNOWN and title.unit and not title.group:
-        return lexicon.match_by_unit(title.text, title.unit)
-    return meaning
+def _refuse_groups(sheet: Sheet, heading_row: int) -> Iterator[Finding]:
+    """Refuse merged cells above some of the headings each: a name is in one cell.
+
+    One that is merged alone in its row is the title of the table.
+    """
+    above = [one for one in sheet.merged if one.row == heading_row - 1]
+    for merged in above if len(above) > 1 else ():
+        cell = sheet.cell(merged.row, merged.column)
+        if merged.last_column > merged.column and not cell.is_blank:
+            rule = say("heading.group", range=merged.text)
+            yield cell.finding(rule, say("heading.whole_names"))
 
 
 def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
@@ -218,7 +203,7 @@ def _find_pairs_above(sheet: Sheet, row: int, plan: SheetPlan) -> Iterator[Pair]
         cells = sheet.row(number)
         if len(cells) != 2 or not isinstance(cells[0].value, str):
             continue
-        meaning = understand(Title(cells[0]), lexicon, sheet.answers)
+        meaning = understand(cells[0], lexicon, sheet.answers)
         if meaning.field:
             yield Pair(*cells, meaning.field, meaning.unit)
 
@@ -228,26 +213,45 @@ def count_known(sheet: Sheet, plan: SheetPlan) -> int:
     return max(_count_known(sheet, Lexicon.of(plan.fields, plan)).values(), default=0)
 
 
-def _find_row(sheet: Sheet, lexicon: Lexicon) -> int | None:
-    """Row with the most known headings; one alone may be a title by chance."""
-    counts = _count_known(sheet, lexicon)
-    best = max(counts, key=lambda row: counts[row], default=0)
-    return best if best and counts[best] >= 2 else None
+def _find_row(sheet: Sheet, lexicon: Lexicon, plan: SheetPlan) -> int | None:
+    """Row with the most known headings, else with the most texts."""
+    for counts, least in (
+        (_count_known(sheet, lexicon), 2),
+        # of a list whose names nobody knows yet
+        ({} if plan.has_pairs else _count_texts(sheet), _LEAST_TEXTS),
+    ):
+        best = max(counts, key=lambda row: counts[row], default=0)
+        if best and counts[best] >= least:
+            return best
+    return None
 
 
 def _count_known(sheet: Sheet, lexicon: Lexicon) -> dict[int, int]:
-    first = next((row for row in sheet.rows if sheet.row(row)), 1)
     return {
-        row: sum(_is_known(title, lexicon, sheet) for title in list_titles(sheet, row))
-        for row in range(1, first + _HEADING_ROWS)
+        row: sum(_is_known(cell, lexicon, sheet) for cell in sheet.row(row))
+        for row in _list_first_rows(sheet)
     }
 
 
-def _is_known(title: Title, lexicon: Lexicon, sheet: Sheet) -> bool:
-    """A cell holds a heading, or what may be one; a lone symbol is none."""
-    if not isinstance(title.cell.value, str):
+def _count_texts(sheet: Sheet) -> dict[int, int]:
+    """Number of texts by row; none of a row that holds anything else."""
+    return {
+        row: len(sheet.row(row))
+        for row in _list_first_rows(sheet)
+        if all(isinstance(one.value, str) for one in sheet.row(row))
+    }
+
+
+def _list_first_rows(sheet: Sheet) -> range:
+    first = next((row for row in sheet.rows if sheet.row(row)), 1)
+    return range(1, first + _HEADING_ROWS)
+
+
+def _is_known(cell: Cell, lexicon: Lexicon, sheet: Sheet) -> bool:
+    """A cell holds a heading, or what may be one."""
+    if not isinstance(cell.value, str):
         return False
-    meaning = understand(title, lexicon, sheet.answers)
+    meaning = understand(cell, lexicon, sheet.answers)
     return bool(meaning.field or meaning.readings or meaning.answer)
 
 
@@ -259,7 +263,7 @@ def _find_units_row(
     One unit that nobody knows does not make it a line of the table, which would have
     a number somewhere.
     """
-    by_column = {title.cell.column: (title, one.field) for title, one in titles}
+    by_column = {cell.column: (cell, one.field) for cell, one in titles}
     below = sheet.row(heading_row + 1)
     cells = [
         (cell, field)
@@ -270,7 +274,9 @@ def _find_units_row(
     others = [one for one in cells if one not in measured]
     known = sum(is_unit(*one) for one in measured)
     strangers = [cell for cell, field in others if not is_unit(cell, field)]
-    has_units_above = any(by_column[cell.column][0].unit for cell, _ in measured)
+    has_units_above = any(
+        find_heading_unit(by_column[cell.column][0]) for cell, _ in measured
+    )
     is_row = 2 * known > len(measured) or not (strangers or has_units_above)
     if not measured or not is_row or any(is_number(*one) for one in cells):
         return None
@@ -292,75 +298,49 @@ def _is_numbering(cells: tuple[Cell, ...]) -> bool:
 def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     columns: dict[str, Column] = {}
     claimed: set[str] = set()  # by headings that are refused as unclear
-    unknown: list[Title] = []
-    settled = [(*one, _settle(table, *one)) for one in table.titles]
-    clear = {field.key for *_, field in settled if field}
-    for title, meaning, field in settled:
-        cell = title.cell
-        if field and _is_note_of_steel(table, title, field):
-            unknown.append(title)
-        elif field is None and (both := _find_both(meaning, clear)):
-            columns |= dict.fromkeys(both, Column(number=cell.column, unit=""))
-            names = tuple(one.name for one in meaning.readings)
-            rule = say("heading.says_both", names=names)
-            findings.append(cell.finding(rule, severity="note"))
-        elif field is None:
-            open_keys = {one.key for one in meaning.readings} - clear
-            claimed |= open_keys
+    unknown: list[Cell] = []
+    for cell, meaning in table.titles:
+        field = meaning.field
+        if field is None:
+            claimed |= {one.key for one in meaning.readings}
             refusal = explain(meaning, table.sheet)
-            if meaning.readings and not (open_keys or meaning.answer):
-                rule = say("heading.stands_elsewhere", name=meaning.readings[0].name)
-                findings.append(cell.finding(rule, severity="note"))
-            elif refusal:
+            if refusal:
                 severity: Severity = "note" if meaning.is_ignored else "error"
                 findings.append(cell.finding(*refusal, severity=severity))
             else:
-                unknown.append(title)
+                unknown.append(cell)
         elif field.key in columns:
             first = name_column(columns[field.key].number)
             rule = say("heading.twice", name=field.name, column=first)
             findings.append(cell.finding(rule, say("heading.one_column")))
         else:
-            unit = _find_unit(table, title, meaning, field, findings)
+            unit = _find_unit(table, cell, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
-            findings.extend(_note_reading(table, title, meaning, field))
+            findings.extend(_note_answer(table, cell, meaning, field))
     if table.plan.name == POSTS.name and "section" in columns:
         columns.setdefault("id", columns["section"])  # named by its section alone
     _judge_rest(table, columns, claimed, unknown, findings)
     return columns
 
 
-def _find_both(meaning: Meaning, clear: set[str]) -> frozenset[str]:
-    """Both guys that a heading without a side is about, where no other names one."""
-    keys = frozenset(one.key for one in meaning.readings)
-    has_sides = clear.issuperset(("uphill_anchor", "downhill_anchor"))
-    is_open = has_sides and not (keys & clear or meaning.contrary)
-    return keys if keys == _GUYS and is_open else frozenset()
-
-
-def _note_reading(
-    table: Table, title: Title, meaning: Meaning, field: Field
+def _note_answer(
+    table: Table, cell: Cell, meaning: Meaning, field: Field
 ) -> Iterator[Finding]:
-    """Notes on a heading that does not say itself what it is read as."""
-    if field.key in _BY_CELLS and field is not meaning.field:
-        rule = say("heading.by_cells", name=field.name)
-        yield title.cell.finding(rule, severity="note")
-    if field.key == "buckling_length" and says_length(title.text):
-        yield title.cell.finding(say("heading.is_length"), severity="note")
+    """Notes on a heading that is read as somebody answered."""
     if not meaning.answer:
         return
     file = table.sheet.answered_in
     rule = say("heading.answered", name=field.name, file=file)
-    yield title.cell.finding(rule, severity="note")
-    if field.key == "slack" and says_sag(title.text):
-        yield title.cell.finding(say("heading.is_sag"), severity="note")
+    yield cell.finding(rule, severity="note")
+    if field.key == "slack" and says_sag(str(cell.value)):
+        yield cell.finding(say("heading.is_sag"), severity="note")
 
 
 def _judge_rest(
     table: Table,
     columns: Mapping[str, Column],
     claimed: set[str],
-    unknown: list[Title],
+    unknown: list[Cell],
     findings: list[Finding],
 ) -> None:
     """Judge headings that are not read, and tell those that are missing."""
@@ -374,82 +354,23 @@ def _judge_rest(
         refuse_unused_answers(table, findings)
 
 
-def _is_note_of_steel(table: Table, title: Title, field: Field) -> bool:
-    """A column of a steel without unit has texts that are neither grade nor number."""
-    if not field.is_grade or title.unit:
-        return False
-    cells = [one for one in table.examples(title.cell.column) if one.row]
-    return any(
-        read_grade(one.value) is None
-        and isinstance(parse_number(one.value, one.decimal_mark), Refusal)
-        and one.row != table.units_row
-        for one in cells
-    )
-
-
-def _settle(table: Table, title: Title, meaning: Meaning) -> Field | None:
-    """Field of a heading, where need be by the cells below it.
-
-    Of several columns of words, the one that knows them; a section by its name, not its
-    area; a glide factor N, which is no number of pieces.
-    """
-    field = meaning.field
-    by_key = {one.key: one for one in table.plan.fields}
-    if field and field.key == "area" and _names_sections(table, title):
-        return by_key["section"]
-    if field and field.key == "ground_law" and _has_glide_factors(table, title):
-        return by_key.get("glide_factor", field)
-    if field:
-        return field
-    keys = [one.key for one in meaning.readings]
-    if keys == ["glide_factor"] and _has_glide_factors(table, title):
-        return meaning.readings[0]
-    if not meaning.readings or any(one.kind != "word" for one in meaning.readings):
-        return None
-    cells = [row.get(title.cell.column) for row in table.sheet.rows.values()]
-    typed = {normalise(one.text) for one in cells if one and one is not title.cell}
-    known = [
-        field
-        for field in meaning.readings
-        if typed & {normalise(one) for one in field.spellings}
-    ]
-    return known[0] if len(known) == 1 else None
-
-
-def _names_sections(table: Table, title: Title) -> bool:
-    """A column without unit holds names of rolled or hollow sections."""
-    products = [find_product(one.text) for one in table.examples(title.cell.column)]
-    families = {one.family if one else "" for one in products}
-    return not title.unit and families == {"section"}
-
-
-def _has_glide_factors(table: Table, title: Title) -> bool:
-    """A column N holds numbers of which one is not whole, all as glide factors are."""
-    cells = table.examples(title.cell.column)
-    numbers = [parse_number(one.value, one.decimal_mark) for one in cells]
-    values = [one for one in numbers if not isinstance(one, Refusal)]
-    is_all = len(values) == len(cells) > 0 and not title.unit
-    in_bounds = all(1.0 <= one <= LARGEST_GLIDE_FACTOR for one in values)
-    return is_all and in_bounds and any(one % 1.0 for one in values)
-
-
 def refuse_unused_answers(table: Table, findings: list[Finding]) -> None:
     """Refuse answers to what the sheet does not have: it has changed since."""
     known = table.list_named()
     for key in table.sheet.answers:
-        if not any(is_asked(title, key) for title in known):
+        if not any(is_asked(cell, key) for cell in known):
             rule = say("heading.unused_answer", file=table.sheet.answered_in)
             findings.append(table.sheet.finding(rule, quote(key)))
 
 
 def _judge_all_unknown(
-    table: Table, unknown: list[Title], missing: list[Field]
+    table: Table, unknown: list[Cell], missing: list[Field]
 ) -> list[tuple[Finding, Field | None]]:
     """Judge columns that are not read, each with the missing field it may be.
 
     The headings that the sheet still needs are told once.
     """
-    judged = [_judge_unknown(title.cell, missing) for title in unknown]
+    judged = [_judge_unknown(cell, missing) for cell in unknown]
     sought = (
         n
         for n, (one, _) in enumerate(judged)
@@ -481,18 +402,22 @@ def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | N
 
 def _find_unit(
     table: Table,
-    title: Title,
+    heading: Cell,
     meaning: Meaning,
     field: Field,
     findings: list[Finding],
 ) -> str | None:
     """Take the unit of a column from its heading, the row of units, or its answer."""
+    cell, text = heading, str(heading.value)
+    own, whole = split_heading(text)[0], normalise(text)
+    is_name = own != whole in field.names  # brackets and all
+    unit = "" if is_name else find_heading_unit(heading)
     if not field.units:
-        if title.unit in KNOWN_UNITS and title.unit != "-":  # a number of another field
-            rule = say("heading.unit_not_wanted", unit=title.unit, name=field.name)
-            findings.append(title.cell.finding(rule, field.name))
+        if unit in KNOWN_UNITS and unit != "-":  # a number of another field
+            rule = say("heading.unit_not_wanted", unit=unit, name=field.name)
+            findings.append(heading.finding(rule, field.name))
         return ""
-    column, unit, cell = title.cell.column, title.unit, title.cell
+    column = heading.column
     below = table.sheet.cell(table.units_row, column) if table.units_row else None
     if below is not None and not below.is_blank:
         unit_below, _ = read_unit(below)
@@ -501,8 +426,6 @@ def _find_unit(
             findings.append(below.finding(rule, say("accepted.one_unit")))
             return None
         unit, cell = unit_below, below
-    # a symbol such as N below "glide factor" is no unit
-    unit = "" if unit in list_symbols(field.key) else unit
     if meaning.unit and unit in ("", *UNCLEAR_UNITS):
         unit = meaning.unit
     elif meaning.unit and meaning.unit != unit:

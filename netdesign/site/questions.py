@@ -32,11 +32,20 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import KNOWN_UNITS, normalise, normalise_unit
 from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, Lexicon, has_no_part
+from netdesign.site.guesses import guess
 from netdesign.site.headings import Table, count_known
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
 from netdesign.site.tables import find_tables
-from netdesign.site.titles import MARKS, SCHEMA, find_plan, list_meant
+from netdesign.site.titles import (
+    MARKS,
+    SCHEMA,
+    find_heading_unit,
+    find_plan,
+    list_meant,
+    name_asked,
+    read_unit,
+)
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -46,15 +55,18 @@ _OF_UNITS = (
     "heading.unknown_unit",
 )
 _OF_NAMES = (
-    *("heading.ambiguous", "heading.contrary", "heading.close_to_missing"),
+    *("heading.ambiguous", "heading.close_to_missing"),
     *("heading.twice", "heading.wrong_answer", "heading.unit_not_wanted"),
+    *("item.unknown", "item.unknown_quantity"),
+)
+_GUESSED = (
+    *("heading.close_to_missing", "heading.unknown"),
     *("item.unknown", "item.unknown_quantity"),
 )
 _LEFT_OPEN = "heading.unanswered"
 _OF_SHEETS = ("table.copy", "table.net_rows", "map.no_sheet")
-# A heading that is not understood is asked for where the sheet lacks one.
 _OF_WORDS = "cell.unknown_word"
-_UNREAD, _LACKING = "heading.unknown", ("heading.lacks", "heading.lacks_one_of")
+_UNREAD = "heading.unknown"
 _MARK = "decimal_mark"
 _LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one
 _EXPECTED = (NETS, RANGES, ANCHORS, ROPES, POSTS)
@@ -235,13 +247,11 @@ def _ask_names(
     tables: Sequence[Table], findings: list[Finding], language: Language
 ) -> list[Question]:
     by_sheet = {table.sheet.name: table for table in tables}
-    lacking = {one.sheet for one in findings if one.rule.key in _LACKING}
     asked: dict[tuple[str, str], Question] = {}
     for finding in findings:
         table = by_sheet.get(finding.sheet)
-        is_sought = finding.rule.key == _UNREAD and finding.sheet in lacking
-        is_sought = is_sought and not has_no_part(finding.text)
-        if table and finding.cell and (finding.severity == "error" or is_sought):
+        is_unread = finding.rule.key == _UNREAD and not has_no_part(finding.text)
+        if table and finding.cell and (finding.severity == "error" or is_unread):
             question = _ask_word(finding) or _ask(table, finding, language)
             if question:
                 asked[question.sheet, question.asked] = question
@@ -267,6 +277,8 @@ def _ask(table: Table, finding: Finding, language: Language) -> Question | None:
         return None
     hints = tuple(one for one in (finding.rule, finding.accepted) if one)
     answer = UNANSWERED
+    if key in _GUESSED:
+        answer, hints = _guess(table, finding, language)
     if key == _LEFT_OPEN:
         answer = table.sheet.answers.get(asked, UNANSWERED)
     if key in _OF_UNITS:
@@ -275,14 +287,43 @@ def _ask(table: Table, finding: Finding, language: Language) -> Question | None:
     return Question(table.sheet.name, asked, answer, hints)
 
 
+def _guess(
+    table: Table, finding: Finding, language: Language
+) -> tuple[str, tuple[Message | str, ...]]:
+    """First answer to a name that is unknown, with what it may mean and its cells."""
+    column, row = split_address(finding.cell)
+    is_heading = row == table.heading_row
+    taken = {key for key, place in table.columns.items() if place.number != column}
+    every = table.plan.fields if is_heading else table.plan.items
+    below = table.sheet.cell(table.units_row, column) if table.units_row else None
+    heading = table.sheet.cell(row, column)
+    unit = find_heading_unit(heading)
+    if is_heading and not unit and below is not None and not below.is_blank:
+        unit = read_unit(below)[0]
+    found = guess(finding.text, unit, [one for one in every if one.key not in taken])
+    listed = " · ".join(
+        f"{one.label_in(language)} {score:.0f}" for one, score in found.ranked
+    )
+    cells = "; ".join(one.text for one in table.examples(column)) if is_heading else ""
+    hints = (finding.rule, listed, cells and say("map.cells", cells=cells))
+    if found.field is None:
+        return UNANSWERED, tuple(filter(None, hints))
+    label = found.field.label_in(language)
+    has_unit = unit or found.field.unit in ("", "-")
+    return (
+        label if has_unit else f"{label} [{UNANSWERED}]",
+        tuple(filter(None, hints)),
+    )
+
+
 def _name_heading(table: Table, column: int) -> str:
     """Heading of a column, as the file names it; empty where there is none."""
-    titles = {title.cell.column: title for title, _ in table.titles}
+    titles = {cell.column: name_asked(cell) for cell, _ in table.titles}
     own = titles.get(column)
     if own is None:
         return ""
-    alike = [one for one in titles.values() if one.asked == own.asked]
-    return own.asked if len(alike) == 1 else f"{name_column(column)}: {own.asked}"
+    alike = [one for one in titles.values() if one == own]
+    return own if len(alike) == 1 else f"{name_column(column)}: {own}"
 
 
 def _name_item(table: Table, row: int) -> str:
@@ -331,7 +372,7 @@ def _list_answers(
 
 def _list_understood(table: Table, language: Language) -> Iterator[str]:
     """Headings that need no answer, with what each is taken for."""
-    titles = {title.cell.column: title.asked for title, _ in table.titles}
+    titles = {cell.column: name_asked(cell) for cell, _ in table.titles}
     for field in table.plan.fields:
         column = table.columns.get(field.key)
         if column is None or column.unit is None or not titles:

@@ -28,12 +28,12 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     split_heading,
 )
-from netdesign.site.columns.lexicon import UNANSWERED, Lexicon, Meaning, find_unit
+from netdesign.site.columns.lexicon import UNANSWERED, Lexicon, Meaning
 from netdesign.site.headings import Table, refuse_unused_answers
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, explain_unit, read_cell, refuse
 from netdesign.site.tables import match_item, read_field
-from netdesign.site.titles import Title, list_meant, understand
+from netdesign.site.titles import list_meant, understand
 from netdesign.words.message import Message, say
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
@@ -294,7 +294,7 @@ def settle_unit(
     ``typed`` is what the cells of its ends have, or what was answered; it decides where
     nothing else is clear.
     """
-    in_brackets = find_unit(name.word) or split_heading(name.word)[1]
+    in_brackets = split_heading(name.word)[1]
     in_column = normalise_unit(unit.word.strip(" []()"))
     given, place = (in_column, unit) if in_column else (in_brackets, name)
     if typed in field.units and given in ("", *UNCLEAR_UNITS):
@@ -521,7 +521,7 @@ def _list_on_cover(cover: Table | None) -> Iterator[_Cells]:
         cells = cover.sheet.row(row)
         if len(cells) < 2 or not isinstance(cells[0].value, str):
             continue
-        field = understand(Title(cells[0]), lexicon, cover.sheet.answers).field
+        field = understand(cells[0], lexicon, cover.sheet.answers).field
         is_range = split_range(cells[1].text) is not None
         if field and (is_range or field.key not in {one.key for one in NETS.fields}):
             yield cells[:3]

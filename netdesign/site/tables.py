@@ -33,7 +33,6 @@ from netdesign.site.readings import (
     refuse,
 )
 from netdesign.site.titles import (
-    Title,
     explain,
     find_near,
     list_meant,
@@ -178,7 +177,7 @@ def _ask_for_copies(
 def is_about(name: Cell, table: Table) -> bool:
     """A name may mean an item of a table, though perhaps misspelt or unclear."""
     lexicon = Lexicon.of(table.plan.items, table.plan)
-    meaning = understand(Title(name), lexicon, table.sheet.answers)
+    meaning = understand(name, lexicon, table.sheet.answers)
     is_known = bool(meaning.field or meaning.readings or meaning.answer)
     start = _MARKS.split(str(name.value))[0]
     near = (find_item(start, table.plan.items), find_near(start, table.plan.items))
@@ -240,7 +239,7 @@ def _note_lines_above(table: Table) -> Iterator[Finding]:
     for row in range(1, table.heading_row):
         cells = table.sheet.row(row)
         is_read = any(one.name.row == row for one in table.above)
-        if len(cells) < 2 or row in table.group_rows or is_read:
+        if len(cells) < 2 or is_read:
             continue
         item = find_item(str(cells[0].value), table.plan.items)
         yield cells[0].finding(
@@ -297,7 +296,7 @@ def match_item(
     if name.cell is None:
         return UNKNOWN
     lexicon = Lexicon.of(table.plan.items, table.plan)
-    meaning = understand(Title(name.cell), lexicon, table.sheet.answers)
+    meaning = understand(name.cell, lexicon, table.sheet.answers)
     if meaning.is_ignored:
         rule = say("item.ignored", file=table.sheet.answered_in)
         refuse(name, rule, "", findings, severity="note")

@@ -10,7 +10,7 @@ import difflib
 import hashlib
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -53,8 +53,6 @@ from netdesign.site.columns.lexicon import (
     UNANSWERED,
     Lexicon,
     Meaning,
-    find_unit,
-    fold,
 )
 from netdesign.site.readings import IN_CELLS, explain_unit
 from netdesign.words.message import Message, say
@@ -64,85 +62,43 @@ _MISSPELT = 0.8
 _COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
 
 
-@dataclass(frozen=True, slots=True)
-class Title:
-    """One heading: the cell that holds it and the group that it belongs to."""
-
-    cell: Cell
-    group: str = ""
-
-    @property
-    def text(self) -> str:
-        """Text as typed."""
-        return str(self.cell.value)
-
-    @property
-    def asked(self) -> str:
-        """Group and heading as a file of answers names them."""
-        parts = (" ".join(one.split()) for one in (self.group, self.text))
-        return " › ".join(part for part in parts if part)
-
-    @property
-    def unit(self) -> str:
-        """Unit in its brackets, or in those of its group."""
-        group = split_heading(self.group)[1]
-        return find_unit(self.text) or split_heading(self.text)[1] or group
+def name_asked(cell: Cell) -> str:
+    """Heading as a file of answers names it."""
+    return " ".join(str(cell.value).split())
 
 
-def understand(title: Title, lexicon: Lexicon, answers: Mapping[str, str]) -> Meaning:
+def find_heading_unit(cell: Cell) -> str:
+    """Unit in the brackets of a heading; empty where there is none."""
+    return split_heading(str(cell.value))[1]
+
+
+def understand(cell: Cell, lexicon: Lexicon, answers: Mapping[str, str]) -> Meaning:
     """Meaning of a heading: as answered, else by its text.
 
     An answer names a field by its key, or by a heading of any language.
     """
-    given = (answer for key, answer in answers.items() if is_asked(title, key))
+    given = (answer for key, answer in answers.items() if is_asked(cell, key))
     answer = next(given, "")
     if not answer:
-        return lexicon.match(title.text, title.group)
-    if answer == UNANSWERED and (known := lexicon.match(title.text, title.group)).field:
+        return lexicon.match(str(cell.value))
+    if answer == UNANSWERED and (known := lexicon.match(str(cell.value))).field:
         return known  # asked before it was understood
     if answer in (IGNORE, UNANSWERED):
         return Meaning(answer=answer)
     field = lexicon.fields.get(answer.partition("[")[0].strip())
     meaning = Meaning(field) if field else lexicon.match(answer)
-    return replace(meaning, answer=answer, unit=find_unit(answer))
+    return replace(meaning, answer=answer, unit=split_heading(answer)[1])
 
 
-def is_asked(title: Title, key: str) -> bool:
+def is_asked(cell: Cell, key: str) -> bool:
     """A key of the answers names this heading."""
     in_column = _COLUMN.fullmatch(key)
-    if in_column and in_column[1] != name_column(title.cell.column):
+    if in_column and in_column[1] != name_column(cell.column):
         return False
     asked = normalise(in_column[2] if in_column else key)
-    names = (title.text, title.asked, title.text.partition("[")[0])
-    return asked in {normalise(one) for one in names} | {split_heading(title.text)[0]}
-
-
-def list_titles(sheet: Sheet, row: int) -> list[Title]:
-    """Headings of a row; a cell merged downwards into it counts as in the row."""
-    cells = {cell.column: cell for cell in sheet.row(row)}
-    for merged in sheet.merged:
-        if merged.row < row <= merged.last_row and merged.column == merged.last_column:
-            cell = sheet.cell(merged.row, merged.column)
-            if not cell.is_blank:
-                cells.setdefault(merged.column, cell)
-    return [
-        Title(cells[column], _find_group(sheet, row, column))
-        for column in sorted(cells)
-    ]
-
-
-def _find_group(sheet: Sheet, row: int, column: int) -> str:
-    """Text of a cell just above that is merged across this column and others.
-
-    Across all of them it is the title of the table, and groups nothing.
-    """
-    columns = [cell.column for cell in sheet.row(row)]
-    for merged in sheet.merged:
-        is_wide = merged.last_column > merged.column and merged.last_row == row - 1
-        is_title = all(merged.covers(row - 1, one) for one in columns[:-1])
-        if is_wide and not is_title and merged.covers(row - 1, column):
-            return str(sheet.cell(merged.row, merged.column).value or "")
-    return ""
+    text = str(cell.value)
+    names = {normalise(one) for one in (text, text.partition("[")[0])}
+    return asked in names | {split_heading(text)[0]}
 
 
 def is_unit(cell: Cell, field: Field) -> bool:
@@ -224,26 +180,18 @@ def explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
     if meaning.answer and meaning.field is None:  # it names no heading, or several
         rule = say("heading.wrong_answer", answer=quote(meaning.answer))
         return Refusal(rule, say("heading.answer_wanted", file=sheet.answered_in))
-    if not meaning.is_unclear:
+    if not meaning.readings:
         return None
     readings = tuple(quote_title(one) for one in meaning.readings)
     rule = say("heading.ambiguous", readings=readings)
-    if meaning.contrary:
-        says = quote(meaning.contrary)
-        rule = say("heading.contrary", readings=readings, contrary=says)
     return Refusal(rule, say("heading.one_of_these"))
 
 
 def find_near(text: str, fields: Iterable[Field]) -> list[Field]:
     """Fields with a heading so like a text that the text may be that, misspelt."""
-    own = {split_heading(text)[0], fold(text.partition("[")[0])}
     names = {name: one for one in fields for name in one.names}
-    names |= {fold(name): one for one in fields for name in one.raw_names}
-    close = [
-        match
-        for name in own
-        for match in difflib.get_close_matches(name, names, n=2, cutoff=_MISSPELT)
-    ]
+    own = split_heading(text)[0]
+    close = difflib.get_close_matches(own, names, n=2, cutoff=_MISSPELT)
     return list({names[one].key: names[one] for one in close}.values())
 
 

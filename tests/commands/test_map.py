@@ -1,5 +1,7 @@
 """``netdesign map`` from the command line, in three languages."""
 
+import tomllib
+
 import openpyxl
 import pytest
 from click.testing import CliRunner
@@ -7,13 +9,18 @@ from click.testing import CliRunner
 from netdesign.commands.site_input import map_headings
 from netdesign.site.reader import read_site
 from tests.short_example import write_short_example
-from tests.site.messy import swiss
 
 
 @pytest.fixture
 def site(tmp_path):
+    """One row, with a heading that may be two quantities."""
     path = tmp_path / "site.xlsx"
-    swiss.build(path)
+    write_short_example(path, ["R1"])
+    book = openpyxl.load_workbook(path)
+    sheet = book["Nets"]
+    sheet.cell(1, sheet.max_column + 1).value = "Werkhöhe [m]"
+    book.create_sheet("Prezzi")
+    book.save(path)
     return path
 
 
@@ -66,16 +73,50 @@ def test_a_heading_that_is_not_understood_is_asked_for_where_one_lacks(call, tmp
     assert call("check", path, "--dry-run").code == 0
 
 
-def test_a_heading_that_nothing_needs_is_listed_as_left_out(call, tmp_path):
+def test_an_unknown_heading_is_asked_for_and_one_of_no_part_left_out(call, tmp_path):
     path = tmp_path / "site.xlsx"
     write_short_example(path, ["R1"])
     book = openpyxl.load_workbook(path)
     sheet = book["Nets"]
-    sheet.cell(1, sheet.max_column + 1).value = "colour of the post"
+    sheet.cell(1, sheet.max_column + 1).value = "zul. Ankerkraft [kN]"
+    sheet.cell(2, sheet.max_column).value = 250
+    sheet.cell(1, sheet.max_column + 1).value = "Remarks"
     book.save(path)
+    assert "1 to be answered" in call("map", path).err
+    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
+    assert '\n"zul. Ankerkraft [kN]" = "?"' in text
+    assert "cells: 250" in text
+    assert '# "Remarks" = "ignore"' in text
+
+
+def test_a_sure_guess_is_the_first_answer_and_it_is_read(call, tmp_path):
+    path = tmp_path / "site.xlsx"
+    write_short_example(path, ["R1"])
+    book = openpyxl.load_workbook(path)
+    (cell,) = (one for one in book["Nets"][1] if one.value == "post spacing [m]")
+    cell.value = "Abstände der Stützen [m]"
+    book.save(path)
+    assert call("check", path, "--dry-run").code == 3
     assert "nothing is left" in call("map", path).err
     text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
-    assert '# "colour of the post" = "ignore"' in text
+    assert '"Abstände der Stützen [m]" = "post spacing"' in text
+    assert "post spacing 97" in text
+    read = call("check", path, "--dry-run")
+    assert read.code == 0
+    assert "is read as" in read.out
+
+
+def test_a_list_of_unknown_headings_is_asked_for_whole(call, tmp_path):
+    path = tmp_path / "site.xlsx"
+    write_short_example(path, ["R1"])
+    book = openpyxl.load_workbook(path)
+    for cell in book["Anchors"][1]:
+        cell.value = f"x {cell.value}" if cell.value else None
+    book.save(path)
+    columns = sum(bool(cell.value) for cell in book["Anchors"][1])
+    call("map", path)
+    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
+    assert len(tomllib.loads(text)["headings"]["Anchors"]) == columns
 
 
 def test_answers_typed_at_the_terminal_are_in_the_file(site, tmp_path):

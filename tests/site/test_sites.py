@@ -14,17 +14,10 @@ from tests.site.whole_sites import (
     DAMAGED_FINDINGS,
     FRENCH_HEIGHTS,
     FRENCH_SLOPES_PERCENT,
-    GERMAN_DOWNWARD,
-    GERMAN_MERGES,
     damaged_site,
     french_site,
     german_site,
 )
-
-
-def merge_german_headings(workbook):
-    for place in (*GERMAN_MERGES, *(f"{c}1:{c}2" for c in GERMAN_DOWNWARD)):
-        workbook["Netze"].merge_cells(place)
 
 
 def assert_french(site):
@@ -81,8 +74,8 @@ def test_twelve_french_rows_with_commas_and_per_cent(save):
     assert_french(read_site(save(french_site())))
 
 
-def test_a_german_site_with_units_row_and_grouped_headings(save):
-    assert_german(read_site(save(german_site(), merge_german_headings)))
+def test_a_german_site_with_a_row_of_units(save):
+    assert_german(read_site(save(german_site())))
 
 
 def test_a_damaged_site_gives_every_finding_at_once(save, refused):

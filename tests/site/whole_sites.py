@@ -76,18 +76,14 @@ def french_site() -> Sheets:
 
 
 def german_site() -> Sheets:
-    """A units row, grouped headings (merged by the fixture), thousands with points."""
+    """A units row, thousands with points."""
     return {
         "Netze": [
             [
                 *("Werkreihe", "Hangneigung", "Schneemächtigkeit", "Länge bergwärts"),
                 *("Gleiten am Boden", "Gleitlänge", "Netzhöhe", "Netzsteifigkeit"),
-                *("Stützenabstand", "Stützenneigung", "Anker", None, None),
-                *("Abspannseil", None, "Stütze"),
-            ],
-            [
-                *([None] * 10),
-                *("Fuß", "bergseitiger", "talseitiger", "bergseitiges", "talseitiges"),
+                *("Stützenabstand", "Stützenneigung", "Netzfußanker", "Berganker"),
+                *("Talanker", "Seil bergseitig", "Seil talseitig", "Stütze"),
             ],
             ["", "°", "cm", "m", "", "m", "m", "N/m", "m", "gon"],
             [
@@ -119,10 +115,6 @@ def german_site() -> Sheets:
             ["W2", 1, "100", 400],
         ],
     }
-
-
-GERMAN_MERGES = ("K1:M1", "N1:O1")
-GERMAN_DOWNWARD = "ABCDEFGHIJP"  # columns whose heading is merged over rows 1 and 2
 
 
 def damaged_site() -> Sheets:

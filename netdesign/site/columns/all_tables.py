@@ -33,7 +33,7 @@ _OF_COLUMN = ("units", "bounds", "usual", "zero_says_none")  # a range has them 
 
 @lru_cache
 def load_file(name: str) -> Data:
-    """Tables of ``columns``, ``signs``, ``words/LANGUAGE`` or ``headings/LANGUAGE``."""
+    """Tables of a file of this folder: ``columns``, ``words/LANGUAGE`` and others."""
     file = files(__package__).joinpath(f"{name}.toml")
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
