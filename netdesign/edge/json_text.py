@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cache, lru_cache
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from netdesign.outcome import ContentError
 from netdesign.words.message import say
 
 if TYPE_CHECKING:  # slow to import and only needed to read a document
     from pydantic import TypeAdapter
-    from pydantic_core import SchemaValidator
+    from pydantic_core import CoreSchema
 
 # A study of as many net rows and cases as a site may have (``site/cells/cells.py``,
 # ``envelope/ranges.py``), with some room: a row has up to 450 kB, 17,000 values and
@@ -22,7 +22,6 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
 MAX_JSON_BYTES = 640 * 2**20
 MAX_VALUES = 24_000_000
 MAX_OBJECTS = 3_600_000
-_SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
 _MOST_KEYS = 200  # of one object
 _NEXT = ",\n"  # between items
 
@@ -131,11 +130,23 @@ def _name_fields(kind: Any) -> tuple[str, ...]:
     return tuple(one.name for one in fields(kind))
 
 
+class _FirstFault:
+    """A list is read up to its first fault: each fault costs kilobytes."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        """Schema that pydantic asks for."""
+        from pydantic import FailFast
+
+        schema: CoreSchema = handler.generate_schema(Annotated[source, FailFast()])
+        return schema
+
+
+Item = TypeVar("Item")
+Items = Annotated[list[Item], _FirstFault()]  # a list of a document
+
+
 def read_json(shape: type, text: str) -> Any:
     """Value of a dataclass from its JSON text.
-
-    Of a small document all faults are told; of a large one the first of each list,
-    since each fault costs a validator kilobytes.
 
     Raises
     ------
@@ -144,20 +155,12 @@ def read_json(shape: type, text: str) -> Any:
     ValueError
         If it holds too much, is nested too deep, or has a key twice in one object.
     """
-    values = text.count(",")
-    if values > MAX_VALUES or text.count("{") > MAX_OBJECTS:
+    if text.count(",") > MAX_VALUES or text.count("{") > MAX_OBJECTS:
         raise ContentError(
             say("file.holds_more", values=MAX_VALUES, objects=MAX_OBJECTS)
         )
-    keys = _inspect(text)
-    if values <= _SMALL and len(text) <= _SMALL_TEXT:
-        return _build_validator(shape).validate_json(text)
-    strange = keys.symmetric_difference(field.name for field in fields(shape))
-    strange -= {one.name for one in fields(shape) if one.default is not MISSING} - keys
-    if strange:
-        shown = ", ".join(sorted(strange))[:500]
-        raise ContentError(say("file.unknown_or_missing", keys=shown))
-    return _build_quick_validator(shape).validate_json(text)
+    _inspect(text)
+    return restore_json(shape, text)
 
 
 def restore_json(shape: type, text: str) -> Any:
@@ -168,28 +171,25 @@ def restore_json(shape: type, text: str) -> Any:
     ValidationError
         If the text is not of this shape.
     """
-    return _build_quick_validator(shape).validate_json(text)
+    return _build_validator(shape).validate_json(text)
 
 
-def _inspect(text: str) -> set[str]:
-    """Keys of the outermost object; an error where a text has two readings."""
-    last: set[str] = set()
+def _inspect(text: str) -> None:
+    """Refuse a text that has two readings."""
 
     def note_keys(pairs: list[tuple[str, object]]) -> None:
-        nonlocal last
         if len(pairs) > _MOST_KEYS:
             raise ContentError(say("file.many_keys", most=_MOST_KEYS))
-        last = {key for key, _ in pairs}
-        if len(last) < len(pairs):
-            raise ContentError(say("file.key_twice", keys=f"{sorted(last)!r:.100}"))
+        keys = {key for key, _ in pairs}
+        if len(keys) < len(pairs):
+            raise ContentError(say("file.key_twice", keys=f"{sorted(keys)!r:.100}"))
 
     try:
         json.loads(text, object_pairs_hook=note_keys)
     except RecursionError:
         raise ContentError(say("file.nested")) from None
     except json.JSONDecodeError:
-        return set()  # the validator says where
-    return last
+        return  # the validator says where
 
 
 @lru_cache(maxsize=8)
@@ -197,24 +197,3 @@ def _build_validator(shape: type) -> TypeAdapter[Any]:
     from pydantic import TypeAdapter
 
     return TypeAdapter(shape)
-
-
-@lru_cache(maxsize=8)
-def _build_quick_validator(shape: type) -> SchemaValidator:
-    from pydantic import TypeAdapter
-    from pydantic_core import SchemaValidator
-
-    schema = TypeAdapter(shape).core_schema
-    _stop_at_first_faults(schema)
-    return SchemaValidator(schema)
-
-
-def _stop_at_first_faults(schema: Any) -> None:
-    if isinstance(schema, dict):
-        if schema.get("type") == "list":
-            schema["fail_fast"] = True
-        for part in schema.values():
-            _stop_at_first_faults(part)
-    elif isinstance(schema, list | tuple):
-        for part in schema:
-            _stop_at_first_faults(part)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from netdesign.edge.json_text import list_fields
+from netdesign.edge.json_text import Items, list_fields
 from netdesign.outcome import Outcome
 from netdesign.words.message import Text
 
@@ -37,9 +37,9 @@ class LineRecord:
     """Force along one quantity through the governing case."""
 
     key: str
-    values: list[float]
-    force_kN: list[float]
-    bound_kN: list[float]
+    values: Items[float]
+    force_kN: Items[float]
+    bound_kN: Items[float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,9 +47,9 @@ class MapRecord:
     """Force over density and friction at one inclination; rows are frictions."""
 
     inclination_deg: float
-    density_kg_m3: list[float]
-    friction_deg: list[float]
-    force_kN: list[list[float]]
+    density_kg_m3: Items[float]
+    friction_deg: Items[float]
+    force_kN: Items[Items[float]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,9 +78,9 @@ class BoundRecord:
     case: dict[str, float]
     coincident_kN: dict[str, float]
     unexplained: float | None  # error of the Sobol indices: share of the variance
-    drivers: list[DriverRecord]  # with lines and maps: of what is drawn
-    lines: list[LineRecord]
-    maps: list[MapRecord]
+    drivers: Items[DriverRecord]  # with lines and maps: of what is drawn
+    lines: Items[LineRecord]
+    maps: Items[MapRecord]
     confirmation: ConfirmationRecord | None
 
 
@@ -88,7 +88,7 @@ class BoundRecord:
 class EnvelopeRecord:
     """Search for the largest forces of a net row, and what may hide."""
 
-    axes: list[AxisRecord]
+    axes: Items[AxisRecord]
     is_per_metre: bool
     is_closed: bool  # every gap is within the one asked for
     gap_asked_percent: float
@@ -98,7 +98,7 @@ class EnvelopeRecord:
     skipped: int  # known without a solve, since the snow stuck with less friction
     skips_tested: int
     failed: int
-    bounds: list[BoundRecord]
+    bounds: Items[BoundRecord]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,7 +168,7 @@ class ForceRecord:
     value_kN: float
     high_kN: float
     case: CasePoint
-    unknown: list[str] = field(default_factory=list)  # axes nothing is known along
+    unknown: Items[str] = field(default_factory=list)  # axes nothing is known along
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -202,10 +202,10 @@ class GuidelineRecord:
     case: CasePoint  # of the coupled solve
     solved_load_kN_per_m: float  # along the slope on the net
     solved_foot_anchor_kN: float
-    cases: list[GuidelineCase]
+    cases: Items[GuidelineCase]
     sentence: Text  # why the two differ
     # Height above the slope [m] and pressure of the snow [kPa] of the coupled solve.
-    along_net: list[tuple[float, float]] = field(default_factory=list)
+    along_net: Items[tuple[float, float]] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -240,9 +240,9 @@ class FloorRecord:
 
     profile: str  # whose load model
     sha256: str
-    forces: list[FloorForceRecord]  # empty where the floor is not available
+    forces: Items[FloorForceRecord]  # empty where the floor is not available
     altitude_factor: float  # on the density of load case 1
-    assumed: list[Text] = field(default_factory=list)  # of the row, for its load
+    assumed: Items[Text] = field(default_factory=list)  # of the row, for its load
     reason: Text | None = None  # why it is not
 
 

@@ -65,8 +65,8 @@ def read_document(text: str) -> Study:
     Raises
     ------
     StudyError
-        Naming every key that is missing, unknown or of the wrong kind; of a large
-        document those of the first faulty member of each list.
+        Naming every key that is missing, unknown or of the wrong kind, of each list
+        those of its first faulty member.
     """
     from pydantic import ValidationError
 

@@ -16,6 +16,7 @@ from netdesign.calculation.steps import Step
 from netdesign.checks.loader import StandardValue
 from netdesign.checks.result import Proof
 from netdesign.edge.json_text import (
+    Items,
     JsonPart,
     join_items,
     join_members,
@@ -78,7 +79,7 @@ class ModelFormRecord:
     numerical_low: float | None  # interval of the same check
     numerical_high: float | None
     solves: int  # that this took
-    variants: list[VariantRecord]
+    variants: Items[VariantRecord]
 
 
 SCHEMA: Literal["netdesign.study/3"] = "netdesign.study/3"
@@ -147,7 +148,7 @@ class TestsRecord:
     count: int
     least_kN: float
     mean_kN: float
-    singles: list[SingleTestRecord]  # empty where each is not given
+    singles: Items[SingleTestRecord]  # empty where each is not given
     route: str  # way that counts
     routes: dict[str, float | None]  # characteristic resistance [kN]
     reasons: dict[str, Text]  # why there is none
@@ -184,11 +185,11 @@ class CheckRecord:
     resistance_years: int | None = None  # for which its steel lasts; None: not known
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     tests: TestsRecord | None = None  # of a pull-out resistance that is from them
-    steps: list[Step] = field(default_factory=list)
+    steps: Items[Step] = field(default_factory=list)
     declared: Proof | None = None  # whatever the verdict
-    spreads: list[SpreadRecord] = field(default_factory=list)
-    changes: list[ChangeRecord] = field(default_factory=list)
-    holds: list[HoldRecord] = field(default_factory=list)
+    spreads: Items[SpreadRecord] = field(default_factory=list)
+    changes: Items[ChangeRecord] = field(default_factory=list)
+    holds: Items[HoldRecord] = field(default_factory=list)
     position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
     is_unbounded: bool = False  # utilisation beyond any number; the check fails
 
@@ -256,9 +257,9 @@ class MonitoringRecord:
 
     member: str
     source: str  # "Monitoring!A2"
-    times_d: list[float]  # since the first reading
-    tensions_kN: list[float | None]
-    air_temperatures_C: list[float | None]
+    times_d: Items[float]  # since the first reading
+    tensions_kN: Items[float | None]
+    air_temperatures_C: Items[float | None]
     model: Text
 
 
@@ -299,7 +300,7 @@ class ReliabilityRecord:
 
     check: str  # its id; "" where no check governs
     reason: Text | None
-    variables: list[VariableRecord] = field(default_factory=list)
+    variables: Items[VariableRecord] = field(default_factory=list)
     beta: float | None = None  # by sampling
     standard_error: float | None = None  # of the sampling
     beta_by_form: float | None = None
@@ -337,30 +338,30 @@ class RowStudy:
 
     id: str
     verdict: Verdict
-    checks: list[CheckRecord]
-    extremes: list[ExtremeRecord]
-    cases: list[CaseRecord]
-    inputs: list[InputEcho]
+    checks: Items[CheckRecord]
+    extremes: Items[ExtremeRecord]
+    cases: Items[CaseRecord]
+    inputs: Items[InputEcho]
     drawing: Drawing | None  # None when no case converged
-    reasons: list[Text]  # why the row is not proven, or what failed; may be empty
-    unsaid: list[Message] = field(default_factory=list)  # empty columns that decide
-    questions: list[Message] = field(default_factory=list)  # numbers hardly meant
-    monitoring: list[MonitoringRecord] = field(default_factory=list)
-    anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
-    head: list[HeadForce] = field(default_factory=list)  # in the drawn case
-    pulls: list[PullRecord] = field(default_factory=list)  # over all solved cases
-    forces: list[ForceRecord] = field(default_factory=list)  # that checks rest on
+    reasons: Items[Text]  # why the row is not proven, or what failed; may be empty
+    unsaid: Items[Message] = field(default_factory=list)  # empty columns that decide
+    questions: Items[Message] = field(default_factory=list)  # numbers hardly meant
+    monitoring: Items[MonitoringRecord] = field(default_factory=list)
+    anchors: Items[AnchorRecord] = field(default_factory=list)  # in the drawn case
+    head: Items[HeadForce] = field(default_factory=list)  # in the drawn case
+    pulls: Items[PullRecord] = field(default_factory=list)  # over all solved cases
+    forces: Items[ForceRecord] = field(default_factory=list)  # that checks rest on
     guideline: GuidelineRecord | None = None
     floor: FloorRecord | None = None  # None under a profile without a floor
-    notes: list[Text] = field(default_factory=list)
-    independent: list[IndependentRecord] = field(default_factory=list)
+    notes: Items[Text] = field(default_factory=list)
+    independent: Items[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
-    statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
+    statics: Items[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
     model_form: ModelFormRecord | None = None  # None where nothing governs
-    parts: list[PartRecord] = field(default_factory=list)  # that it is built of
+    parts: Items[PartRecord] = field(default_factory=list)  # that it is built of
     reliability: ReliabilityRecord | None = None  # None where nobody asks for it
 
     @cached_property
@@ -377,7 +378,7 @@ class ProfileRecord:
     title: str
     edition: str
     sha256: str
-    values: list[StandardValue]
+    values: Items[StandardValue]
     version: str = ""
     choice: str = ""  # set of factors in force; "" where the profile has none
     choice_text: str = ""  # what that set is
@@ -386,7 +387,7 @@ class ProfileRecord:
     shared_sum: str = "vector"  # of the pulls of two guys on one anchor
     is_floor_overruled: bool = False  # the profile itself takes the other one
     is_default: bool = False  # nobody named it
-    not_checked: list[str] = field(default_factory=list)  # topics that others check
+    not_checked: Items[str] = field(default_factory=list)  # topics that others check
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -415,13 +416,13 @@ class Study:
 
     schema: Literal["netdesign.study/3"]
     verdict: Verdict
-    what_if: list[ReplacedCell] = field(default_factory=list)  # of no site as built
-    left_out: list[str] = field(default_factory=list)  # net rows that were not checked
+    what_if: Items[ReplacedCell] = field(default_factory=list)  # of no site as built
+    left_out: Items[str] = field(default_factory=list)  # net rows that were not checked
     project: Project
     profile: ProfileRecord
-    rows: list[RowStudy]
-    range_inputs: list[InputEcho]
-    notes: list[Text]
+    rows: Items[RowStudy]
+    range_inputs: Items[InputEcho]
+    notes: Items[Text]
     provenance: Provenance
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from netdesign.edge.json_text import Items
 from netdesign.structure.axis import PullRange
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
@@ -33,17 +34,17 @@ class Drawing:
     case: CasePoint
     slope_deg: float
     snow_thickness_m: float
-    net_m: list[tuple[float, float]]  # foot to head, under load
-    sticks: list[bool]  # per net point: the snow sticks there
-    mesh_edges_m: list[tuple[float, float, float, float]]
+    net_m: Items[tuple[float, float]]  # foot to head, under load
+    sticks: Items[bool]  # per net point: the snow sticks there
+    mesh_edges_m: Items[tuple[float, float, float, float]]
     head_m: tuple[float, float]
     post_base_m: tuple[float, float]
     uphill_anchor_m: tuple[float, float]
     downhill_anchor_m: tuple[float, float]
-    arrows: list[Arrow]
+    arrows: Items[Arrow]
     # Of the snow, per net point; None at the ends, where it is singular, and above the
     # snow. Empty in studies of earlier versions.
-    pressure_kPa: list[float | None] = field(default_factory=list)
+    pressure_kPa: Items[float | None] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,7 +114,7 @@ class StaticsRecord:
     (S1) to (S8). X along the slope from the net's foot, Y out of the ground.
     """
 
-    brings: list[str]  # members that it loads most; "head_pull", "foot_least", ...
+    brings: Items[str]  # members that it loads most; "head_pull", "foot_least", ...
     case: CasePoint | None  # None under the guideline's load
     load: GuidelineLoadRecord | None
     foot_x_kN_per_m: float
@@ -180,14 +181,14 @@ class PanelDrawing:
     """
 
     case: CasePoint
-    places_m: list[float]  # along the row, from beside the post to mid-panel
+    places_m: Items[float]  # along the row, from beside the post to mid-panel
     post_head_m: tuple[float, float]
-    lower_m: list[tuple[float, float]]
-    upper_m: list[tuple[float, float]]
-    mid_net_m: list[tuple[float, float]]  # foot to head, in mid-panel
-    rope_places_m: list[float]  # those of the tensions, from the post on
-    lower_tensions_kN: list[float]
-    upper_tensions_kN: list[float]
+    lower_m: Items[tuple[float, float]]
+    upper_m: Items[tuple[float, float]]
+    mid_net_m: Items[tuple[float, float]]  # foot to head, in mid-panel
+    rope_places_m: Items[float]  # those of the tensions, from the post on
+    lower_tensions_kN: Items[float]
+    upper_tensions_kN: Items[float]
     foot_kN: tuple[float, float]  # on the foot anchor beside a post, of a bay
     mid_foot_kN: tuple[float, float]
     head_kN: tuple[float, float]  # on a post head
@@ -203,11 +204,11 @@ class PanelRecord:
 
     cut: str  # "uniform", "upper" or "fitted"
     has_mid_anchors: bool
-    ropes: list[RopeRecord]
-    extremes: list[ExtremeRecord]  # quantities "panel_foot_anchor", ...
+    ropes: Items[RopeRecord]
+    extremes: Items[ExtremeRecord]  # quantities "panel_foot_anchor", ...
     failed: int = 0  # solved cases without forces by the panel
     end_guy_deg: float | None = None  # angle to the row; None where none is given
     drawing: PanelDrawing | None = None  # None where the drawn case has no panel
     # columns that are empty: several panels were tried, forces are the largest of all,
     # and cut and anchors in mid-panel those of the first
-    assumed: list[Message] = field(default_factory=list)
+    assumed: Items[Message] = field(default_factory=list)

