@@ -69,7 +69,6 @@ def check(
     profile = standard if isinstance(standard, Standard) else load_standard(standard)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
-        command="netdesign.check",
         started=datetime.now(UTC).isoformat(timespec="seconds"),
         has_reliability=reliability,
     )
@@ -128,7 +127,7 @@ def write_reports(
     OutputError
         If a file is in the way.
     NetDesignError
-        If the study contradicts its own numbers, or the map is not of its rows.
+        If the map is not of its rows.
 
     Verified by
     -----------

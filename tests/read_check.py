@@ -1,7 +1,6 @@
-"""Parts of a check's calculation as its record has them, and spoilt ones."""
+"""Parts of a check's calculation as its record has them."""
 
 import math
-from dataclasses import replace
 
 
 def compare_support(check) -> float:
@@ -20,24 +19,3 @@ def bring(check, force: float) -> float:
     if check.read("B") is not None:  # of two guys on one anchor
         inside = math.hypot(force, check.read("B"))
     return inside * compare_support(check)
-
-
-def scale_step(study, check_id, symbol, share, ends=("value", "low", "high")):
-    """Study whose step of one check is changed, in its value and its ends."""
-    row = study.rows[0]
-    (check,) = (one for one in row.checks if one.id == check_id)
-    old = check.known[symbol]
-    known = zip(("low", "value", "high"), old.ends, strict=True)
-    new = replace(old, **{end: share * force for end, force in known if end in ends})
-    steps = [new if one is old else one for one in check.steps]
-    checks = [replace(one, steps=steps) if one is check else one for one in row.checks]
-    return replace(study, rows=[replace(row, checks=checks)])
-
-
-def scale_force(study, quantity, share, ends=("value_kN", "low_kN", "high_kN")):
-    """Study one of whose largest solved forces is changed."""
-    row = study.rows[0]
-    (old,) = (one for one in row.forces if one.quantity == quantity)
-    new = replace(old, **{end: share * getattr(old, end) for end in ends})
-    forces = [new if one is old else one for one in row.forces]
-    return replace(study, rows=[replace(row, forces=forces)])

@@ -40,7 +40,6 @@ LASTS = Wear(kind="rope", protected_years=100)
 EYE = Link(kind="eye", breaking=1e8, limit=None, count=1, angle=None, source="Links!C2")
 RUN = CheckRun(
     settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
-    command="netdesign check site.xlsx",
     started="2026-01-02T03:04:05+00:00",
 )
 RANGES = Ranges.of(

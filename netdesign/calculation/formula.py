@@ -1,4 +1,4 @@
-"""Formulas of quantities as text: for a reader, a file, a spreadsheet; and back.
+"""Formulas of quantities as text: for a reader, a file, a spreadsheet.
 
 ``b_e / b * (g * E_s + A)`` is the text of a file. It is read by Python's own grammar,
 of which nothing counts but names, numbers and the operations of a quantity.
@@ -7,12 +7,13 @@ of which nothing counts but names, numbers and the operations of a quantity.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import cast
 
-from netdesign.calculation.quantity import OPERATIONS, Quantity, apply, constant
+from netdesign.calculation.quantity import OPERATIONS, Quantity
 from netdesign.outcome import ContentError
 from netdesign.words.message import say
 
@@ -119,7 +120,10 @@ def _list_parts(
         yield tree.id, end
         return
     if isinstance(tree, ast.Constant):
-        yield notation.number(cast("float", tree.value))
+        number = cast("float", tree.value)
+        if type(number) not in (int, float) or not math.isfinite(number):
+            raise SyntaxError
+        yield notation.number(number)
         return
     name, of = _read_operation(tree)
     way = OPERATIONS[name].way
@@ -164,38 +168,28 @@ def _build_tree(quantity: Quantity, *, is_whole: bool = False) -> ast.expr:
     return ast.Call(func=ast.Name(id=quantity.operation), args=of, keywords=[])
 
 
-def read_formula(text: str, known: Mapping[str, Quantity]) -> Quantity:
-    """Quantity that a formula makes of those that are known by their symbols.
+def require_formula(text: str, known: Container[str]) -> None:
+    """Refuse the formula of a document that is none of quantities known before it.
 
     Raises
     ------
     ContentError
-        If it is no formula of such quantities.
+        With the text.
     """
     try:
         if len(text) > _MOST_SIGNS:
             raise SyntaxError
-        return _build(_parse(text), known)
+        if all(symbol in known for symbol, _ in list_operands(text, 0)):
+            return
     except (SyntaxError, ValueError, OverflowError, MemoryError, RecursionError):
-        raise ContentError(say("calculation.no_formula", text=text[:80])) from None
+        pass
+    raise ContentError(say("calculation.no_formula", text=text[:80]))
 
 
 @lru_cache(maxsize=1024)
 def _parse(text: str) -> ast.expr:
     """Tree of a formula."""
     return ast.parse(text, mode="eval").body
-
-
-def _build(tree: ast.expr, known: Mapping[str, Quantity]) -> Quantity:
-    match tree:
-        case ast.Constant(value=int() | float() as number) if not isinstance(
-            number, bool
-        ):
-            return constant(float(number))
-        case ast.Name(id=symbol) if symbol in known:
-            return known[symbol]
-    name, of = _read_operation(tree)
-    return apply(name, *(_build(one, known) for one in of))
 
 
 def _read_operation(tree: ast.expr) -> tuple[str, Sequence[ast.expr]]:

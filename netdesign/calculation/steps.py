@@ -1,22 +1,18 @@
 """A calculation as the list of its named quantities, each after those it is made of.
 
-The list is what a file holds, and what a reader follows. `evaluate` works it out again
-from its leaves, so that a number that does not follow is found.
+The list is what a file holds, and what a reader follows.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from netdesign.calculation.formula import read_formula, write_formula
-from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.calculation.formula import require_formula, write_formula
+from netdesign.calculation.quantity import Kind, Quantity
 from netdesign.outcome import ContentError
-from netdesign.words.message import Message, say
-
-SAME = 1e-9  # relative; of a stored number and the same worked out again
+from netdesign.words.message import say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,63 +83,18 @@ def _record(one: Quantity) -> Step:
     )
 
 
-def evaluate(steps: Sequence[Step]) -> dict[str, Quantity]:
-    """Quantities of a calculation by their symbols, worked out from its leaves.
+def require_calculation(steps: Sequence[Step]) -> None:
+    """Refuse steps of a document of which one does not rest on those before it.
 
     Raises
     ------
     ContentError
-        If a step is none of a calculation, or rests on one that comes later.
-    ModelError
-        If units do not fit.
+        With the symbol that occurs twice, or the formula.
     """
-    known: dict[str, Quantity] = {}
+    known: set[str] = set()
     for step in steps:
         if step.symbol in known:
             raise ContentError(say("calculation.twice", symbol=step.symbol))
         if step.formula:
-            made = read_formula(step.formula, known)
-            known[step.symbol] = made.named(step.symbol, step.unit, step.source)
-        else:
-            known[step.symbol] = _read_leaf(step)
-    return known
-
-
-def _read_leaf(step: Step) -> Quantity:
-    low, value, high = step.ends
-    band = None if low is None or high is None else (low, high)
-    lack = say("calculation.missing", symbol=step.symbol) if value is None else None
-    return given(
-        *(step.symbol, value, step.unit, step.source),
-        kind=step.kind,
-        band=band,
-        lack=lack,
-    )
-
-
-def compare_steps(steps: Sequence[Step]) -> Iterator[Message]:
-    """Sentences on the steps whose stored numbers do not follow from the leaves."""
-    again = evaluate(steps)
-    for step in steps:
-        found = again[step.symbol]
-        pairs = zip(step.ends, (found.low, found.value, found.high), strict=True)
-        for stored, follows in pairs:
-            if not is_same(stored, follows):
-                yield say(
-                    "calculation.unequal",
-                    symbol=step.symbol,
-                    stored=_show(stored),
-                    follows=_show(follows),
-                )
-                break
-
-
-def _show(number: float | None) -> Message:
-    return say("value.none") if number is None else say("value.number", number=number)
-
-
-def is_same(one: float | None, other: float | None) -> bool:
-    """Both are the same number but for rounding, or both are missing."""
-    if one is None or other is None:
-        return one is other
-    return math.isclose(one, other, rel_tol=SAME, abs_tol=1e-12)
+            require_formula(step.formula, known)
+        known.add(step.symbol)

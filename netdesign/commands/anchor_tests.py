@@ -16,7 +16,6 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.running import require_places, write_outputs
-from netdesign.commands.stored_study import require_sound
 from netdesign.commands.usage import tell
 from netdesign.words.catalogue import Language, render, round_force_up
 from netdesign.words.message import Message, say
@@ -63,12 +62,11 @@ def anchor_tests(file: Path, **asked: Any) -> None:
 
 
 def _write_plan(site_file: Path, study_file: Path, asked: Mapping[str, Any]) -> None:
-    from netdesign.commands.stored_study import read_own_site
+    from netdesign.commands.stored_study import require_inputs
     from netdesign.outcome import StudyError
     from netdesign.site.template.form import build_form
     from netdesign.study.document import load_study
     from netdesign.study.planned_tests import STEPS, plan_tests
-    from netdesign.study.record_provenance import load_own_profile
 
     form, named = asked["out"] or Path(_FORM), asked["standard"]
     require_places(form.parent, [form.name], asked)
@@ -77,10 +75,10 @@ def _write_plan(site_file: Path, study_file: Path, asked: Mapping[str, Any]) -> 
             say("plan.no_study", study=str(study_file), site=str(site_file))
         )
     study = load_study(study_file)
-    require_sound(study, study_file, site_file, named)
-    site = read_own_site(study, study_file, site_file)
-    profile = load_own_profile(study.profile, named)
-    planned, open_points = plan_tests(study, site, profile)
+    own = {"site_file": site_file, "standard": named}
+    inputs = require_inputs(study, study_file, own)
+    profile = inputs.profile
+    planned, open_points = plan_tests(study, inputs.site, profile)
     for told in _describe_plan(planned, profile):
         tell(told)
     for told in open_points:

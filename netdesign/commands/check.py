@@ -16,7 +16,7 @@ from netdesign.commands.options import (
     take_options,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
-from netdesign.commands.running import format_time, own_command
+from netdesign.commands.running import format_time
 from netdesign.commands.site_input import (
     choose_rows,
     read_asked_site,
@@ -71,7 +71,6 @@ def check(site_file: Path | None, **asked: Any) -> None:
         settings=SolverSettings(accuracy=asked["accuracy"]),
         method=asked["method"],
         jobs=asked["jobs"] or os.cpu_count() or 1,
-        command=own_command(),
         started=format_time(),
         has_reliability=asked["reliability"],
     )

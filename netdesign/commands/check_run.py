@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -279,21 +278,10 @@ def _check_and_size(
         if not instead:
             sized.append((cells, None))
             continue
-        own_run = replace(run, command=_write_command(run.command, instead))
-        again = solve_rows(read(instead), own_run, runner, watch, solved)
-        (what_if,) = judge_solved(again, [profile], own_run, runner, watch)
+        again = solve_rows(read(instead), run, runner, watch, solved)
+        (what_if,) = judge_solved(again, [profile], run, runner, watch)
         sized.append((cells, what_if))
     return studies, sized
-
-
-def _write_command(command: str, instead: Mapping[str, str]) -> str:
-    """Command that makes a what-if study again, from the one that sized it."""
-    from netdesign.site.declared_sheet import write_replacement
-
-    words = [word for word in shlex.split(command) if word != "--size"]
-    for cell, text in instead.items():
-        words += ["--what-if", write_replacement(cell, text)]
-    return shlex.join(words)
 
 
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick

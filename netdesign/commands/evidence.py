@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from datetime import UTC, datetime
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,16 +18,14 @@ from netdesign.commands.options import (
 from netdesign.commands.running import (
     follow,
     format_time,
-    open_run,
     print_document,
-    print_faults,
     require_places,
     write_outputs,
 )
 from netdesign.commands.stored_study import (
-    NO_COMMAND,
-    contradict_command,
-    read_own_site,
+    find_inputs,
+    show_differences,
+    solve_again,
 )
 from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.words.message import Message, say
@@ -47,10 +44,10 @@ _SHOWN = 20  # differences; more help nobody
 def verify(**asked: Any) -> None:
     """Run the verification pack, or verify a stored study.
 
-    The pack: closed forms, invariants, other codes. Of a study: its hashes, its
-    command, its own arithmetic, and every value of it, with their order, against a new
-    solve that uses no stored case. Exit code 1 if anything differs; 4 if nothing does,
-    but something could not be verified, which is then named.
+    The pack: closed forms, invariants, other codes. Of a study: its hashes, and every
+    value of it, with their order, against a new solve that uses no stored case. Exit
+    code 1 if anything differs; 4 if nothing does, but something could not be verified,
+    which is then named.
 
     \b
     netdesign verify
@@ -92,91 +89,37 @@ def _run_pack(asked: Mapping[str, Any]) -> int:
 
 def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
-    from netdesign.study.check_site import check_site
     from netdesign.study.document import load_study
-    from netdesign.study.record_provenance import (
-        build_run,
-        list_differences,
-        load_own_profile,
-    )
-    from netdesign.study.rejudge import rejudge
+    from netdesign.study.record_provenance import find_time_fault, list_differences
 
     study = load_study(path)
-    run = build_run(study, asked["jobs"] or os.cpu_count() or 1)
-    site = read_own_site(study, path, asked["site_file"])
-    if study.left_out:
-        site = site.take_rows([row.id for row in study.rows])
-    profile = load_own_profile(study.profile, asked["standard"])
-    made = study.provenance
-    hashes = [
-        _show_hash(say("verify.site_file"), made.site_sha256, site.sha256),
-        _show_hash(say("verify.limit_profile"), study.profile.sha256, profile.sha256),
-    ]
-    if not all(hashes):
+    inputs = find_inputs(study, path, asked)
+    hashes = inputs.list_hashes(study)
+    for one in hashes:
+        _show_hash(*one)
+    if any(stored != now for _, stored, now in hashes):
         tell(say("verify.not_its_inputs"))
         return _FAIL
-    arithmetic = rejudge(study, profile, site)
-    told = [
-        _show_digest(study),
-        _show_contradictions(say("verify.its_command"), contradict_command(study)),
-        _show_contradictions(say("verify.its_time"), _contradict_time(study)),
-        _show_contradictions(say("verify.its_arithmetic"), arithmetic),
-    ]
-    solving = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
-    with open_run(site, run, solving) as (runner, watch):
-        (again,) = check_site(site, [profile], run, runner, watch)
-    if failed := print_faults(runner.faults):
-        return failed
+    again = solve_again(study, inputs, asked)
     count, differences = list_differences(study, again)
+    if wrong := find_time_fault(study):
+        tell(wrong)
     _show_comparison(study, again, count, differences)
     left = _show_unverified(study, again)
-    if differences or not all(told):
+    if differences or wrong:
         return _FAIL
     return _NOT_PROVEN if left else 0
 
 
-def _contradict_time(study: Study) -> Iterator[Message]:
-    """Contradictions of the run's time: it has no zone, or lies in the future."""
-    started = study.provenance.started
-    if not started:
-        return
-    time = datetime.fromisoformat(started)
-    if time.tzinfo is None:
-        yield say("verify.no_zone", time=started)
-    elif time > datetime.now(UTC):
-        yield say("verify.in_future", time=started)
-
-
-def _show_hash(what: Message, stored: str, now: str) -> bool:
-    """Tell two hashes; True if they are equal."""
-    is_equal = stored == now
-    key = "verify.hash_equal" if is_equal else "verify.hash_differs"
+def _show_hash(what: Message, stored: str, now: str) -> None:
+    """Tell two hashes, and whether they are equal."""
+    key = "verify.hash_equal" if stored == now else "verify.hash_differs"
     tell(say(key, what=what))
     tell(say("verify.hashes", stored=stored, now=now))
-    return is_equal
-
-
-def _show_digest(study: Study) -> bool:
-    """Tell the document's digest; True if it holds, or if there is none."""
-    from netdesign.study.document import compute_digest
-
-    if not study.digest:
-        return True
-    return _show_hash(say("verify.document"), study.digest, compute_digest(study))
-
-
-def _show_contradictions(what: Message, found: Iterable[Message]) -> bool:
-    """Tell the first contradictions; True if there are none."""
-    told = list(found)
-    for one in told[:_SHOWN]:
-        tell(say("verify.differs", what=what, reason=one))
-    if not told:
-        tell(say("verify.holds", what=what))
-    return not told
 
 
 def _show_comparison(
-    study: Study, again: Study, count: int, differences: Sequence[Difference]
+    study: Study, again: Study, count: int, differences: list[Difference]
 ) -> None:
     """Tell which values do not come out; the hash may differ in last digits."""
     from netdesign.study.document import hash_results, write_document
@@ -189,10 +132,8 @@ def _show_comparison(
         tell(say("verify.last_digits"))
     cases = sum(len(row.cases) for row in again.rows)
     tell(say("verify.compared", cases=cases, values=count))
-    for one in differences[:_SHOWN]:
-        tell(say("verify.difference", value=one.message))
-    if differences[_SHOWN:]:
-        tell(say("verify.more", count=len(differences) - _SHOWN))
+    for line in show_differences(differences):
+        tell(line)
     if not differences:
         is_equal = write_document(study) == write_document(again)
         same = say("verify.same_numbers", share=SAME)
@@ -203,18 +144,16 @@ def _show_unverified(study: Study, again: Study) -> bool:
     """Tell what a new solve cannot show; True if some of it is avoidable."""
     from netdesign.study.record_provenance import list_versions
 
-    made = study.provenance
     old, new = list_versions(study), list_versions(again)
     others = [name for name in old | new if old.get(name) != new.get(name)]
     for name in others:
         then, now = str(old.get(name)), str(new.get(name))
         tell(say("verify.other_version", name=name, then=then, now=now))
-    if not study.digest:
-        tell(say("verify.no_digest"))
-    if made.command == NO_COMMAND:
-        tell(say("verify.no_command"))
-    tell(say("verify.as_stated", time=made.started or say("verify.not_stated")))
-    return bool(others) or not study.digest or made.command == NO_COMMAND
+    if study.left_out:
+        tell(say("verify.left_out", rows=tuple(study.left_out)))
+    time = study.provenance.started or say("verify.not_stated")
+    tell(say("verify.as_stated", time=time))
+    return bool(others or study.left_out)
 
 
 def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:

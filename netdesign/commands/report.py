@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,7 @@ from netdesign.commands.options import (
     take_options,
 )
 from netdesign.commands.running import find_exit_code, print_document, report_places
-from netdesign.commands.stored_study import require_sound
+from netdesign.commands.stored_study import require_verified
 from netdesign.commands.usage import tell
 from netdesign.edge.output import PART_MARK, WHAT_IF_MARK
 from netdesign.words.catalogue import Language
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from netdesign.files.rows_map import RowsMap
     from netdesign.report.difference import Change
     from netdesign.report.files import ReportStyle
+    from netdesign.study.records import Study
 
 DEFAULT_FOLDER = "netdesign-out"
 # Reports by the options that ask for them.
@@ -104,11 +106,12 @@ def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
 def report(study_file: Path, **asked: Any) -> None:
     """Render the reports of a stored study again, without solving.
 
-    A study that contradicts itself, its site file or its limit profile is refused. Only
-    `netdesign verify --study` shows that its forces are those of the site.
+    They say that the study is not verified, unless --verify solves it again, as
+    `netdesign verify --study` does, and every value of it comes out.
 
     \b
     netdesign report netdesign-out/study.json --out again
+    netdesign report netdesign-out/study.json --verify --out verified
     netdesign report netdesign-out/study.json --language fr --out rapport
     netdesign report netdesign-out/study.json --detail summary --no-excel --force
     netdesign report netdesign-out/study.json --rows-map rows.geojson --out mapped
@@ -128,11 +131,30 @@ def report(study_file: Path, **asked: Any) -> None:
 
         require_named(style.places, [row.id for row in study.rows])
     require_free(names[0], overwrite=asked["force"])
-    require_sound(study, study_file, asked["site_file"], asked["standard"])
+    is_verified = _look_at((study,), (study_file,), asked)
+    style = replace(style, is_verified=is_verified)
     files = render_files([study], names, style)
     write_files(files, overwrite=asked["force"], is_recorded=True)
     report_places(files, asked)
     sys.exit(find_exit_code([study]))
+
+
+def _look_at(
+    studies: Sequence[Study], paths: Sequence[Path], asked: Mapping[str, Any]
+) -> bool:
+    """Verification of the studies, if it is asked for; told first either way.
+
+    Raises
+    ------
+    StudyError
+        If one of them does not come out again.
+    """
+    if asked["verify"]:
+        for study, path in zip(studies, paths, strict=True):
+            require_verified(study, path, asked)
+    if not asked.get("as_json"):
+        tell(say("standing.verified" if asked["verify"] else "standing.not_verified"))
+    return bool(asked["verify"])
 
 
 @click.command()
@@ -143,8 +165,8 @@ def diff(old: Path, new: Path, **asked: Any) -> None:
     """Show what changed from one study to another: verdicts, checks, inputs.
 
     Verdicts that got worse come first. Exit code 1 if a verdict turned: of the study,
-    of a net row or of any check in it. A study that contradicts itself, its site file
-    or its limit profile is refused, as by `netdesign report`.
+    of a net row or of any check in it. The studies are not verified, unless --verify
+    solves both again.
 
     \b
     netdesign diff rev-a/study.json rev-b/study.json
@@ -154,11 +176,11 @@ def diff(old: Path, new: Path, **asked: Any) -> None:
     from netdesign.study.document import load_study
 
     before, after = load_study(old), load_study(new)
-    for study, path in ((before, old), (after, new)):
-        require_sound(study, path)
+    is_verified = _look_at((before, after), (old, new), asked)
     changes = compare_studies(before, after)
     if asked["as_json"]:
-        print_document(write_difference(changes, asked["language"]))
+        document = write_difference(changes, asked["language"])
+        print_document({**document, "is_verified": is_verified})
     else:
         _show(changes, asked["language"])
     sys.exit(_TURNED if any(change.is_turned for change in changes) else 0)

@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from netdesign.commands.options import (
-    DELIMITERS,
-    read_instead,
     refuse_delimiter,
     refuse_jobs,
     take_options,
@@ -148,21 +146,6 @@ def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> Non
         others = {key: text for key, text in instead.items() if key != cell}
         if read_bare(others) == whole:
             raise UsageRefusal(say("what_if.no_effect", cell=cell))
-
-
-def reopen_site(path: Path, typed: Mapping[str, Any]) -> Site:
-    """Read a site again, with the words of an earlier command that say how."""
-    try:
-        instead = read_instead(None, None, typed.get("instead") or ())
-    except click.UsageError:  # of a command that was altered: its inputs contradict it
-        instead = {}
-    delimiter = str(typed.get("delimiter") or "")
-    mark = str(typed.get("decimal_mark") or "")
-    reading = {
-        "delimiter": DELIMITERS.get(delimiter, delimiter),
-        "decimal_mark": mark if mark in _MARKS else None,
-    }
-    return open_site(path, reading | {"instead": instead})
 
 
 @contextmanager

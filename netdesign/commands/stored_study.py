@@ -1,26 +1,58 @@
-"""Stored study that somebody hands on: its origin; refused where it cannot be true."""
+"""Stored study solved again from its own inputs, and what does not come out again."""
 
 from __future__ import annotations
 
-import shlex
-from collections.abc import Iterator
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from netdesign.commands.site_input import reopen_site, temporary_example
-from netdesign.commands.usage import speak, tell
-from netdesign.outcome import NetDesignError, StudyError
-from netdesign.words.catalogue import render
+from netdesign.commands.site_input import temporary_example
+from netdesign.outcome import StudyError
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
     from netdesign.site.model import Site
     from netdesign.study.records import Study
+    from netdesign.study.values import Difference
 
-NO_COMMAND = "netdesign check"  # of a study that no command line made
+_SHOWN = 20  # differences; more help nobody
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inputs:
+    """Site and limit profile of a stored study, as they are now."""
+
+    site: Site
+    profile: Standard
+
+    def list_hashes(self, study: Study) -> list[tuple[Message, str, str]]:
+        """Name, stored hash and hash of now, of each."""
+        made, used = study.provenance, study.profile
+        return [
+            (say("verify.site_file"), made.site_sha256, self.site.sha256),
+            (say("verify.limit_profile"), used.sha256, self.profile.sha256),
+        ]
+
+
+def find_inputs(study: Study, study_file: Path, asked: Mapping[str, Any]) -> Inputs:
+    """Site and profile by their names, or as the options ``asked`` give them.
+
+    Raises
+    ------
+    NetDesignError
+        If one of them is not there, or cannot be read.
+    """
+    from netdesign.study.record_provenance import load_own_profile
+
+    site = read_own_site(study, study_file, asked.get("site_file"))
+    if study.left_out:
+        site = site.take_rows([row.id for row in study.rows])
+    profile = load_own_profile(study.profile, asked.get("standard"))
+    return Inputs(site=site, profile=profile)
 
 
 def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
@@ -33,163 +65,89 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
     """
     from netdesign.edge.given_files import is_there
 
-    values = _parse_command(study.provenance.command) or {}
     name = Path(study.provenance.site_file).name  # never a path out of these folders
     folder = study_file.absolute().parent
     near = [one / name for one in (folder, folder.parent)]
     if site_file is not None:
-        return reopen_site(site_file, values)
+        return _read_again(study, site_file)
     found = next((one for one in near if name and is_there(one)), None)
     if found is not None:
-        return reopen_site(found, values)
-    if not values.get("example"):
-        raise StudyError(
-            say("stored.no_site", study=str(study_file), site=f"{name!r:.60}")
-        )
+        return _read_again(study, found)
     with temporary_example() as path:
-        return reopen_site(path, {"instead": values.get("instead")})
+        if name == path.name:
+            return _read_again(study, path)
+    raise StudyError(say("stored.no_site", study=str(study_file), site=f"{name!r:.60}"))
 
 
-def contradict_command(study: Study) -> Iterator[Message]:
-    """Contradictions between a study and the command that it says it was made by."""
-    from netdesign.edge.given_files import make_printable
+def _read_again(study: Study, path: Path) -> Site:
+    """Site from a file, by the options that took effect when it was read."""
+    from netdesign.site.declared_sheet import split_replacement
+    from netdesign.site.reader import read_site
+    from netdesign.study.record_provenance import read_text_format
 
-    made = study.provenance
-    if made.command == NO_COMMAND:
-        return
-    values = _parse_command(made.command)
-    if values is None:
-        yield say("stored.no_command", command=f"{made.command!r:.120}")
-        return
-    named = "example.xlsx" if values.get("example") else values.get("site_file")
-    if Path(named or "").name != make_printable(Path(made.site_file).name):
-        yield say(
-            "stored.reads_other",
-            given=f"{named!r:.60}",
-            stored=f"{made.site_file!r:.60}",
-        )
-    accuracy, method = values.get("accuracy"), values.get("method")
-    if accuracy is not None and not _is_number(accuracy, made.settings.get("accuracy")):
-        yield say("stored.asks_accuracy", given=f"{accuracy!r:.20}")
-    if method is not None and method != made.settings.get("method"):
-        yield say("stored.asks_method", given=f"{method!r:.20}")
-    standards = values.get("standards") or ()
-    if standards and not any(_may_be(one, study.profile.id) for one in standards):
-        yield say("stored.asks_profile", given=f"{standards[0]!r:.60}")
+    instead = (split_replacement(f"{one.cell}={one.now}") for one in study.what_if)
+    cells = dict(filter(None, instead))
+    return read_site(path, read_text_format(study.provenance), cells)
 
 
-def _parse_command(command: str) -> dict[str, Any] | None:
-    """Options of a ``netdesign check`` as they were typed; None if it is none."""
-    group = click.get_current_context().find_root().command
-    check = group.commands.get("check") if isinstance(group, click.Group) else None
-    try:
-        program, *words = shlex.split(command)
-        place = words.index("check")
-        if program != "netdesign" or check is None:
-            return None
-        with click.Context(check, **group.context_settings) as context:
-            parser = check.make_parser(context)
-            values, left, _ = parser.parse_args(words[place + 1 :])
-    except (ValueError, click.UsageError):
-        return None
-    return values if not left else None
+def solve_again(study: Study, inputs: Inputs, asked: Mapping[str, Any]) -> Study:
+    """Study of the same inputs, solved now; no stored case is used.
+
+    A fault of the program in a solve ends the command.
+    """
+    from netdesign.commands.running import open_run, print_faults
+    from netdesign.study.check_site import check_site
+    from netdesign.study.record_provenance import build_run
+
+    run = build_run(study, asked.get("jobs") or os.cpu_count() or 1)
+    solving = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
+    with open_run(inputs.site, run, solving) as (runner, watch):
+        (again,) = check_site(inputs.site, [inputs.profile], run, runner, watch)
+    if failed := print_faults(runner.faults):
+        sys.exit(failed)
+    return again
 
 
-def _is_number(text: str, setting: str | None) -> bool:
-    try:
-        return float(text) == float(setting or "")
-    except ValueError:
-        return False
-
-
-def _may_be(standard: str, profile: str) -> bool:
-    """A word is the profile's id, or may be a folder, inside which the id stands."""
-    from netdesign.checks import list_standards
-
-    return standard == profile or standard not in list_standards()
-
-
-_SHOWN = 10  # contradictions; more help nobody
-
-
-def require_sound(
-    study: Study,
-    study_file: Path,
-    site_file: Path | None = None,
-    standard: str | None = None,
-) -> None:
-    """Refuse a study that cannot be true; say what it was not compared with.
-
-    Parameters
-    ----------
-    study, study_file
-        As read, and from where.
-    site_file, standard
-        Its site file and its limit profile, where somebody gives them; else they are
-        looked for by their names.
+def require_inputs(study: Study, study_file: Path, asked: Mapping[str, Any]) -> Inputs:
+    """Site and profile with the hashes that the study names.
 
     Raises
     ------
     StudyError
-        With the contradictions, or if a file that was given is not the study's.
+        If one has another.
     """
-    from netdesign.study.document import compute_digest
-    from netdesign.study.rejudge import rejudge
-
-    site = _find_site(study, study_file, site_file)
-    profile = _find_profile(study, study_file, standard)
-    found = [say("stored.command", reason=one) for one in contradict_command(study)]
-    found += rejudge(study, profile, site)
-    if study.digest and study.digest != compute_digest(study):
-        found.insert(0, say("stored.altered"))
-    if found:
-        more = say("stored.more", count=len(found) - _SHOWN)
-        lines = (*found[:_SHOWN], *((more,) if found[_SHOWN:] else ()))
-        raise StudyError(say("stored.contradicts", study=str(study_file), lines=lines))
+    inputs = find_inputs(study, study_file, asked)
+    hashes = inputs.list_hashes(study)
+    others = [what for what, stored, now in hashes if stored != now]
+    _refuse(study_file, [say("verify.hash_differs", what=what) for what in others])
+    return inputs
 
 
-def _find_site(study: Study, study_file: Path, site_file: Path | None) -> Site | None:
-    """Site of the study, where its file is at hand; one that is given has to be it."""
-    try:
-        site = read_own_site(study, study_file, site_file)
-    except NetDesignError as error:
-        if site_file is not None:
-            raise
-        first = render(error.message, speak()).partition("\n")[0]
-        _describe_uncompared(study_file, "stored.site_uncompared", first)
-        return None
-    if site.sha256 == study.provenance.site_sha256:
-        return site
-    if site_file is not None:
-        raise StudyError(say("stored.not_the_site", file=str(site_file)))
-    reason = say("stored.other_site")
-    _describe_uncompared(study_file, "stored.site_uncompared", reason)
-    return None
+def require_verified(study: Study, study_file: Path, asked: Mapping[str, Any]) -> None:
+    """Refuse a study of which a new solve gives other values.
+
+    Raises
+    ------
+    StudyError
+        With the places, or with the file that is not the study's.
+    """
+    from netdesign.study.record_provenance import list_differences
+
+    inputs = require_inputs(study, study_file, asked)
+    _, found = list_differences(study, solve_again(study, inputs, asked))
+    _refuse(study_file, show_differences(found))
 
 
-def _find_profile(
-    study: Study, study_file: Path, standard: str | None
-) -> Standard | None:
-    """Profile of the study, where it is at hand; one that is given has to be it."""
-    from netdesign.study.record_provenance import load_own_profile
-
-    try:
-        profile = load_own_profile(study.profile, standard)
-    except NetDesignError as error:
-        if standard is not None:
-            raise
-        reason = error.message
-        _describe_uncompared(study_file, "stored.profile_uncompared", reason)
-        return None
-    if profile.sha256 == study.profile.sha256:
-        return profile
-    if standard is not None:
-        raise StudyError(say("stored.not_the_profile", profile=standard))
-    reason = say("stored.other_profile")
-    _describe_uncompared(study_file, "stored.profile_uncompared", reason)
-    return None
+def _refuse(study_file: Path, lines: list[Message]) -> None:
+    if lines:
+        raise StudyError(
+            say("stored.not_again", study=str(study_file), lines=tuple(lines))
+        )
 
 
-def _describe_uncompared(study_file: Path, key: str, reason: Message | str) -> None:
-    told = say("text.at_place", place=str(study_file), text=say(key, reason=reason))
-    tell(told, err=True)
+def show_differences(found: list[Difference]) -> list[Message]:
+    """Lines on the first places at which values do not come out again."""
+    lines = [say("verify.difference", value=one.message) for one in found[:_SHOWN]]
+    if found[_SHOWN:]:
+        lines.append(say("verify.more", count=len(found) - _SHOWN))
+    return lines

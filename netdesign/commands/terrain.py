@@ -79,11 +79,10 @@ def _map_study(
     study_file: Path, places_file: Path | None, asked: Mapping[str, Any]
 ) -> None:
     """Verdicts and anchors of a stored study on the map."""
-    from netdesign.commands.stored_study import read_own_site, require_sound
+    from netdesign.commands.stored_study import require_inputs
     from netdesign.files.rows_map import read_places
     from netdesign.files.verdict_map import FORMATS, map_verdicts, write_verdicts
     from netdesign.study.document import load_study
-    from netdesign.study.record_provenance import load_own_profile
 
     out, language = asked["out"], speak()
     if places_file is None or out is None:
@@ -93,11 +92,10 @@ def _map_study(
         told = f"{out.name}: the map of verdicts ends in {' or '.join(FORMATS)}"
         raise UsageRefusal(told)
     study = load_study(study_file)
-    require_sound(study, study_file)
-    site = read_own_site(study, study_file, None)
+    inputs = require_inputs(study, study_file, {})
+    tell("not verified: values as stored, not solved again")
     places, document = read_places(places_file)
-    profile = load_own_profile(study.profile)
-    features = map_verdicts(study, site, profile, places, language)
+    features = map_verdicts(study, inputs.site, inputs.profile, places, language)
     contents = write_verdicts({**document, "features": features}, out.name, language)
     require_places(out.parent, contents, asked)
     write_outputs(out.parent, contents, asked)

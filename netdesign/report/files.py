@@ -33,6 +33,7 @@ class ReportStyle:
     detail: Detail = "full"
     template: bytes | None = None  # docx that report.docx is written into
     places: RowsMap | None = None  # of the map of the rows
+    is_verified: bool = False  # a stored study was solved again in this run
 
 
 def name_files(
@@ -99,7 +100,11 @@ def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, byt
 def _render_page(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.page.html import render_html
 
-    return render_html(study, style.language, style.detail, style.places).encode()
+    page = render_html(
+        *(study, style.language, style.detail, style.places),
+        is_verified=style.is_verified,
+    )
+    return page.encode()
 
 
 def require_pdf() -> None:
@@ -133,14 +138,15 @@ def _render_docx(study: Study, style: ReportStyle) -> bytes:
 
     require_docx()
     return render_document(
-        study, style.language, style.detail, style.template, style.places
+        *(study, style.language, style.detail, style.template, style.places),
+        is_verified=style.is_verified,
     )
 
 
 def _render_xlsx(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.workbook.excel import render_workbook
 
-    return render_workbook(study, style.language)
+    return render_workbook(study, style.language, is_verified=style.is_verified)
 
 
 def _render_csv(study: Study, style: ReportStyle) -> bytes:

@@ -9,7 +9,6 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from netdesign.outcome import Verdict
-from netdesign.report.gate import require_consistent
 from netdesign.report.sections.annexes import describe_cases
 from netdesign.report.sections.basis import (
     describe_floor,
@@ -90,15 +89,9 @@ def print_summary(
         Whether to say all that is open, the loads, and what would turn each check.
     check_of : str
         Workbook to be checked to see all that is open, where there is no report.
-
-    Raises
-    ------
-    NetDesignError
-        If the study contradicts its own numbers.
     """
     from rich.text import Text
 
-    require_consistent(study)
     words = Words(language)
     verdict = mark_verdict(study, words)
     if study.what_if:

@@ -1,4 +1,4 @@
-"""Mark of a study of no site as built, and the cells that it reads otherwise."""
+"""Marks of a study: a what-if with its cells, or a stored one that is not verified."""
 
 from __future__ import annotations
 
@@ -62,6 +62,15 @@ def mark_title(study: Study, title: str, words: Words) -> str:
     marks = [words("what_if.mark")] if study.what_if else []
     marks += [words("left_out.mark")] if study.left_out else []
     return " · ".join(one for one in (*marks, title) if one)
+
+
+def name_kind(study: Study, words: Words, *, is_verified: bool) -> str:
+    """First line of a report; of a stored study it says whether it was solved again."""
+    kind = words("heading.anchor_check")
+    if not study.digest:  # made in this run
+        return kind
+    key = "standing.verified" if is_verified else "standing.not_verified"
+    return f"{words(key)} · {kind}"
 
 
 def build_what_if(study: Study, words: Words) -> Table:

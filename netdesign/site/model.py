@@ -18,6 +18,7 @@ from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import RoundSection
 from netdesign.resistance.wedge import Soil
+from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import (
@@ -589,6 +590,7 @@ class Site:
     declared: tuple[Declaration, ...] = ()
     map_file: str = ""  # answers to headings, where there are any
     map_sha256: str = ""
+    text_format: TextFormat = UNDECLARED  # with which the file was read
     winter: StationWinter | None = None
     catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not
     links: Mapping[str, tuple[Link, ...]] = field(default_factory=dict)  # by type

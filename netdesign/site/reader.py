@@ -175,6 +175,7 @@ def read_site(
         declared=declared,
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
+        text_format=text_format,
         catalogue=list_catalogue(lines.types),
         links=links,
         what_if=replaced,

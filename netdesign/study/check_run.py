@@ -1,4 +1,4 @@
-"""Settings and identity of a run of `check`: what it has beside its inputs."""
+"""Settings of a run of `check`: what it has beside its inputs."""
 
 from __future__ import annotations
 
@@ -35,6 +35,5 @@ class CheckRun:
     method: Method = "steady"
     creep_law: CreepLaw = BOUTILLIER_2004
     jobs: int = 1
-    command: str = "netdesign check"
     started: str = ""  # ISO 8601, UTC; given, so that equal input gives equal bytes
     has_reliability: bool = False

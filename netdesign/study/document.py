@@ -7,6 +7,7 @@ from collections import Counter
 from datetime import datetime
 from pathlib import Path
 
+from netdesign.calculation.steps import require_calculation
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import (
     decode_utf8,
@@ -101,6 +102,9 @@ def _require_sense(study: Study) -> None:
     twice = [name for name, count in counts.items() if count > 1]
     if twice:
         raise ContentError(say("study.id_twice", id=f"{twice[0]!r:.60}"))
+    for row in study.rows:
+        for check in row.checks:
+            require_calculation(check.steps)
     started = study.provenance.started
     try:
         datetime.fromisoformat(started or "1980-01-01")
@@ -114,7 +118,7 @@ def load_study(path: Path) -> Study:
     Raises
     ------
     StudyError
-        If the file cannot be read, or is no study.
+        If the file cannot be read, is no study, or is another one than was written.
     """
     try:
         text = decode_utf8(read_bounded(path, MAX_JSON_BYTES))
@@ -123,7 +127,10 @@ def load_study(path: Path) -> Study:
             say("study.unreadable", path=str(path), cause=explain(error))
         ) from None
     try:
-        return read_document(text)
+        study = read_document(text)
+        if study.digest != compute_digest(study):
+            raise StudyError(say("stored.altered"))
+        return study
     except StudyError as error:
         named = say("text.at_place", place=str(path), text=error.message)
         raise StudyError(named) from None

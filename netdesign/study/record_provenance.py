@@ -5,20 +5,25 @@ from __future__ import annotations
 import importlib.metadata
 import platform
 from dataclasses import replace
+from datetime import UTC, datetime
+from typing import cast, get_args
 
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue, load_standard
 from netdesign.checks.schema import GLIDE_FACTORS
 from netdesign.core.library import name_core
 from netdesign.coupling.scene import SolverSettings
+from netdesign.edge.json_text import list_fields
 from netdesign.outcome import StudyError
+from netdesign.site.cells.cells import TextFormat
+from netdesign.site.cells.numbers import DecimalMark
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.study.check_run import CheckRun, read_method
 from netdesign.study.effects import load_glide_limits, load_guideline
 from netdesign.study.records import ProfileRecord, Provenance, Study
 from netdesign.study.values import Difference, compare_listed, list_values
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 
@@ -78,9 +83,9 @@ def _list_floor_values(standard: Standard) -> list[StandardValue]:
 def record_provenance(site: Site, run: CheckRun) -> Provenance:
     """Versions, files and settings of a run."""
     settings, file = run.settings, site.map_file  # of what headings mean
+    text = list_fields(site.text_format)
     return Provenance(
         version=__version__,
-        command=run.command,
         started=run.started,
         site_file=site.file_name,
         site_sha256=site.sha256,
@@ -92,6 +97,7 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
             "shape_tolerance": f"{settings.shape_tolerance:g}",
             "balance_tolerance": f"{settings.balance_tolerance:g}",
             **({"map": f"{file}, sha256 {site.map_sha256}"} if file else {}),
+            **{key: declared for key, declared in text.items() if declared},
         },
         libraries={
             "python": platform.python_version(),
@@ -106,11 +112,19 @@ def name_law(law: CreepLaw) -> str:
     return f"{law.name} ({law.source})"
 
 
+def read_text_format(made: Provenance) -> TextFormat:
+    """Form of the site file's text that was declared when the study was made."""
+    sign, given = (made.settings.get(key, "") for key in ("delimiter", "decimal_mark"))
+    mark = cast(DecimalMark, given if given in get_args(DecimalMark) else "")
+    is_sign = len(sign) == 1 and not sign.isalnum() and sign not in '"\r\n'
+    return TextFormat(delimiter=sign if is_sign else "", decimal_mark=mark)
+
+
 _REPEATED = ("accuracy", "method")
 
 
 def build_run(study: Study, jobs: int) -> CheckRun:
-    """Settings with which a study was made; time and command are taken over.
+    """Settings with which a study was made; its time is taken over.
 
     Parameters
     ----------
@@ -130,7 +144,6 @@ def build_run(study: Study, jobs: int) -> CheckRun:
             settings=SolverSettings(accuracy=float(given["accuracy"])),
             method=read_method(given["method"]),
             jobs=jobs,
-            command=made.command,
             started=made.started,
             has_reliability=any(row.reliability for row in study.rows),
         )
@@ -170,6 +183,16 @@ def list_versions(study: Study) -> dict[str, str]:
     """Program and libraries that made a study."""
     made = study.provenance
     return {"netdesign": made.version, **made.libraries}
+
+
+def find_time_fault(study: Study) -> Message | None:
+    """Fault of the time of a run: it has no zone, or lies in the future."""
+    started = study.provenance.started
+    time = datetime.fromisoformat(started or "1980-01-01T00:00+00:00")
+    if time.tzinfo is None:
+        return say("verify.no_zone", time=started)
+    is_past = time <= datetime.now(UTC)
+    return None if is_past else say("verify.in_future", time=started)
 
 
 def _leave_out_versions(study: Study) -> Study:

@@ -395,7 +395,6 @@ class Provenance:
     """Origin of this study; enough to repeat it."""
 
     version: str
-    command: str
     started: str  # ISO 8601, UTC
     site_file: str
     site_sha256: str

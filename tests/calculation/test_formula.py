@@ -1,7 +1,6 @@
 """Formulas as text: written, read again, refused; in a spreadsheet."""
 
 import io
-import math
 from random import Random
 
 import openpyxl
@@ -13,14 +12,15 @@ from hypothesis import strategies as st
 from netdesign.calculation.formula import (
     PRINTED,
     SPREADSHEET,
-    read_formula,
+    require_formula,
     translate,
     write_formula,
 )
 from netdesign.calculation.quantity import at_value, cos, given, largest
 from netdesign.calculation.steps import list_named
-from netdesign.outcome import ContentError, ModelError
+from netdesign.outcome import ContentError
 from tests.calculation.drawn import draw_calculation, find_size
+from tests.calculation.evaluate import read_formula
 from tests.each import each
 from tests.report.reading import recalculate
 
@@ -57,15 +57,15 @@ REFUSED = [
     *("sqrt()", "sqrt(a, a)", "at_value(a, a)", "max(a)(a)", "max.x(a)", "cos"),
     *("9" * 400, "1" + "0" * 400 + " * a", "a" * 501, "a + " * 200 + "a"),
     *("(" * 240 + "a" + ")" * 240, "max(" * 90 + "a"),
-    *("1e308 * 10", "b * 1e999", "1e308 + 1e308", "a + b", "sqrt(a)", "sin(a)"),
+    *("1e999", "b * 1e999"),
     *("\ud800", "a\n+b", "0x", "1_", "await a", "yield"),
 ]
 
 
 @each("text", REFUSED)
 def test_what_is_no_formula_of_known_quantities_is_refused(text):
-    with pytest.raises((ContentError, ModelError)):
-        read_formula(text, KNOWN)
+    with pytest.raises(ContentError):
+        require_formula(text, KNOWN)
 
 
 NEARLY = st.text("ab019.+-*/(),e_ \tmaxsqrtμ[]{}:='\"\\\n", max_size=60)
@@ -75,20 +75,15 @@ NEARLY = st.text("ab019.+-*/(),e_ \tmaxsqrtμ[]{}:='\"\\\n", max_size=60)
 @settings(max_examples=400)
 def test_any_text_is_a_formula_or_refused(text):
     try:
-        made = read_formula(text, KNOWN)
-    except (ContentError, ModelError):
+        require_formula(text, KNOWN)
+    except ContentError:
         return
-    assert not made.is_known or math.isfinite(made.value)
+    assert translate(text, PRINTED)
 
 
 @pytest.mark.parametrize("call", ["max", "min"])
 def test_one_alone_is_the_largest_of_itself(call):
     assert read_formula(f"{call}(a)", KNOWN).value == 2.0
-
-
-def test_units_are_refused_when_they_do_not_fit_and_said():
-    with pytest.raises(ModelError, match="the units kN, - do not go together"):
-        read_formula("a + b", KNOWN)
 
 
 def test_a_formula_as_it_is_printed():

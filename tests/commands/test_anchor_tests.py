@@ -6,7 +6,6 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.site.reader import read_site
 from netdesign.site.template.form import build_form, read_form
-from netdesign.study.document import write_document
 from netdesign.study.planned_tests import STEPS, plan_tests
 from tests.checks.given_pulls import study_row
 from tests.digits import write_force
@@ -123,12 +122,7 @@ def test_an_empty_form_is_none(tmp_path, call):
     assert "no test is filled in" in ended.err
 
 
-def test_a_plan_wants_the_study_of_its_site(tmp_path, call, planned):
-    study, _ = planned
-    (tmp_path / "study.json").write_text(write_document(study), "utf-8")
-    ended = call("tests", "site.xlsx", "--plan", "--study", "study.json")
-    assert ended.code == 3  # given pulls are no solved cases
-    assert not (tmp_path / "anchor-tests.xlsx").exists()
+def test_a_form_is_no_output_of_a_site(call, planned):
     ended = call("tests", "site.xlsx", "--out", "form.xlsx")
     assert ended.code == 2
 

@@ -16,7 +16,6 @@ SITE = ("check", "site", "--accuracy", "0.1", "--jobs", "1", "--explain")
 def place(tmp_path, monkeypatch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
     monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "cases.sqlite"))
-    monkeypatch.setattr("netdesign.commands.check.own_command", lambda: "netdesign")
     monkeypatch.chdir(tmp_path)
     write_site(tmp_path / "site", 1)
     return tmp_path

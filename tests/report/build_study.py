@@ -102,7 +102,6 @@ def build_study(*, samples: int = 3, rows: int = 3) -> Study:
         ],
         provenance=Provenance(
             version="0.1.0",
-            command="netdesign check combe.xlsx --standard nf-p-95-304",
             started="2026-11-21T08:15:00+00:00",
             site_file="combe.xlsx",
             site_sha256="9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",

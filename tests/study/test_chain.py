@@ -18,7 +18,6 @@ from netdesign.structure.members import Member
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
-from netdesign.study.rejudge import rejudge
 from tests.each import each
 from tests.site_lines import write_lines
 
@@ -61,7 +60,7 @@ def change(resistances, member, **special):
 
 
 def test_as_built_all_of_the_chain_passes_and_can_be_judged_again(solved):
-    study, checks = judge(solved)
+    _, checks = judge(solved)
     named = [
         *("mesh.mesh.end", "ridge_rope.rope.end", "lower_rope.rope.end"),
         *("foot_anchor.connection", "uphill_guy.connection.end"),
@@ -69,7 +68,6 @@ def test_as_built_all_of_the_chain_passes_and_can_be_judged_again(solved):
         *("geometry.anchors", "geometry.cover", "foot_anchor.tendon"),
     ]
     assert {checks[one].verdict for one in named} == {Verdict.PASS}
-    assert list(rejudge(study)) == []
 
 
 def test_mesh_has_the_whole_end_effect_and_never_less_than_the_guideline(solved):
@@ -153,12 +151,11 @@ def test_steel_of_which_something_is_not_said_is_not_proven(solved, member, wear
         else one
         for one in given
     )
-    study, checks = judge(solved, resistances=found)
+    _, checks = judge(solved, resistances=found)
     mode = "rope" if "guy" in member else "tendon"
     check = checks[f"{member}.{mode}"]
     assert check.verdict is Verdict.NOT_PROVEN
     assert said in str(check.reason)
-    assert list(rejudge(study)) == []
 
 
 def test_without_a_design_life_no_steel_is_proven(solved):
@@ -221,13 +218,12 @@ def test_a_shackle_is_turned_by_the_angle_of_its_anchor(solved):
 def test_anchors_of_guys_are_not_proven_until_somebody_says_whose_they_are(solved):
     row = solved[0].rows[0]
     unsaid = replace(row.guys, are_shared=None)
-    study, checks = judge(solved, guys=unsaid)
+    _, checks = judge(solved, guys=unsaid)
     for anchor in ("uphill_anchor", "downhill_anchor"):
         for mode in ("tendon", "pull_out"):
             assert checks[f"{anchor}.{mode}"].verdict is Verdict.NOT_PROVEN
     assert checks["geometry.anchors"].verdict is Verdict.NOT_PROVEN
     assert checks["uphill_guy.rope"].verdict is Verdict.PASS
-    assert list(rejudge(study)) == []
 
 
 def test_a_shared_anchor_has_more_than_one_of_its_own(solved):
@@ -281,7 +277,6 @@ def stand_in(solved, cohesion):
 
 def test_ground_with_a_strength_is_checked_by_a_wedge_instead_of_a_cover(solved):
     study, checks, soil = stand_in(solved, 43e3)
-    assert list(rejudge(study)) == []
     assert checks["geometry.cover"].verdict is Verdict.PASS
     row = solved[0].rows[0]
     pulls = {one.anchor: one for one in study.rows[0].pulls}
@@ -301,11 +296,10 @@ def test_ground_with_a_strength_is_checked_by_a_wedge_instead_of_a_cover(solved)
 
 
 def test_ground_that_slides_by_itself_fails(solved):
-    study, checks, _ = stand_in(solved, 1e3)
+    _, checks, _ = stand_in(solved, 1e3)
     check = checks["uphill_anchor.wedge"]
     assert check.verdict is Verdict.FAIL
     assert "slides down the slope without any pull" in str(check.reason)
-    assert list(rejudge(study)) == []
 
 
 def test_ground_that_others_check_has_no_wedge(solved):
@@ -351,11 +345,8 @@ def test_pulls_added_as_numbers_are_said_and_never_less(solved):
     for name in ("uphill_anchor.tendon", "uphill_anchor.pull_out.end"):
         assert added[name].demand_kN > checks[name].demand_kN
     assert added["uphill_guy.rope"].demand_kN == checks["uphill_guy.rope"].demand_kN
-    assert list(rejudge(study)) == []
     for one, told in ((vector, "as vectors"), (study, "arithmetically")):
         assert [note for note in one.rows[0].notes if told in str(note)]
-    as_vectors = replace(study, profile=replace(study.profile, shared_sum="vector"))
-    assert list(rejudge(as_vectors, scalar)) != []
 
 
 @each("seed", range(12))
@@ -377,7 +368,6 @@ def test_a_topic_more_never_makes_a_verdict_better(solved, seed):
     for name, check in fewer.items():
         better = WORST.index(checks[name].verdict) > WORST.index(check.verdict)
         assert not better, name
-    assert list(rejudge(study)) == []
     assert study.profile.not_checked == list(left_out)
 
 

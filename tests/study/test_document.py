@@ -138,7 +138,6 @@ STUDY = Study(
     notes=[],
     provenance=Provenance(
         version="0.1.0",
-        command="netdesign check",
         started="2026-01-02T03:04:05+00:00",
         site_file="site.xlsx",
         site_sha256="0" * 64,

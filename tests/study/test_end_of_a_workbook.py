@@ -13,14 +13,12 @@ from netdesign.site.template import workbook as template
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
-from netdesign.study.rejudge import rejudge
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.digits import write_force
 from tests.verification.untidy_site import PROFILE, draw_site
 
 RUN = CheckRun(
     settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
-    command="",
     started="",
 )
 PANEL = {
@@ -59,7 +57,6 @@ def judge(folder, panel, without=()):
         template.write_site_workbook(path, example=True)
     site, standard = read_site(path), load_standard(PROFILE)
     study = judge_site(site, search_site(site, RUN), standard, RUN)
-    assert rejudge(study, standard, site) == []
     return study.rows[0]
 
 

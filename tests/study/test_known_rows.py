@@ -248,9 +248,9 @@ UNSEEN = {
 }  # fmt: skip
 
 
-def test_command_time_and_processes_are_no_part_of_a_name(quick_names):
+def test_time_and_processes_are_no_part_of_a_name(quick_names):
     site = build_site(*ROWS)
-    other = replace(RUN, command="x", started="", jobs=17)
+    other = replace(RUN, started="", jobs=17)
     again = replace(site, notes=(), file_name="y", sha256="1" * 64)
     assert name_rows(again, STANDARDS, other) == name_rows(site, STANDARDS, RUN)
 

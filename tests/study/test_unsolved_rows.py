@@ -17,7 +17,6 @@ from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.rejudge.study import rejudge
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.001))
 LOST = Outcome.NO_EQUILIBRIUM
@@ -77,5 +76,4 @@ def test_a_row_without_results_is_not_proven(example, solved):
     of_forces = [one for one in row.checks if not one.id.startswith("geometry.")]
     assert {one.verdict for one in of_forces} <= {Verdict.NOT_PROVEN, Verdict.FAIL}
     again = read_document(write_document(study))
-    assert rejudge(again, standard) == []
     assert len(render_html(again, "de")) > 1000

@@ -38,7 +38,7 @@ from tests.verification.page_again import divide, read_annex, read_ratios, work_
 from tests.verification.untidy_site import PROFILE, write_untidy_site
 
 SWISS = "swiss-guideline-2007"
-RUN = CheckRun(settings=SolverSettings(accuracy=0.05), command="", started="")
+RUN = CheckRun(settings=SolverSettings(accuracy=0.05), started="")
 SEED = 7
 
 

@@ -355,6 +355,8 @@ def render_document(
     detail: Detail = "full",
     template: bytes | None = None,
     places: RowsMap | None = None,
+    *,
+    is_verified: bool = False,
 ) -> bytes:
     """Document of a study; the same study and template give the same bytes.
 
@@ -370,11 +372,8 @@ def render_document(
         Docx whose styles, page, header and footer are kept.
     places : RowsMap, optional
         Net rows in plan, for a map of them.
-
-    Raises
-    ------
-    NetDesignError
-        If the study contradicts its own numbers.
+    is_verified : bool
+        The stored study was solved again in this run.
     """
     words = Words(language)
     properties = list_properties(study, words)
@@ -382,7 +381,8 @@ def render_document(
     styles.set_language(document, language)
     to = Writer(document=document, words=words)
     _write_footer(to, properties["subject"])
-    to.write(build_report(study, words, detail, places))
+    blocks = build_report(study, words, detail, places, is_verified=is_verified)
+    to.write(blocks)
     set_properties(document, **properties)
     return pack(document)
 

@@ -32,6 +32,8 @@ def render_html(
     language: Language = "en",
     detail: Detail = "full",
     places: RowsMap | None = None,
+    *,
+    is_verified: bool = False,
 ) -> str:
     """Page of a study.
 
@@ -45,16 +47,13 @@ def render_html(
         ``summary`` leaves out the pages of net rows and the annexes.
     places : RowsMap, optional
         Net rows in plan, for a map of them.
-
-    Raises
-    ------
-    NetDesignError
-        If the study contradicts its own numbers.
+    is_verified : bool
+        The stored study was solved again in this run.
     """
     words = Words(language)
     running = title_pages(study, words)
     title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
-    blocks = build_report(study, words, detail, places)
+    blocks = build_report(study, words, detail, places, is_verified=is_verified)
     return render_page(
         blocks,
         " - ".join(title),

@@ -177,7 +177,6 @@ def build_provenance(study: Study, words: Words) -> Table:
     """All that is needed to repeat the study."""
     made = study.provenance
     pairs = {
-        "command": made.command,
         "command_again": _write_command(words),
         "results_hash": hash_results(study),
         "program": f"netdesign {made.version}",

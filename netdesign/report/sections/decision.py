@@ -49,7 +49,7 @@ from netdesign.report.sections.checks import (
     name_few,
     show_used,
 )
-from netdesign.report.what_if import build_what_if, mark_verdict, name_study
+from netdesign.report.what_if import build_what_if, mark_verdict, name_kind, name_study
 from netdesign.report.words import (
     MISSING,
     VERDICTS,
@@ -70,14 +70,14 @@ _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
 _OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
 
 
-def show_title(study: Study, words: Words) -> Part:
+def show_title(study: Study, words: Words, *, is_verified: bool = False) -> Part:
     """Name of the project; of a what-if, what was replaced."""
     more: list[Block] = []
     if study.what_if:
         more.append(Paragraph(text=strong(words("what_if.mark")), look="word"))
         more.append(build_what_if(study, words))
     title = show_text(study.project.name)
-    return masthead(words("heading.anchor_check"), title, *more)
+    return masthead(name_kind(study, words, is_verified=is_verified), title, *more)
 
 
 def show_decision(study: Study, words: Words, *, has_rows: bool) -> Part:
@@ -352,9 +352,11 @@ def _sign(study: Study, words: Words) -> Part:
     )
 
 
+_BUILT_IN = "example.xlsx"  # which `verify` has, too
+
+
 def name_verification(study: Study) -> str:
     """Command that solves every case of a report again and compares it."""
     site = study.provenance.site_file
-    is_built_in = " --example" in study.provenance.command  # verify has it too
-    named = f" --site {shlex.quote(site)}" if site and not is_built_in else ""
+    named = f" --site {shlex.quote(site)}" if site and site != _BUILT_IN else ""
     return show_text(f"netdesign verify --study {name_study(study)}{named}")

@@ -7,7 +7,6 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Literal
 
 from netdesign.report.blocks import Block, Content, Contents, Piece, link, section
-from netdesign.report.gate import require_consistent
 from netdesign.report.sections import (
     annexes,
     basis,
@@ -34,7 +33,12 @@ _ANNEXES = (
 
 
 def build_report(
-    study: Study, words: Words, detail: Detail, places: RowsMap | None = None
+    study: Study,
+    words: Words,
+    detail: Detail,
+    places: RowsMap | None = None,
+    *,
+    is_verified: bool = False,
 ) -> tuple[Block, ...]:
     """Blocks of a report, from its title to its annexes.
 
@@ -48,15 +52,11 @@ def build_report(
         ``summary`` has two pages for the client: decision, quantities, scope.
     places : RowsMap, optional
         Net rows in plan, for a map of them.
-
-    Raises
-    ------
-    NetDesignError
-        If the study contradicts its own numbers.
+    is_verified : bool
+        The stored study was solved again in this run.
     """
-    require_consistent(study)
     begun = (
-        decision.show_title(study, words),
+        decision.show_title(study, words, is_verified=is_verified),
         decision.show_decision(study, words, has_rows=detail == "full"),
     )
     answered = filter(None, [guideline.show_difference(study, words)])

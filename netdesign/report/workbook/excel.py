@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from netdesign.outcome import NetDesignError
 from netdesign.report.blocks import Column, Table, text_cell
-from netdesign.report.gate import require_consistent
 from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
     build_inputs,
@@ -58,7 +57,9 @@ _RELIABILITY = "reliability"  # a sheet more, where somebody asks for it
 _SHARE = 2  # column of the shares, zero-based
 
 
-def render_workbook(study: Study, language: Language = "en") -> bytes:
+def render_workbook(
+    study: Study, language: Language = "en", *, is_verified: bool = False
+) -> bytes:
     """Workbook of a study; the same study gives the same bytes.
 
     Parameters
@@ -67,15 +68,11 @@ def render_workbook(study: Study, language: Language = "en") -> bytes:
         What is shown.
     language : str
         ``en``, ``fr`` or ``de``.
-
-    Raises
-    ------
-    NetDesignError
-        If the study contradicts its own numbers.
+    is_verified : bool
+        The stored study was solved again in this run.
     """
     import xlsxwriter
 
-    require_consistent(study)
     words = Words(language)
     buffer = io.BytesIO()
     options = {
@@ -91,7 +88,7 @@ def render_workbook(study: Study, language: Language = "en") -> bytes:
         workbook.set_size(2400, 1400)
         workbook.set_calc_mode("auto")
         book = Book(workbook, properties["subject"], words)
-        _add_sheets(book, study)
+        _add_sheets(book, study, is_verified=is_verified)
         names = tuple(sheet.get_name() for sheet in workbook.worksheets())
         further = (_RELIABILITY,) if list_records(study) else ()
         if names != tuple(book.name(sheet) for sheet in (*SHEETS, *further)):
@@ -99,11 +96,11 @@ def render_workbook(study: Study, language: Language = "en") -> bytes:
     return buffer.getvalue()
 
 
-def _add_sheets(book: Book, study: Study) -> None:
+def _add_sheets(book: Book, study: Study, *, is_verified: bool) -> None:
     words = book.words
     above = build_what_if(study, words) if study.what_if else None
     parts = list_inputs(study, words)
-    add_summary_sheet(book, study)
+    add_summary_sheet(book, study, is_verified=is_verified)
     _add_schedule(book, study)
     stacked = stack_tables(words("heading.typed_and_understood"), parts, words)
     book.add_table_sheet(

@@ -21,7 +21,7 @@ from netdesign.report.sections.decision import (
     name_verification,
 )
 from netdesign.report.sections.whole import title_pages
-from netdesign.report.what_if import mark_title
+from netdesign.report.what_if import mark_title, name_kind
 from netdesign.report.words import (
     MISSING,
     show_check,
@@ -50,10 +50,10 @@ _LINKS = tuple(
 )
 
 
-def add_summary_sheet(book: Book, study: Study) -> None:
+def add_summary_sheet(book: Book, study: Study, *, is_verified: bool) -> None:
     """Sheet "Decision": overall verdict, net rows, open points, signatures."""
     mark = book.words("what_if.mark") if study.what_if else ""
-    titles = (mark, book.words("heading.anchor_check"))
+    titles = (mark, name_kind(study, book.words, is_verified=is_verified))
     sheet = book.add_sheet("decision", " · ".join(one for one in titles if one))
     running = title_pages(study, book.words)
     sheet.write_string(1, 0, running or MISSING, book.text())

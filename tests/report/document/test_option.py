@@ -4,7 +4,6 @@ import pytest
 
 docx = pytest.importorskip("docx")
 
-from netdesign.commands import report as command  # noqa: E402
 from netdesign.report.document import template  # noqa: E402
 from netdesign.study.document import write_document  # noqa: E402
 from tests.report.build_study import build_study  # noqa: E402
@@ -15,7 +14,6 @@ ONLY = ("--no-html", "--no-excel", "--detail", "summary")
 @pytest.fixture
 def study_file(tmp_path, monkeypatch):
     """Stored study of no site; what it says is not compared with one."""
-    monkeypatch.setattr(command, "require_sound", lambda *_: None)
     path = tmp_path / "study.json"
     path.write_text(write_document(build_study()), encoding="utf-8")
     return path

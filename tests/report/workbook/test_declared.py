@@ -6,7 +6,6 @@ import pytest
 
 from netdesign.checks import Proof
 from netdesign.outcome import Verdict
-from netdesign.report.gate import require_consistent
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.words.catalogue import LANGUAGES
@@ -43,12 +42,3 @@ def test_the_summary_counts_and_names_what_is_declared(language):
     assert sheet["F6"].value == 1
     assert sheet["D3"].value == words("meaning.declared")
     assert any("Report G-17" in str(text) for text in shown)
-
-
-def test_a_study_may_not_call_a_check_declared_without_a_declaration():
-    assert require_consistent(STUDY) is None
-    (row,) = STUDY.rows
-    checks = [replace(row.checks[0], declared=None), *row.checks[1:]]
-    forged = replace(STUDY, rows=[replace(row, checks=checks)])
-    with pytest.raises(Exception, match="without a declaration"):
-        require_consistent(forged)

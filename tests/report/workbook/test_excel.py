@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from openpyxl.utils import get_column_letter
 
-from netdesign.calculation.steps import evaluate
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words, show_check
@@ -18,6 +17,7 @@ from netdesign.study.cases import solve_site
 from netdesign.study.document import compute_digest
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES
+from tests.calculation.evaluate import evaluate
 from tests.golden.drawn import RUN
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_checks, read_rows, read_workbook, recalculate

@@ -1,0 +1,123 @@
+"""Whatever is altered in a stored study, the comparison with a new solve finds it."""
+
+import json
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import SolverSettings
+from netdesign.outcome import StudyError
+from netdesign.site.cells.cells import TextFormat
+from netdesign.site.reader import read_site
+from netdesign.study.check_run import CheckRun
+from netdesign.study.check_site import check_site
+from netdesign.study.document import compute_digest, read_document, write_document
+from netdesign.study.record_provenance import (
+    build_run,
+    find_time_fault,
+    list_differences,
+    list_versions,
+    read_text_format,
+    record_provenance,
+)
+from tests.alter_study import alter_leaf, list_leaves
+from tests.each import each
+from tests.short_example import write_short_example
+from tests.study.alterations import KINDS
+
+NOISE = 1e-4  # shares and differences are compared no closer, for other processors
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    """Site of two net rows that pass, and its study: solved once."""
+    path = tmp_path_factory.mktemp("verified") / "site.xlsx"
+    write_short_example(path, ["R1", "R2"], is_grid=False, leans=False)
+    site = read_site(path)
+    run = CheckRun(
+        settings=SolverSettings(accuracy=0.05), started="2026-01-02T03:04:05+00:00"
+    )
+    (study,) = check_site(site, [load_standard("nf-p-95-304-style")], run)
+    return site, study
+
+
+@pytest.fixture(scope="module")
+def text(solved):
+    return write_document(solved[1])
+
+
+def list_found(document, site, fresh):
+    """All that `verify` tells of a study, against a new solve of its inputs."""
+    try:
+        study = read_document(json.dumps(document))
+        run = build_run(study, 1)
+    except StudyError as error:
+        return [error]
+    again = replace(fresh, provenance=record_provenance(site, run))
+    found = list_differences(study, again)[1]
+    if list_versions(study) != list_versions(again):
+        found.append("other versions")
+    if find_time_fault(study) or not study.digest:
+        found.append("time, or no digest")
+    return found
+
+
+def test_the_study_itself_comes_out_again(solved, text):
+    assert list_found(json.loads(text), *solved) == []
+
+
+@each("kind", KINDS)
+def test_an_alteration_is_found(solved, text, kind):
+    document = json.loads(text)
+    KINDS[kind](document)
+    assert list_found(document, *solved)
+
+
+@each("declared", [TextFormat(), TextFormat(delimiter=";", decimal_mark=",")])
+def test_a_study_names_the_form_of_text_that_took_effect(solved, declared):
+    """Not the words of a command: what made the study may have had none."""
+    site, study = solved
+    run = build_run(study, 1)
+    made = record_provenance(replace(site, text_format=declared), run)
+    assert read_text_format(made) == declared
+    for sign in ("", "ab", '"', "x"):
+        altered = replace(made, settings={"delimiter": sign, "decimal_mark": "x"})
+        assert read_text_format(altered) == TextFormat()
+
+
+def test_there_are_many_kinds_of_alterations():
+    assert len(KINDS) >= 90
+
+
+def shorten(part):
+    """The first members of every list: all names of values, few values."""
+    if isinstance(part, dict):
+        return {key: shorten(one) for key, one in part.items()}
+    return [shorten(one) for one in part[:4]] if isinstance(part, list) else part
+
+
+def list_draws(text, seed):
+    """Studies with one value of each name altered, beside the value's path."""
+    draw, whole = random.Random(seed), json.dumps(shorten(json.loads(text)))
+    leaves = list_leaves(json.loads(whole))
+    named = {tuple(p for p in path if isinstance(p, str)): path
+             for path in draw.sample(leaves, len(leaves))}  # fmt: skip
+    yield (), read_document(whole)
+    for name, path in named.items():
+        if name not in (("schema",), ("digest",)):
+            document = json.loads(whole)
+            if alter_leaf(document, path, draw) > NOISE:
+                yield name, read_document(json.dumps(document))
+
+
+@pytest.mark.long
+def test_whatever_is_altered_differs_and_is_under_the_digest(text):
+    (_, fresh), *draws = list_draws(text, 172)
+    told_beside = {("provenance", key) for key in ("version", "libraries")}
+    for name, study in draws:
+        _, found = list_differences(study, fresh)
+        assert bool(found) is (name[:2] not in told_beside), name
+    digests = {compute_digest(one) for _, one in draws}
+    assert len(digests - {compute_digest(fresh)}) == len(draws) > 150
