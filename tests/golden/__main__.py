@@ -3,8 +3,9 @@
 G1 and G3 compare numbers and verdicts, G4 the workbook in LibreOffice: a difference
 is a failure. G2 prints how the example's reports differ from those stored; once they
 are read, ``python -m tests.golden --write`` stores today's. Time (G5) is measured by
-hand: ``netdesign bench --json > now.json`` on either commit, and then
-``netdesign bench --against then.json``: nothing may be more than 5 % slower.
+hand, this version beside the wheel of another one, in turns in one run:
+``netdesign bench --against netdesign-0.1.0-py3-none-any.whl``; nothing may be more than
+5 % slower.
 """
 
 import sys
