@@ -97,6 +97,7 @@ THIRD_PARTY = {
         "solving.identity",
         "evidence.*",
     ),
+    "filelock": ("edge.locks",),
     "platformdirs": ("solving.store",),
     "distributed": ("solving.workers",),
     "hatchling": ("core.build",),  # it runs before the package is installed

@@ -3,17 +3,14 @@
 import ast
 import errno
 import fcntl
-import os
 import subprocess
 import sys
-import threading
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
 from netdesign.edge import locks
-from netdesign.edge.locks import LOCK_FILE
+from netdesign.edge.locks import _RemovedError, _require_there
 from netdesign.edge.output import require_free, write_files
 from netdesign.edge.streams import _spell_sign
 from netdesign.outcome import OutputError, SiteDataError
@@ -31,8 +28,6 @@ POSIX_NAMES = {
     *("fork", "getuid", "geteuid", "uname", "killpg", "setsid", "mkfifo", "chown"),
     *("SIGKILL", "SIGPIPE", "SIGHUP", "SIGALRM", "SIGUSR1", "alarm"),
 }
-# Imported only where it is tried for, with another way behind it.
-TRIED = {"edge/locks.py": {"fcntl"}}
 
 
 def list_imports(tree):
@@ -54,7 +49,7 @@ def test_no_module_needs_what_only_posix_has():
         }
         if names:
             found[module] = names
-    assert found == TRIED
+    assert found == {}
 
 
 def test_commands_and_benchmarks_start_without_the_modules_of_posix(tmp_path):
@@ -77,47 +72,23 @@ def test_commands_and_benchmarks_start_without_the_modules_of_posix(tmp_path):
 # Locks and files that Excel has open
 
 
-@pytest.fixture
-def windows(monkeypatch):
-    """Modules as Windows has them, its lock made of one of POSIX."""
-
-    def lock(handle, mode, count):
-        assert (mode, count) == (2, 1)
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise OSError(errno.EACCES, "Permission denied") from error
-
-    monkeypatch.setitem(sys.modules, "fcntl", None)
-    fake = SimpleNamespace(LK_NBLCK=2, locking=lock)
-    monkeypatch.setitem(sys.modules, "msvcrt", fake)
-    return lock
-
-
-def test_a_run_waits_for_another_and_leaves_no_lock(tmp_path, windows):
-    other = os.open(tmp_path / LOCK_FILE, os.O_RDWR | os.O_CREAT)
-    windows(other, 2, 1)
-    waiting = threading.Thread(
-        target=write_files, args=({tmp_path / "a": b"1"},), kwargs={"overwrite": True}
-    )
-    waiting.start()
-    waiting.join(0.2)
-    assert waiting.is_alive()
-    assert not (tmp_path / "a").exists()
-    os.close(other)
-    waiting.join(10.0)
-    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+def test_a_lock_whose_file_was_removed_is_none(tmp_path):
+    """Another run removed it after this one had opened it: a third has a new one."""
+    path = tmp_path / "lock"
+    with path.open("wb") as file:
+        _require_there(file.fileno())
+        path.unlink()
+        with pytest.raises(_RemovedError):
+            _require_there(file.fileno())
 
 
 def test_a_folder_without_locks_is_written_all_the_same(tmp_path, monkeypatch):
     def refuse(*_):
-        raise OSError(errno.EINVAL, "no locks")
+        raise OSError(errno.ENOLCK, "no locks")
 
-    monkeypatch.setitem(sys.modules, "fcntl", None)
-    fake = SimpleNamespace(LK_NBLCK=2, locking=refuse)
-    monkeypatch.setitem(sys.modules, "msvcrt", fake)
+    monkeypatch.setattr(fcntl, "flock", refuse)
     write_files({tmp_path / "a": b"1"}, overwrite=False)
-    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+    assert (tmp_path / "a").read_bytes() == b"1"
 
 
 def deny(monkeypatch, place, name):

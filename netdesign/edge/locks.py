@@ -2,66 +2,53 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import sys
-import time
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Any
 
 from netdesign.edge.given_files import is_there
 
 LOCK_FILE = ".netdesign.lock"
-_TAKEN = (errno.EACCES, errno.EDEADLK)  # what Windows says of a lock in other hands
-_PAUSE_S = 0.05
 
 
 def lock_folder(folder: Path, held: ExitStack) -> bool:
     """Lock a folder until the stack closes, or the process ends however it does.
+
+    The lock is a file in the folder, which is removed afterwards.
 
     Returns
     -------
     bool
         False where no lock is to be had, as on some file systems of networks.
     """
-    try:
-        import fcntl
-    except ImportError:  # Windows, where no folder can be opened
-        return _lock_file(folder / LOCK_FILE, held)
-    handle = os.open(folder, os.O_RDONLY)
-    held.callback(os.close, handle)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-    except OSError:
-        return False
-    return True
+    from filelock import FileLock  # who writes nothing needs no lock
 
-
-def _lock_file(path: Path, held: ExitStack) -> bool:
-    """Lock a file of a folder in the way of Windows; it is removed afterwards."""
-    import msvcrt
-
-    windows: Any = msvcrt  # whose names a checker knows on Windows only
-    try:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT)
-    except OSError:
-        return False
-    held.callback(_remove, path)  # the stack closes the file before
-    held.callback(os.close, handle)
+    path = folder / LOCK_FILE
+    lock = FileLock(path, fallback_to_soft=False, on_acquired=_require_there)
     while True:
         try:
-            windows.locking(handle, windows.LK_NBLCK, 1)
-        except OSError as error:
-            if error.errno not in _TAKEN:
-                return False
-            time.sleep(_PAUSE_S)
-        else:
-            return True
+            lock.acquire()
+        except _RemovedError:
+            continue
+        except (OSError, NotImplementedError):
+            return False
+        held.callback(lock.release)
+        held.callback(_remove, path)  # the stack releases the lock afterwards
+        return True
+
+
+class _RemovedError(Exception):
+    """The file of a lock was removed while it was waited for."""
+
+
+def _require_there(handle: int) -> None:
+    if os.fstat(handle).st_nlink == 0:
+        raise _RemovedError
 
 
 def _remove(path: Path) -> None:
-    """Remove a lock file; Windows keeps it while another run waits for it."""
+    """Remove a lock file; Windows keeps it while a run has it open."""
     with suppress(OSError):
         path.unlink(missing_ok=True)
 

@@ -2,12 +2,14 @@ import os
 import re
 import sys
 import threading
+from contextlib import ExitStack
 from pathlib import Path
 
 import click
 import pytest
 
 from netdesign import cli
+from netdesign.edge.locks import LOCK_FILE, lock_folder
 from netdesign.edge.output import require_free, write_files
 from netdesign.outcome import OutputError
 from tests.small_scene import SMALL_SCENE
@@ -178,7 +180,7 @@ WRITING = {
 
 TAKEN = (
     "site.map.toml",
-    *("study.json", "copy.xlsx", "solution.html", "envelope.json", "plot.svg"),
+    *("study.json", "copy.xlsx", "solution.json", "envelope.json", "plot.svg"),
     *("paper.html", "index.html", "mine/document.toml"),
     *("winter.json", "validation.html", "form.xlsx", "rows.geojson"),
 )
@@ -258,20 +260,17 @@ def test_what_a_killed_run_left_is_removed_and_nothing_else(tmp_path):
     assert set(listing(tmp_path)) == {"a"} | others
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no locks of folders there")
 def test_a_run_waits_for_another_that_writes_to_the_same_folder(tmp_path):
-    import fcntl
-
     (tmp_path / ".a.other_is").write_bytes(b"half")  # in the hands of the other
-    other = os.open(tmp_path, os.O_RDONLY)
-    fcntl.flock(other, fcntl.LOCK_EX)
+    held = ExitStack()
+    assert lock_folder(tmp_path, held)
     waiting = threading.Thread(
         target=write_files, args=({tmp_path / "a": b"1"},), kwargs={"overwrite": True}
     )
     waiting.start()
     waiting.join(0.2)
     assert waiting.is_alive()
-    assert listing(tmp_path) == [".a.other_is"]
-    os.close(other)
+    assert listing(tmp_path) == [".a.other_is", LOCK_FILE]
+    held.close()
     waiting.join(10.0)
     assert listing(tmp_path) == ["a"]
