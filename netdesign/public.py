@@ -58,10 +58,5 @@ from netdesign.study.check_site import check_site as check_site
 from netdesign.study.records import Study as Study
 from netdesign.winter.day import DaySolver as DaySolver
 from netdesign.winter.day import WinterRow as WinterRow
-from netdesign.winter.fit import FitTask as FitTask
-from netdesign.winter.fit import SeasonFit as SeasonFit
-from netdesign.winter.fit import fit_season as fit_season
-from netdesign.winter.fit_inputs import FitReading as FitReading
-from netdesign.winter.fit_inputs import Noise as Noise
 from netdesign.winter.season import Season as Season
 from netdesign.winter.season import follow_season as follow_season

@@ -11,10 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.config import ConfiguredCommand
-from netdesign.commands.options import (
-    refuse_without,
-    take_options,
-)
+from netdesign.commands.options import take_options
 from netdesign.commands.running import (
     EXIT_CODES,
     open_phases,
@@ -58,13 +55,11 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     netdesign winter site.xlsx --out winter
     netdesign winter site.xlsx --heights station.csv --model hs2swe
     netdesign winter site.xlsx --row R1 --every 1 --json > winter.json
-    netdesign winter site.xlsx --fit --noise 0.05 --known slack
 
     Daily snow heights become layers, each day's snow is solved at rest: forces against
     date, the governing day, annual maxima of many winters, and a range of density that
-    sheet Ranges may use. With measured forces --fit narrows the force to
-    design for. Exit code 4 if a winter may be the largest and has no proven maximum,
-    or a fit is refused.
+    sheet Ranges may use. Exit code 4 if a winter may be the largest and has no proven
+    maximum.
     """
     from netdesign.edge.progress import Phase
     from netdesign.files.winter import write_winter_document
@@ -75,20 +70,19 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     )
 
     language: Language = asked["language"]
-    _refuse_idle(site_file, asked)
+    given = [] if asked["heights"] is None else [asked["heights"]]
+    require_source(site_file, asked, *given)
     folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
     require_places(folder, (DOCUMENT_FILE, PAGE_FILE), asked)
     site = read_asked_site(site_file, asked)
     station = _find_heights(site, asked)
     chosen = choose_rows(site, asked["rows"])
-    if asked["fit"]:
-        require_measured_forces(chosen)
-    count = (_PHASE + SOLVES * asked["fit"]) * len(chosen.rows)
+    count = _PHASE * len(chosen.rows)
     words = say("phase.winters")
     phase = Phase(key="winters", words=words, cases=count, most=4 * count)
     with open_phases([phase], asked) as (runner, progress):
         progress.enter("winters")
-        run = fit_rows(_solve(chosen, station, runner, asked), asked, runner)
+        run = _solve(chosen, station, runner, asked)
     failed = print_faults(runner.faults)
     document = write_winter_document(run, language)
     if folder:
@@ -100,21 +94,12 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     sys.exit(failed or (0 if _is_proven(document) else EXIT_CODES[Verdict.NOT_PROVEN]))
 
 
-def _refuse_idle(site_file: Path | None, asked: Mapping[str, Any]) -> None:
-    """Refuse options that contradict each other, or have no effect."""
-    given = [] if asked["heights"] is None else [asked["heights"]]
-    require_source(site_file, asked, *given)
-    if not asked["fit"]:
-        refuse_without(FIT_NAMES, "--fit")
-
-
 def _is_proven(document: dict[str, Any]) -> bool:
-    """Every winter has a proven maximum or is not the largest; no fit is refused."""
-    rows = document["rows"]
+    """Every winter has a proven maximum or is not the largest."""
     return all(
-        all(one["is_proven"] or one["is_below_largest"] for one in row["winters"])
-        and (row["fit"] is None or row["fit"]["outcome"] == "fitted")
-        for row in rows
+        one["is_proven"] or one["is_below_largest"]
+        for row in document["rows"]
+        for one in row["winters"]
     )
 
 
@@ -199,8 +184,6 @@ def _show(document: dict[str, Any]) -> None:
             tell(row["snow_heights"]["text"])
         for told in _list_statistics(row):
             tell(told)
-        if row["fit"]:
-            print_fit(row["id"], row["fit"])
 
 
 def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
@@ -245,85 +228,3 @@ def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
         count=winter["days_without_force"],
         days=len(winter["curve"]),
     )
-
-
-SOLVES = 600  # of a fit, about
-FIT_PARAMETERS = {
-    "slip": "slip_length",
-    "density": "density_factor",
-    "height": "height_factor",
-    "slack": "slack",
-    "friction": "friction_angle",
-}
-FIT_NAMES = ("noise", "cell_error", "rope_kelvin", "known")  # of its parameters
-
-
-def require_measured_forces(site: Site) -> None:
-    """Refuse a fit of rows on which nothing was measured.
-
-    Raises
-    ------
-    ModelError
-        If no row has a force with a date.
-    """
-    from netdesign.study.winter_row import list_measured_pulls
-
-    if not any(list_measured_pulls(site, row.id) for row in site.rows):
-        raise ModelError(say("fit.no_measured_forces"))
-
-
-def fit_rows(run: WinterRun, asked: Mapping[str, Any], runner: Runner) -> WinterRun:
-    """Run with the fit of each row with measured forces; as it is without ``fit``."""
-    if not asked["fit"]:
-        return run
-    from netdesign.study.winter_row import list_measured_pulls
-    from netdesign.winter.day import DaySolver
-    from netdesign.winter.fit import FIT_SETTINGS, choose_fit, fit_season
-    from netdesign.winter.fit_inputs import Noise
-
-    stated = Noise(
-        reading=asked["noise"], cell=asked["cell_error"], rope=asked["rope_kelvin"]
-    )
-    fits = {}
-    for row, result in zip(run.rows, run.results, strict=True):
-        measured = list_measured_pulls(run.site, row.id)
-        if not measured:
-            continue
-        task = choose_fit(
-            result,
-            run.packs,
-            measured,
-            DaySolver(row=row, settings=FIT_SETTINGS, runner=runner),
-            noise=stated,
-            known=[FIT_PARAMETERS[one] for one in asked["known"]],
-            design_density=run.site.ranges["density"].high,
-        )
-        fits[row.id] = fit_season(task)
-    return replace(run, fits=fits)
-
-
-def print_fit(row: str, fit: Mapping[str, Any]) -> None:
-    """Print what a fit says, and the bands that follow from it."""
-    tell(
-        say(
-            "fit.line",
-            row=row,
-            winter=fit["winter"] or "-",
-            readings=fit["readings"],
-            days=fit["days"],
-            why=fit["why"],
-        )
-    )
-    for force in fit["forces"] if fit["outcome"] == "fitted" else ():
-        tell(
-            say(
-                "fit.force_line",
-                row=row,
-                case=say(f"fit_case.{force['case']}"),
-                member=say(f"member.{force['member']}"),
-                before_low=force["before_kN"]["low"],
-                before_high=force["before_kN"]["high"],
-                after_low=force["after_kN"]["low"],
-                after_high=force["after_kN"]["high"],
-            )
-        )

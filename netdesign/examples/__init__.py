@@ -1,1 +1,1 @@
-"""Ten programs to start from: ``python -m netdesign.examples.one_net``."""
+"""Nine programs to start from: ``python -m netdesign.examples.one_net``."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import Any
 
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
@@ -33,9 +33,6 @@ from netdesign.winter.statistics import (
 )
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
-
-if TYPE_CHECKING:
-    from netdesign.winter.fit import SeasonFit
 
 
 def _write_measured(
@@ -111,8 +108,6 @@ class WinterRun:
         Of each solve [-].
     step : int
         Days between those of a curve.
-    fits : mapping of str to SeasonFit
-        To measured forces, by row; empty where none was asked for.
     """
 
     site: Site
@@ -124,7 +119,6 @@ class WinterRun:
     is_smoothed: bool
     accuracy: float
     step: int
-    fits: Mapping[str, SeasonFit] = field(default_factory=dict)
 
 
 def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str, Any]:
@@ -224,19 +218,8 @@ def _write_row(
         "trend": _write_trend(result.trend, language),
         "equivalent_density": _write_range(result, run, language),
         "snow_heights": _write_heights(row, winters, run, language),
-        "fit": _write_fit(run, row.id, language),
+        "fit": None,  # of the schema: forces are no longer fitted
     }
-
-
-def _write_fit(
-    run: WinterRun, row_id: str, language: Language
-) -> dict[str, Any] | None:
-    fitted = run.fits.get(row_id)
-    if fitted is None:
-        return None
-    from netdesign.files.winter_fit import write_fit  # here: most runs fit nothing
-
-    return write_fit(fitted, run.winter.series, language)
 
 
 def _write_winter(

@@ -1,6 +1,6 @@
 """Mean density of settled snow by its height, after a model code.
 
-Theory: winter/THEORY.md, section 9.
+Theory: winter/THEORY.md, section 8.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _DEPTH = 0.85  # [m]
 
 
 def find_model_code_density(height: float) -> float:
-    """Mean density of snow of some height [kg/m3], eq. (Y20).
+    """Mean density of snow of some height [kg/m3], eq. (Y13).
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def find_model_code_density(height: float) -> float:
 
 
 def compare_densities(heights: Floats, height: float) -> Floats:
-    """Mean densities of snow of some heights over that of one height [-], eq. (Y20).
+    """Mean densities of snow of some heights over that of one height [-], eq. (Y13).
 
     Parameters
     ----------

@@ -183,7 +183,7 @@ def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:
 
 
 def describe_model_code(row: NetRow, density: Interval) -> Message:
-    """Mean density of the row's snow by a model code, beside the range; (Y20)."""
+    """Mean density of the row's snow by a model code, beside the range; (Y13)."""
     height = row.snow_thickness / math.cos(row.slope_angle)
     by_code = find_model_code_density(height)
     told = say(

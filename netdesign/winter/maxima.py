@@ -1,6 +1,6 @@
 """Annual maximum of a row: uniform snow of each day's mass and height.
 
-Of many winters through a table. Theory: winter/THEORY.md, sections 2, 3 and 9.
+Of many winters through a table. Theory: winter/THEORY.md, sections 2, 3 and 8.
 """
 
 from __future__ import annotations
@@ -260,7 +260,7 @@ def find_annual_maximum(
     solver : DaySolver
         Of the row.
     is_alone : bool, optional
-        Nothing but the maximum is wanted: days that pull less by (Y26) are left out.
+        Nothing but the maximum is wanted: days that pull less by (Y19) are left out.
     table : UniformTable, optional
         Of the row; days outside are solved.
     """
@@ -328,7 +328,7 @@ def _solve_heaviest(
     """Days solved by descending rank, while one that is left may pull most.
 
     They are solved coarsely, and the largest again to the full accuracy. None is solved
-    that another outdoes in thickness and density, (Y26), unless that one has no force.
+    that another outdoes in thickness and density, (Y19), unless that one has no force.
     Days that were ``read`` from a table are as accurate as they can be.
     """
     found = list(read)
@@ -528,7 +528,7 @@ _THICKER = 1.1  # from one snow to the next that is tried for a bound
 def find_bound(
     failed: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
 ) -> float | None:
-    """Upper bound of the pulls of failed days [N/m], eq. (Y26).
+    """Upper bound of the pulls of failed days [N/m], eq. (Y19).
 
     Parameters
     ----------

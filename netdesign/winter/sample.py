@@ -1,6 +1,6 @@
 """Winters that count in return values: known, bounded, left out.
 
-Theory: winter/THEORY.md, section 11.
+Theory: winter/THEORY.md, section 10.
 """
 
 from __future__ import annotations

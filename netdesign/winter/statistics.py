@@ -1,6 +1,6 @@
 """Return values of annual maxima, and their trend over the years.
 
-Theory: winter/THEORY.md, sections 4, 8, 10 and 11.
+Theory: winter/THEORY.md, sections 4, 7, 9 and 10.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class Gumbel:
         return self.mean + factor * self.deviation, error
 
     def find_interval(self, period: float) -> tuple[float, float]:
-        """Ends below and above which the value lies in one of twenty, eq. (Y21).
+        """Ends below and above which the value lies in one of twenty, eq. (Y14).
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class Gumbel:
         return _find_ends(pivots, self.mean, self.deviation)
 
     def find_predictive_variation(self, period: float) -> float:
-        """Coefficient of variation that allows for the few winters, eq. (Y30) [-].
+        """Coefficient of variation that allows for the few winters, eq. (Y23) [-].
 
         Of the Gumbel distribution with the same mean, whose value of ``period`` a
         further winter exceeds once in so many samples of ``count`` winters.
@@ -191,7 +191,7 @@ class LimitedGumbel:
         return self.location + reduced * self.scale, error
 
     def find_interval(self, period: float) -> tuple[float, float]:
-        """Ends below and above which the value lies in one of twenty, eq. (Y29).
+        """Ends below and above which the value lies in one of twenty, eq. (Y22).
 
         Parameters
         ----------
@@ -254,7 +254,7 @@ def fit_limited(maxima: Sequence[float], limit: float) -> LimitedGumbel | None:
 
 
 def _fit_limited(samples: Floats, limit: float) -> tuple[Floats, Floats]:
-    """Location and scale of samples, shape (m, n) -> (m,) each; by halving (Y27).
+    """Location and scale of samples, shape (m, n) -> (m,) each; by halving (Y20).
 
     Samples with fewer than two values above the limit are left out.
     """
@@ -277,7 +277,7 @@ def _fit_limited(samples: Floats, limit: float) -> tuple[Floats, Floats]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExtremeValue:
-    """Generalised extreme value distribution (GEV) by L-moments, eqs (Y22) to (Y24).
+    """Generalised extreme value distribution (GEV) by L-moments, eqs (Y15) to (Y17).
 
     Attributes
     ----------
@@ -295,7 +295,7 @@ class ExtremeValue:
     shape: float
 
     def find_return_value(self, period: float) -> float:
-        """Value exceeded once in so many years, eq. (Y24).
+        """Value exceeded once in so many years, eq. (Y17).
 
         Parameters
         ----------
@@ -310,7 +310,7 @@ class ExtremeValue:
         return self.location + self.scale * float(_reduce(period, np.array(self.shape)))
 
     def find_interval(self, period: float) -> tuple[float, float]:
-        """Ends below and above which the value lies in one of twenty, eq. (Y25).
+        """Ends below and above which the value lies in one of twenty, eq. (Y18).
 
         Nearly: the samples are drawn with the shape that was found.
 
@@ -436,7 +436,7 @@ class Trend:
 
 
 def find_trend(years: Sequence[int], maxima: Sequence[float]) -> Trend | None:
-    """Trend of annual maxima, eqs (Y17) to (Y19).
+    """Trend of annual maxima, eqs (Y10) to (Y12).
 
     None of fewer winters than ``LEAST_FOR_TREND``.
 

@@ -21,21 +21,6 @@ def refuse(call, *words):
 
 
 @pytest.mark.parametrize(
-    "typed",
-    [
-        ("--noise", "0.1"),
-        ("--cell-error", "0.1"),
-        ("--rope-kelvin", "3"),
-        ("--known", "slack"),
-    ],
-)
-def test_options_of_a_fit_without_a_fit(call, typed):
-    told = refuse(call, "winter", "--example", *typed)
-    assert typed[0] in told
-    assert "no effect without --fit" in told
-
-
-@pytest.mark.parametrize(
     "words",
     [
         ("check", "site.xlsx"),

@@ -26,9 +26,8 @@ def write_winters(path, tops):
 
 
 def is_settled(largest, thin):
-    fit = {"fit": None}
     winters = [{"is_proven": True}, {"is_proven": thin, "is_below_largest": largest}]
-    return _is_proven({"rows": [{"winters": winters, **fit}]})
+    return _is_proven({"rows": [{"winters": winters}]})
 
 
 def test_a_bound_below_the_largest_maximum_is_enough():

@@ -20,8 +20,7 @@ from pathlib import Path
 import pytest
 
 from netdesign import GroundLaw, Scene, Snowpack, solve_rigid, solve_steady
-from netdesign.examples import envelope, fit, history, panel, wall, winter
-from netdesign.winter.fit_inputs import vary_day, vary_row
+from netdesign.examples import envelope, history, panel, wall, winter
 from tests.each import each
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -83,7 +82,7 @@ def numbers(line):
 
 
 def test_the_page_shows_every_example_with_a_small_picture():
-    assert len(NAMES) == 10
+    assert len(NAMES) == 9
     assert re.findall(r"^## (\w+): ", PAGE, re.MULTILINE) == re.findall(
         r'src="pictures/(\w+)\.png"', PAGE
     )
@@ -240,23 +239,3 @@ def test_limit_profile(tmp_path):
         general = factors.get("resistance.pull_out")
         needed = 200.0 * factors["action.snow"] * (tested or general)
         assert numbers(line)[0] == pytest.approx(needed, abs=0.05)
-
-
-def test_fit(tmp_path):
-    before, after, _ = run_as_shown("fit", tmp_path)
-    ((_, low, high), (value, less, more)) = numbers(before), numbers(after)
-    task = fit.build_task()
-    # The readings were made by these two, with errors of 2 to 5 %.
-    truth = {
-        "slip_length": math.log(1.6 * task.row.scene.ground.slip_length),
-        "density_factor": math.log(1.06),
-    }
-    solver = replace(task.solver, row=vary_row(task.row, truth))
-    days = solver.solve([vary_day(day, task.row, truth) for day in task.days.values()])
-    forces = {day.index: day.member_forces["foot_anchor"].value / 1e3 for day in days}
-    for day, reading in fit.READINGS.items():
-        assert 0.015 < abs(reading / forces[day] - 1.0) < 0.055
-    true = forces[fit.GOVERNING]
-    assert low < less < true < more < high
-    assert more - less < 0.25 * (high - low)
-    assert value == pytest.approx(true, rel=0.02)

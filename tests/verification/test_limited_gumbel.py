@@ -108,7 +108,7 @@ def test_too_few_winters_or_too_few_above_the_limit_have_no_fit():
 @pytest.mark.long
 @pytest.mark.parametrize("winters", [15, 30, 60])
 def test_upper_ends_hold_in_nineteen_of_twenty_samples(winters, monkeypatch):
-    """30 % below the limit; winter/THEORY.md, section 11, has the shares found."""
+    """30 % below the limit; winter/THEORY.md, section 10, has the shares found."""
     monkeypatch.setattr(statistics, "_BOOTSTRAP", 400)
     limit = float(gumbel_r.ppf(0.3, MODE, SCALE))
     fits = [fit_limited(list(one), limit) for one in draw(winters, 2000)]

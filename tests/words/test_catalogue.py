@@ -22,7 +22,6 @@ FAMILIES: tuple[str, ...] = (
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
     "creep_law.",
     *("winter_column.", "winter_outcome.", "day_outcome."),
-    *("fit_page.", "fit_case.", "fit_parameter."),
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
     *("product_source.", "plausible.source_", "opinion.", "schedule."),
     *("scope.", "todo.", "quantities.", "loads.", "why_more.", "diff_part."),

@@ -43,7 +43,6 @@ _TICK = 3.0
 _DOT, _MOST_DOTS = 1.2, 150  # half the width of a dot [pt]; more of them are a band
 _SAMPLE = 12.0  # of a line, before its name at the side [pt]
 _MONTHS_FROM = 45.0  # days from which on months are named, not days
-_BANDS = (PALE, "#eef0f2", "#dfe2e6")  # by the style of a line without a value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +51,7 @@ class Line:
 
     ``label`` stands at its end; ``style`` is a number in ``SHADES``; an accented line
     is the one that the reader should look at. ``low`` and ``high`` are a band about it,
-    or without it where ``y`` is empty; ``has_rings`` shows its points alone.
+    or without it where ``y`` is empty.
     """
 
     label: str
@@ -62,7 +61,6 @@ class Line:
     is_accent: bool = False
     is_thin: bool = False
     has_dots: bool = False  # at its points, which are measured
-    has_rings: bool = False
     low: Sequence[float] = ()
     high: Sequence[float] = ()
 
@@ -275,8 +273,7 @@ class _Painter:
             if len(side) > 1
         ]
         if ends:
-            fill = PALE if line.y else _BANDS[line.style]
-            self.sketch.area([*ends[1], *reversed(ends[0])], fill)
+            self.sketch.area([*ends[1], *reversed(ends[0])], PALE)
 
     def _draw_line(self, line: Line) -> None:
         stroke, dash = _look_of(line)
@@ -286,10 +283,6 @@ class _Painter:
                 run = [(x - 0.5, y), (x + 0.5, y)]
             points = [(self._at(x), self.frame.y(y)) for x, y in run]
             width = 0.6 if line.is_thin or line.has_dots else 1.2
-            if line.has_rings:
-                for x, y in points:
-                    self.sketch.ring(x, y, stroke)
-                continue
             kept = drop_straight(points)
             self.sketch.line(kept, stroke=stroke, width=width, dash=dash)
             if line.has_dots and len(points) <= _MOST_DOTS:
@@ -304,12 +297,10 @@ class _Painter:
             y = free = max(self.frame.y(value) + TEXT_PT / 3, free + _APART + 1.0)
             stroke, dash = _look_of(line)
             ends = ((left, y - 2.5), (left + _SAMPLE - 3.0, y - 2.5))
-            if line.has_rings:
-                self.sketch.ring(left + 4.0, y - 2.5, stroke)
-            elif line.y:
+            if line.y:
                 self.sketch.line(ends, stroke=stroke, width=1.2, dash=dash)
             else:
-                self.sketch.line(ends, stroke=_BANDS[line.style], width=6.0)
+                self.sketch.line(ends, stroke=PALE, width=6.0)
             self.sketch.text(left + _SAMPLE, y, line.label)
 
     def _draw_clock(self, times: Sequence[float]) -> None:

@@ -1,8 +1,7 @@
-"""Measured and computed force of a member against date; residuals of a fit."""
+"""Measured and computed force of a member against date."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from datetime import date, datetime, time, timedelta
 from typing import Any
@@ -10,11 +9,10 @@ from typing import Any
 from netdesign.report.drawing.charts import Line, Panel, draw_panels
 from netdesign.report.words import Words, show_member
 
-_FORCES, _AIR, _RESIDUALS = 150.0, 64.0, 110.0  # heights of the panels [pt]
+_FORCES, _AIR = 150.0, 64.0  # heights of the panels [pt]
 _DETAIL = timedelta(days=10)
 _DETAIL_READINGS = 30  # at least
 _DAY, _NOON = timedelta(days=1), timedelta(hours=12)
-_DEVIATIONS = (2, 1)  # whose bands are drawn about no residual
 
 Points = list[tuple[datetime, float]]
 Span = tuple[datetime, datetime]
@@ -139,51 +137,3 @@ def _list_air(entry: Mapping[str, Any], air: Mapping[str, float]) -> Points:
 
 def _noon(day: str) -> datetime:
     return datetime.combine(date.fromisoformat(day), time()) + _NOON
-
-
-def draw_residuals(residuals: Sequence[Mapping[str, Any]], words: Words) -> str:
-    """SVG of the residuals of a fit.
-
-    Parameters
-    ----------
-    residuals : sequence of mapping
-        Entries of ``residuals`` of the winter document, at least one.
-    words : Words
-        Language.
-    """
-    moments = [_noon(one["date"]) for one in residuals]
-    span = min(moments) - 2 * _DAY, max(moments) + 2 * _DAY
-    shares: dict[str, Points] = {}
-    widest: dict[datetime, float] = {}  # deviation of several members of a day
-    for at, one in zip(moments, residuals, strict=True):
-        share = 100.0 * math.expm1(one["residual"])
-        shares.setdefault(one["member"], []).append((at, share))
-        widest[at] = max(one["deviation"], widest.get(at, 0.0))
-    bands = [_show_band(widest, count, span) for count in _DEVIATIONS]
-    points = [
-        Line(
-            label=show_member(words, member),
-            x=[x for x, _ in _cut(found, span)],
-            y=[y for _, y in found],
-            style=number,
-            is_accent=number == 0,
-            has_rings=True,
-        )
-        for number, (member, found) in enumerate(shares.items())
-    ]
-    panel = Panel(title=words("fit_page.figure_title"), lines=[*bands, *points])
-    return draw_panels(
-        [panel],
-        words("fit_page.figure"),
-        panel_pt=_RESIDUALS,
-        span=span,
-        language=words.language,
-    )
-
-
-def _show_band(widest: Mapping[datetime, float], count: int, span: Span) -> Line:
-    """So many deviations about no residual [%]."""
-    reach = [100.0 * math.expm1(count * one) for _, one in sorted(widest.items())]
-    x = [(at - span[0]) / _DAY for at in sorted(widest)]
-    low = [-one for one in reach]
-    return Line(label="", x=x, y=(), low=low, high=reach, style=3 - count)

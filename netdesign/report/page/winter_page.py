@@ -29,7 +29,6 @@ from netdesign.report.blocks import (
 from netdesign.report.drawing.measured_figure import draw_measured, find_detail
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.page.render import render_page
-from netdesign.report.page.winter_fit import show_fit
 from netdesign.report.words import MISSING, Words, show_member, show_text
 from netdesign.words.catalogue import Language
 
@@ -129,8 +128,6 @@ def _show_row(
     yield Heading(text=words("winter_page.density_heading"), level=3)
     for text in _describe_range(row, document, words):
         yield Paragraph(text=text)
-    if row["fit"]:
-        yield from show_fit(row["fit"], document["check_density_kg_m3"][1], words)
 
 
 def _describe_row(row: Mapping[str, Any], words: Words) -> list[Paragraph]:
