@@ -341,19 +341,19 @@ def _draw_all(features: Iterable[Feature], language: Language) -> bytes:
 
     It has the same bytes each time.
     """
-    from ezdxf._options import options
-    from ezdxf.filemanagement import new
+    import ezdxf
 
-    before = options.write_fixed_meta_data_for_testing  # no time, no name by chance
-    options.write_fixed_meta_data_for_testing = True
+    # no time, no name by chance
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
     try:
-        drawing, text = new("R2010", units=_METRES), io.StringIO()
+        drawing, text = ezdxf.new("R2010", units=_METRES), io.StringIO()
         for one in features:
             _draw(drawing, one, language)
         drawing.write(text)
         return drawing.encode(text.getvalue())
     finally:
-        options.write_fixed_meta_data_for_testing = before
+        ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
 def _draw(drawing: Drawing, feature: Feature, language: Language) -> None:

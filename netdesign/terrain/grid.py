@@ -72,7 +72,6 @@ def read_grid(path: Path) -> Grid:
     TerrainError
         If the file is none; names what is accepted.
     """
-    from rasterio._err import CPLE_BaseError
     from rasterio.errors import RasterioError
 
     content = read_file(path, MOST_BYTES)
@@ -84,7 +83,7 @@ def read_grid(path: Path) -> Grid:
             return parse_grid(content, is_geotiff=is_geotiff)
     except TerrainError as error:
         told = str(error)
-    except (*DAMAGE, RasterioError, CPLE_BaseError):
+    except (*DAMAGE, RasterioError):
         told = "no ESRI ASCII grid (.asc) or GeoTIFF (.tif), or damaged: save it again"
     raise TerrainError(f"{path.name}: {told}")
 

@@ -9,7 +9,7 @@ import rasterio
 import shapely
 from rasterio.transform import Affine
 
-SHORT = {"net height [m]": "net height", "post spacing [m]": "post dist"}
+SHORT = {"net height [m]": "net height", "post spacing [m]": "post c/c"}
 SWISS = "EPSG:2056"
 GIVEN = {"id": "A", "net height [m]": 3.5, "post spacing [m]": 3.0}
 

@@ -50,7 +50,7 @@ def test_rows_are_those_of_geojson(tmp_path, end, size):
 
 @pytest.mark.parametrize("code", ["UTF-8", "ISO-8859-1", "CP850"])
 def test_umlauts_of_a_shapefile_are_read(tmp_path, code):
-    short = {"Werkreihe": "Bödeli-1", "Netzhöhe": 3.5, "post dist": 3.2, "colour": "x"}
+    short = {"Werkreihe": "Bödeli-1", "Netzhöhe": 3.5, "post c/c": 3.2, "colour": "x"}
     plan = read_plan(
         write_rows(tmp_path / "rows.shp", draw_rows(**short), encoding=code)
     )
