@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
-from typing import NamedTuple
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Severity, quote
@@ -56,15 +55,6 @@ class Column:
 Titles = Sequence[tuple[Cell, Meaning]]
 
 
-class Pair(NamedTuple):
-    """A name and its value, side by side; their field, its unit if answered."""
-
-    name: Cell
-    value: Cell
-    field: Field
-    unit: str
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
     """A sheet whose headings were table.
@@ -83,8 +73,6 @@ class Table:
         By field key; absent headings are absent.
     rows : tuple of int
         Numbers of the lines that hold something.
-    above : tuple of Pair
-        Lines above the headings that give a column once for all lines.
     """
 
     sheet: Sheet
@@ -95,7 +83,6 @@ class Table:
     units_row: int | None = None
     first_data_row: int = 1
     rows: tuple[int, ...] = ()
-    above: tuple[Pair, ...] = ()
 
     def cell(self, row: int, key: str) -> Cell | None:
         """Cell of a field in a row; None without such a heading."""
@@ -155,11 +142,9 @@ def find_headings(
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     first_data_row += _is_numbering(sheet.row(first_data_row))
-    above = tuple(_find_pairs_above(sheet, row, plan))
     table = Table(
         sheet=sheet,
-        plan=plan.free({one.field.key for one in above}),
-        above=above,
+        plan=plan,
         titles=titles,
         heading_row=row,
         units_row=units_row,
@@ -194,18 +179,6 @@ def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
             for number, field in enumerate(plan.fields, first)
         },
     )
-
-
-def _find_pairs_above(sheet: Sheet, row: int, plan: SheetPlan) -> Iterator[Pair]:
-    """Lines above the headings that give a column once: its name and its value."""
-    lexicon = Lexicon.of(plan.list_site_wide(), plan)
-    for number in range(1, row):
-        cells = sheet.row(number)
-        if len(cells) != 2 or not isinstance(cells[0].value, str):
-            continue
-        meaning = understand(cells[0], lexicon, sheet.answers)
-        if meaning.field:
-            yield Pair(*cells, meaning.field, meaning.unit)
 
 
 def count_known(sheet: Sheet, plan: SheetPlan) -> int:

@@ -1,21 +1,15 @@
-"""Lines of all sheets of a site, and the ids by which they refer to each other.
-
-What stands once for all net rows, on a cover sheet or above a table, fills them in.
-"""
+"""Lines of all sheets of a site, and the ids by which they refer to each other."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.site.cells.cells import Cell, Sheet
 from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
-from netdesign.site.columns.all_tables import RANGES
-from netdesign.site.columns.fields import KNOWN_UNITS, normalise, normalise_unit
-from netdesign.site.headings import Pair, Table
-from netdesign.site.ranges import RangesSheet, settle_unit
+from netdesign.site.columns.fields import normalise
+from netdesign.site.headings import Table
+from netdesign.site.ranges import RangesSheet
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import read_answered
 from netdesign.words.message import Message, say
 
 TYPE_SHEETS = ("Anchors", "Ropes", "Posts")
@@ -204,84 +198,3 @@ def _reach(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:
         new = {one for known in new for one in beside[known]} - found
         found |= new
     return found
-
-
-SiteWide = Mapping[str, Reading]  # by key of a column of sheet Nets
-
-_GROUND = ("ground_law", "slip_length", "glide_factor")  # one of them says it all
-
-
-def read_once(
-    sheet: Sheet, pair: Pair, beside: Cell | None, findings: list[Finding]
-) -> Reading:
-    """Value of a column that stands once.
-
-    Parameters
-    ----------
-    sheet : Sheet
-        Has the answers to words.
-    pair : Pair
-        What it is, perhaps with its unit in brackets, and its value.
-    beside : Cell or None
-        The cell behind the value, which may hold the unit.
-    findings : list of Finding
-        Appended to: a value that cannot be read, or that has no unit.
-    """
-    name, value, field, answered = pair
-    if not field.units:
-        return read_answered(sheet, value, field, "", findings)
-    column = next(one for one in RANGES.fields if one.key == "unit")
-    text = beside.text if beside and normalise_unit(beside.text) in KNOWN_UNITS else ""
-    unit = settle_unit(
-        Reading(field=column, state="given", value=str(name.value), cell=name),
-        Reading(field=column, state="blank", value=text, cell=beside),
-        field,
-        answered or normalise_unit(value.own_unit),
-        findings,
-    )
-    if not unit:
-        return Reading(field=field, state="faulty", text=value.text, cell=value)
-    return read_answered(sheet, value, field, unit, findings)
-
-
-def read_above(table: Table, findings: list[Finding]) -> dict[str, Reading]:
-    """Values that stand in lines above the headings of a table."""
-    found: dict[str, Reading] = {}
-    for pair in table.above:
-        reading, key = read_once(table.sheet, pair, None, findings), pair.field.key
-        if key in found:
-            rule = say("item.twice", place=found[key].place)
-            findings.append(pair.name.finding(rule, say("item.one_line")))
-        else:
-            found[key] = reading
-    return found
-
-
-def fill_in_site_wide(row: Row, given: SiteWide, findings: list[Finding]) -> Row:
-    """Line whose empty cells have what stands once; what it says itself stays.
-
-    A line with another value than the one that stands once is told.
-    """
-    filled = dict(row)
-    for key, reading in given.items():
-        own = row[key]
-        if own.state in ("blank", "default") and _may_stand(row, key):
-            filled[key] = reading
-        elif own.state == reading.state == "given" and own.value != reading.value:
-            rule = say("item.own_value", place=reading.place)
-            refuse(own, rule, "", findings, severity="note")
-    return filled
-
-
-def _may_stand(row: Row, key: str) -> bool:
-    """The line says nothing else of the same: of the ground, or of the post's tilt."""
-    if key in _GROUND:
-        law = row["ground_law"]
-        others = [row[one] for one in _GROUND if one not in (key, "ground_law")]
-        is_open = law.state == "blank" or (
-            law.word == "sliding" and key != "ground_law"
-        )
-        return is_open and all(one.state == "blank" for one in others)
-    if key == "post_tilt":
-        return row["post_base_distance"].state == "blank"
-    return True

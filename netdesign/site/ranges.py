@@ -1,6 +1,6 @@
 """From the lines of sheet Ranges to the ranges of the uncertain quantities.
 
-A workbook without that sheet may have ranges on its cover sheet, or answered.
+A workbook without that sheet may have its ranges answered.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     split_heading,
 )
-from netdesign.site.columns.lexicon import UNANSWERED, Lexicon, Meaning
+from netdesign.site.columns.lexicon import UNANSWERED, Meaning
 from netdesign.site.headings import Table, refuse_unused_answers
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, explain_unit, read_cell, refuse
 from netdesign.site.tables import match_item, read_field
-from netdesign.site.titles import list_meant, understand
+from netdesign.site.titles import list_meant
 from netdesign.words.message import Message, say
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
@@ -241,7 +241,7 @@ def _read_line(
         return
     names[field.key], found[field.key] = name, None
     ends = _find_ends(table, row, findings)
-    settled = settle_unit(name, unit, field, _find_typed(ends, meaning), findings)
+    settled = _settle_unit(name, unit, field, _find_typed(ends, meaning), findings)
     if not settled or ends is None:
         return
     span = table.cell(row, "span")
@@ -286,7 +286,7 @@ def _find_typed(ends: _Ends | None, meaning: Meaning) -> str:
     return meaning.unit or (units.pop() if len(units) == 1 else "")
 
 
-def settle_unit(
+def _settle_unit(
     name: Reading, unit: Reading, field: Field, typed: str, findings: list[Finding]
 ) -> str:
     """Unit of a line, in brackets or in a column; empty if a finding refused it.
@@ -471,23 +471,14 @@ def _can_glide(
     return False
 
 
-_HEADINGS = ("quantity", "range", "unit")
-_Cells = tuple[Cell, ...]  # of one range: name, value and, perhaps, unit
+_HEADINGS = ("quantity", "range")
 
 
-def gather_ranges(
-    workbook: Workbook, cover: Table | None
-) -> tuple[Workbook, Table | None]:
-    """Workbook with a sheet Ranges, and its cover without the lines that went there.
-
-    Both are the same where it has that sheet, or nothing for it.
-    """
-    if list_meant(workbook, RANGES):
-        return workbook, cover
-    on_cover = list(_list_on_cover(cover))
-    lines = [*_list_answered(workbook), *on_cover]
-    if not lines:
-        return workbook, cover
+def add_answered_ranges(workbook: Workbook) -> Workbook:
+    """Workbook with a sheet Ranges of what was answered, where it has none."""
+    lines = list(_list_answered(workbook))
+    if list_meant(workbook, RANGES) or not lines:
+        return workbook
     sheet, file = RANGES.name, lines[0][0].file
     head = {
         n: Cell(file=file, sheet=sheet, row=1, column=n, value=value)
@@ -495,33 +486,14 @@ def gather_ranges(
     }
     rows = {number: dict(enumerate(cells, 1)) for number, cells in enumerate(lines, 2)}
     made = Sheet(file=file, name=sheet, rows={1: head, **rows})
-    if cover:
-        taken = {cells[0].row for cells in on_cover}
-        kept = tuple(row for row in cover.rows if row not in taken)
-        cover = replace(cover, rows=kept)
-    return replace(workbook, sheets=(*workbook.sheets, made)), cover
+    return replace(workbook, sheets=(*workbook.sheets, made))
 
 
-def _list_answered(workbook: Workbook) -> Iterator[_Cells]:
-    """Ranges of the file of answers; an open one is none."""
+def _list_answered(workbook: Workbook) -> Iterator[tuple[Cell, Cell]]:
+    """Ranges of the file of answers, each name and value; an open one is none."""
     answers = workbook.answers
     for row, (name, answer) in enumerate(answers.ranges.items(), 1):
         if UNANSWERED in answer:
             continue
         made = Cell(file=answers.file, sheet="ranges", row=row, column=1, value=name)
         yield made, replace(made, column=2, value=answer)
-
-
-def _list_on_cover(cover: Table | None) -> Iterator[_Cells]:
-    """Lines of the cover that name a range; a single value of all rows is none."""
-    if cover is None:
-        return
-    lexicon = Lexicon.of(RANGES.items, RANGES)
-    for row in cover.rows:
-        cells = cover.sheet.row(row)
-        if len(cells) < 2 or not isinstance(cells[0].value, str):
-            continue
-        field = understand(cells[0], lexicon, cover.sheet.answers).field
-        is_range = split_range(cells[1].text) is not None
-        if field and (is_range or field.key not in {one.key for one in NETS.fields}):
-            yield cells[:3]

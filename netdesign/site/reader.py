@@ -13,6 +13,7 @@ from netdesign.outcome import SiteDataError
 from netdesign.resistance.connection import Link
 from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
+from netdesign.site.cells.numbers import split_range
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
@@ -33,17 +34,13 @@ from netdesign.site.columns.all_tables import (
     WINTER,
     is_heading,
 )
-from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.columns.fields import SheetPlan, find_item
 from netdesign.site.columns.lexicon import UNANSWERED
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
-from netdesign.site.headings import Pair, Table, count_known, refuse_unused_answers
+from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
     Lines,
-    SiteWide,
-    fill_in_site_wide,
     index_lines,
-    read_above,
-    read_once,
     refuse_unknown_ids,
     spread_over_rows,
 )
@@ -53,10 +50,10 @@ from netdesign.site.plausible import ask
 from netdesign.site.ranges import (
     STIFFNESS,
     RangesSheet,
+    add_answered_ranges,
     assume_stiffness,
     build_ranges,
     free_columns,
-    gather_ranges,
     refuse_large_grid,
 )
 from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
@@ -74,10 +71,12 @@ from netdesign.site.tables import (
     is_about,
     match_item,
     read_rows,
+    say_place,
 )
 from netdesign.site.titles import (
     give_answers,
     is_absent,
+    is_asked,
     is_meant,
     is_near,
     judge_answers,
@@ -140,10 +139,10 @@ def read_site(
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
     cover = find_table(workbook, PROJECT, findings)
-    workbook, cover = gather_ranges(workbook, cover)
-    project, of_project, site_wide = _read_project(cover, findings)
-    tables, nets, ranges = _find_tables(workbook, site_wide, findings)
-    typed = _read_net_rows(nets, site_wide, findings)
+    workbook = add_answered_ranges(workbook)
+    project, of_project = _read_project(cover, findings)
+    tables, nets, ranges = _find_tables(workbook, findings)
+    typed = [line for table in nets for line in read_rows(table, findings)]
     lines = _read_lines(workbook, tables, typed, ranges, findings)
     net_rows = _build_rows(tables[RANGES.name], nets, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
@@ -254,16 +253,16 @@ def _complete(
 
 
 def _find_tables(
-    workbook: Workbook, site_wide: SiteWide, findings: list[Finding]
+    workbook: Workbook, findings: list[Finding]
 ) -> tuple[Mapping[str, Table | None], tuple[Table, ...], RangesSheet]:
     """Tables by the name of their sheet, those of net rows, and what ranges.
 
-    Sheet Nets needs less where something ranges or stands once.
+    Sheet Nets needs less where something ranges.
     """
     told: list[Finding] = []
     table = find_table(workbook, RANGES, told)
     ranges = replace(build_ranges(table, told), findings=told)
-    plan = free_columns(NETS, ranges.ends).free(site_wide.keys())
+    plan = free_columns(NETS, ranges.ends)
     if table and not _is_stiffness_given(workbook, plan):
         ranges = assume_stiffness(ranges)
         plan = free_columns(plan, ranges.ends)
@@ -279,20 +278,7 @@ def _is_stiffness_given(workbook: Workbook, plan: SheetPlan) -> bool:
         return True
     tables = find_tables(workbook, plan.free((STIFFNESS,)), [])
     given = {key for table in tables for key in table.columns}
-    given |= {one.field.key for table in tables for one in table.above}
     return not tables or STIFFNESS in given
-
-
-def _read_net_rows(
-    tables: Sequence[Table], site_wide: SiteWide, findings: list[Finding]
-) -> list[Row]:
-    """Lines of all sheets of net rows, with what stands once."""
-    rows: list[Row] = []
-    for table in tables:
-        lines = read_rows(table, findings)
-        given = {**site_wide, **read_above(table, findings)}
-        rows += [fill_in_site_wide(line, given, findings) for line in lines]
-    return rows
 
 
 def _read_lines(
@@ -398,16 +384,17 @@ def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
 
 def _read_project(
     table: Table | None, findings: list[Finding]
-) -> tuple[Project, Mapping[str, str], SiteWide]:
-    """Project of the cover sheet, cells of its items, and what holds for all rows."""
+) -> tuple[Project, Mapping[str, str]]:
+    """Project of the cover sheet, and cells of its items."""
     values: dict[str, str] = {}
     cells: dict[str, str] = {}
-    site_wide: dict[str, Reading] = {}
     if table is None:
-        return Project(), {}, {}
+        return Project(), {}
     for row in read_rows(table, findings):
         item, value = row["item"], row["value"]
-        if not item.word or _is_strange(item, value, table, findings):
+        if not item.word or _is_elsewhere(item, value, table, findings):
+            continue
+        if _is_strange(item, value, table, findings):
             continue
         meaning = match_item(item, table, "item", findings)
         field = meaning.field
@@ -416,19 +403,33 @@ def _read_project(
         if field.key in cells:
             rule = say("item.twice", place=cells[field.key])
             refuse(item, rule, say("item.one_line"), findings)
-        elif field.table == NETS.name:
-            beside = table.sheet.cell(value.cell.row, value.cell.column + 1)
-            pair = Pair(item.cell, value.cell, field, meaning.unit)
-            site_wide[field.key] = read_once(table.sheet, pair, beside, findings)
-            cells[field.key] = value.place
         elif field.key == "accepted_law" and value.word not in CREEP_LAWS:
             accepted = say("accepted.words", words=tuple(CREEP_LAWS))
             refuse(value, say("item.no_law"), accepted, findings)
         else:
             values[field.key], cells[field.key] = value.word, value.place
     refuse_unused_answers(table, findings)
-    of_project = {key: place for key, place in cells.items() if key in values}
-    return Project(**values), of_project, site_wide
+    return Project(**values), cells
+
+
+def _is_elsewhere(
+    item: Reading, value: Reading, table: Table, findings: list[Finding]
+) -> bool:
+    """A line gives what stands on sheet Nets or Ranges, and is refused."""
+    name = item.word
+    if value.state != "given" or find_item(name, PROJECT.items):
+        return False
+    if item.cell is None or any(
+        is_asked(item.cell, one) for one in table.sheet.answers
+    ):
+        return False
+    column = find_item(name, [one for one in NETS.fields if one.key != "id"])
+    quantity = find_item(name, RANGES.items)
+    if quantity and (column is None or split_range(value.word)):
+        refuse(item, say("item.once"), say_place(quantity, RANGES), findings)
+    elif column:
+        refuse(item, say("item.once"), say_place(column, NETS), findings)
+    return bool(column or quantity)
 
 
 def _is_strange(

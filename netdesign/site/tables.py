@@ -235,18 +235,32 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
 
 
 def _note_lines_above(table: Table) -> Iterator[Finding]:
-    """Lines above the headings: a title block, or lines of a table put too high."""
+    """Lines above the headings: a title block, or lines of a table put too high.
+
+    On a sheet of net rows one that names a column is no title.
+    """
+    is_of_nets = table.plan.name == NETS.name
     for row in range(1, table.heading_row):
         cells = table.sheet.row(row)
-        is_read = any(one.name.row == row for one in table.above)
-        if len(cells) < 2 or is_read:
+        if len(cells) < 2:
             continue
-        item = find_item(str(cells[0].value), table.plan.items)
+        name = str(cells[0].value)
+        column = find_item(name, table.plan.fields) if is_of_nets else None
+        item = find_item(name, table.plan.items)
+        if column and column.key != "id":
+            yield cells[0].finding(say("item.once"), say_place(column, NETS))
+            continue
         yield cells[0].finding(
             say("table.above_headings"),
             say("table.below_headings") if item else "",
             severity="error" if item else "note",
         )
+
+
+def say_place(field: Field, plan: SheetPlan) -> Message:
+    """Where a value of net rows is typed: in a column, or in a line of sheet Ranges."""
+    key = "item.in_lines" if plan.items else "item.in_column"
+    return say(key, name=field.title, sheet=plan.title)
 
 
 def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from functools import lru_cache
 from importlib.resources import files
 from typing import Any
@@ -135,16 +134,15 @@ def _load_headings(language: str) -> Data:
 
 
 _PLANS = {name: _read_plan(name) for name in load_file("columns")["sheets"]}
-PROJECT_ITEMS = _PLANS["Project"].items
 NETS, RANGES, SNOW = _PLANS["Nets"], _PLANS["Ranges"], _PLANS["Snow"]
 # The keys of the resistances are the modes of `model.MEMBER_MODES`.
 ANCHORS, ROPES, POSTS = _PLANS["Anchors"], _PLANS["Ropes"], _PLANS["Posts"]
 TESTS, LINKS, ENDS = _PLANS["Tests"], _PLANS["Links"], _PLANS["Ends"]
 MONITORING, DECLARED = _PLANS["Monitoring"], _PLANS["Declared"]
 WINTER, UNCERTAINTY = _PLANS["Winter"], _PLANS["Uncertainty"]
-# Also with what holds for all net rows; the template does not offer that.
-PROJECT = replace(_PLANS["Project"], items=(*PROJECT_ITEMS, *NETS.list_site_wide()))
-SHEETS: tuple[SheetPlan, ...] = tuple((_PLANS | {PROJECT.name: PROJECT}).values())
+PROJECT = _PLANS["Project"]
+PROJECT_ITEMS = PROJECT.items
+SHEETS: tuple[SheetPlan, ...] = tuple(_PLANS.values())
 RANGE_QUANTITIES = RANGES.items
 # What else may range: then no line of sheet Nets gives it. Keys are those of
 # `envelope.parameters.PARAMETERS`.

@@ -319,8 +319,6 @@ class SheetPlan:
     # Accepted names by language, the sheet's own first; as the headings of a field.
     names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     items: tuple[Field, ...] = ()  # what the lines of a table of items may name
-    # Keys of columns that may stand once instead, for all lines of the sheet.
-    site_wide: tuple[str, ...] = ()
 
     def matches(self, sheet_name: str) -> bool:
         """A workbook's sheet is the planned one: numbered perhaps, in two languages."""
@@ -369,10 +367,6 @@ class SheetPlan:
     def has_pairs(self) -> bool:
         """Its lines are names with a value, which need no headings."""
         return [one.key for one in self.fields] == ["item", "value"]
-
-    def list_site_wide(self) -> tuple[Field, ...]:
-        """Columns that may stand once."""
-        return tuple(one for one in self.fields if one.key in self.site_wide)
 
 
 def name_word(key: str, word: str) -> Message | str:

@@ -130,7 +130,7 @@ def test_what_a_column_names_is_there():
     """Other columns, kinds, sheets; an unknown key, unit or statement is an error."""
     for plan in SHEETS:
         keys = {one.key for one in plan.fields}
-        assert keys.issuperset((*plan.one_of, *plan.site_wide))
+        assert keys.issuperset(plan.one_of)
         for one in plan.fields:
             beside = [key for usual in one.beside for key in usual.powers]
             named = {*beside, *one.instead, *one.not_beside, one.alternative_to}

@@ -1,4 +1,4 @@
-"""Ranges without a sheet of their own: on the cover sheet, or answered."""
+"""Ranges without a sheet of their own: answered."""
 
 import random
 
@@ -16,13 +16,8 @@ from tests.study.knowing_less.drawn_site import draw_lines
 TO = {"en": "to", "de": "bis", "fr": "à"}
 
 
-def write(path, cover=()):
-    lines = draw_lines(3)
-    lines["Project"] = [
-        *lines["Project"],
-        *({"item": item, "value": value} for item, value in cover),
-    ]
-    write_lines(path, lines)
+def write(path):
+    write_lines(path, draw_lines(3))
     book = openpyxl.load_workbook(path)
     del book["Ranges"]
     book.save(path)
@@ -55,17 +50,6 @@ def test_they_are_asked_for_and_answered(tmp_path, language):
     assert ends(site)["friction_angle"] == pytest.approx((0.2181662, 0.6544985))
     places = [one.cell for one in site.range_inputs if "range" in one.cell.lower()]
     assert places  # where an answer stands is told
-
-
-def test_one_is_on_the_cover_and_the_other_is_asked_for(tmp_path):
-    cover = [("Densité de la neige", "290 à 410 kg/m3")]
-    path = write(tmp_path / "site.xlsx", cover)
-    text, count = write_questions(path)
-    assert count == 1
-    name_map(path).write_text(text.replace('"?"', '"18 to 34"'), encoding="utf-8")
-    site = read_site(path)
-    assert ends(site)["density"] == (290.0, 410.0)
-    assert any("Project" in one.cell for one in site.range_inputs)
 
 
 def test_an_open_question_is_no_range(tmp_path):
