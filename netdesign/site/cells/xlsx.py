@@ -33,16 +33,21 @@ from netdesign.words.message import say
 
 if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file
     from openpyxl import Workbook as OpenWorkbook
+    from openpyxl.reader.excel import ExcelReader
 
 
-def _open(content: bytes, *, stored_results: bool) -> OpenWorkbook:
+def _open(content: bytes, *, stored_results: bool) -> ExcelReader:
+    """Reader of a workbook, which knows the part of each sheet."""
     import openpyxl
+    from openpyxl.reader.excel import ExcelReader
 
     if not openpyxl.DEFUSEDXML:
         raise NetDesignError(say("program.no_defusedxml"))
-    return openpyxl.load_workbook(
+    reader = ExcelReader(
         BytesIO(content), read_only=True, data_only=stored_results, keep_links=False
     )
+    reader.read()
+    return reader
 
 
 _MOST_MERGED = 100_000
@@ -62,8 +67,9 @@ def open_for_editing(path: Path) -> OpenWorkbook:
     guard_archive(path.name, content)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        for sheet in _open(content, stored_results=True).worksheets:
-            layout = _scan_layout(sheet)
+        stored = _open(content, stored_results=True)
+        for sheet in stored.wb.worksheets:
+            layout = _scan_layout(stored, sheet.title)
             require_rows(path.name, sheet.title, layout.last_row)
             if sum(merged.size for merged in layout.merged) > _MOST_MERGED:
                 accepted = say("book.most_cells", most=_MOST_MERGED)
@@ -83,15 +89,16 @@ def read_xlsx(
     with warnings.catch_warnings():
         # openpyxl warns of features that it would drop on saving; nothing is saved.
         warnings.simplefilter("ignore")
-        stored = _open(content, stored_results=True)
+        reader = _open(content, stored_results=True)
+        stored = reader.wb
         names = [sheet.title for sheet in stored.worksheets]
         layouts = {
-            name: _scan_layout(stored[name]) for name in names if is_wanted(name)
+            name: _scan_layout(reader, name) for name in names if is_wanted(name)
         }
         formulas: dict[str, Mapping[tuple[int, int], str]] = {}
         if any(layout.has_formulas for layout in layouts.values()):
             # openpyxl shows a formula or its stored result, never both: open it again.
-            typed = _open(content, stored_results=False)
+            typed = _open(content, stored_results=False).wb
             formulas = {
                 name: _read_formulas(typed[name], layout)
                 for name, layout in layouts.items()
@@ -193,7 +200,7 @@ def _is_struck(cell: Any) -> bool:
     return bool(cell.has_style and cell.font and cell.font.strike)
 
 
-def _scan_layout(sheet: Any) -> _Layout:
+def _scan_layout(reader: ExcelReader, name: str) -> _Layout:
     """Last filled row, merged ranges, what is hidden, and whether formulas are there.
 
     openpyxl gives merged ranges only in its other mode, which makes one object
@@ -202,7 +209,8 @@ def _scan_layout(sheet: Any) -> _Layout:
     from defusedxml.ElementTree import iterparse
 
     row, layout = 0, _Layout()
-    with sheet._get_source() as source:
+    parts = {sheet.name: rel.target for sheet, rel in reader.parser.find_sheets()}
+    with reader.archive.open(parts[name]) as source:
         for _, element in iterparse(source):
             tag = element.tag.rpartition("}")[2]
             if tag == "f":
