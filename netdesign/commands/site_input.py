@@ -19,13 +19,11 @@ from netdesign.commands.running import write_outputs
 from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.edge.causes import explain_with_file
 from netdesign.outcome import OutputError, SiteDataError
-from netdesign.words.catalogue import render
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site
-    from netdesign.site.questions import Question
 
 _MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
 
@@ -211,29 +209,6 @@ def init(site_file: Path, **asked: Any) -> None:
     tell(say("cli.wrote", path=str(site_file)), err=True)
 
 
-def _put(question: Question, known: set[tuple[str, str]]) -> str:
-    """One question on the terminal, once; an empty answer leaves it open."""
-    from netdesign.site.questions import is_accepted
-
-    asked = (question.sheet, question.asked)
-    if asked in known:
-        return ""
-    known.add(asked)
-    hints = "; ".join(render(one, speak()) for one in question.hints if one)
-    place = " › ".join(filter(None, asked))
-    click.echo(f"{place}\n  {hints}", err=True)
-    while True:
-        try:
-            answer: str = click.prompt(
-                f"  {question.answer}", default="", show_default=False
-            )
-        except click.Abort:  # what was answered before is kept
-            return ""
-        if not answer.strip() or is_accepted(question, answer.strip()):
-            return answer
-        tell(say("map.not_accepted", answer=answer.strip()), err=True)
-
-
 @click.command(name="map")
 @click.argument("site_file", type=click.Path(path_type=Path))
 @take_options("map")
@@ -242,7 +217,7 @@ def map_headings(site_file: Path, **asked: Any) -> None:
 
     \b
     netdesign map site.xlsx
-    netdesign map chantier.xlsx --ask --language fr
+    netdesign map chantier.xlsx --language fr
     netdesign map site.xlsx --force      again, with the answers given so far
 
     Every question mark in the file asks for an answer: a heading of the workbook with
@@ -255,15 +230,9 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     refuse_delimiter(site_file)
     place, overwrite = name_map(site_file), asked["force"]
     require_free([place], overwrite=overwrite)
-    known: set[tuple[str, str]] = set()
-    put = partial(_put, known=known) if asked["ask"] else None
-    before = -1
-    while len(known) > before:  # a sheet that is known now has headings to ask for
-        before = len(known)
-        form = build_text_format(asked)
-        text, missing = write_questions(site_file, form, asked["language"], put)
-        write_files({place: text.encode()}, overwrite=overwrite)
-        overwrite = True
+    form = build_text_format(asked)
+    text, missing = write_questions(site_file, form, asked["language"])
+    write_files({place: text.encode()}, overwrite=overwrite)
     tell(say("cli.wrote", path=str(place)), err=True)
     tell(
         say("map.missing", count=missing) if missing else say("map.complete"), err=True

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
@@ -19,7 +19,6 @@ from netdesign.site.cells.cells import (
     split_address,
 )
 from netdesign.site.cells.findings import Finding
-from netdesign.site.cells.numbers import split_range
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
@@ -30,15 +29,13 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     USUAL_QUANTITIES,
 )
-from netdesign.site.columns.fields import KNOWN_UNITS, normalise, normalise_unit
-from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, Lexicon, has_no_part
+from netdesign.site.columns.lexicon import IGNORE, UNANSWERED, has_no_part
 from netdesign.site.guesses import guess
 from netdesign.site.headings import Table, count_known
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.readings import IN_CELLS
 from netdesign.site.tables import find_tables
 from netdesign.site.titles import (
-    MARKS,
     SCHEMA,
     find_heading_unit,
     find_plan,
@@ -93,8 +90,6 @@ class Question:
         A word of a cell is asked for.
     likely : str
         Planned sheet that is proposed for the sheet; empty where none is.
-    is_range : bool
-        The lowest and highest value of a quantity are asked for.
     """
 
     sheet: str
@@ -103,14 +98,12 @@ class Question:
     hints: tuple[Message | str, ...]
     is_word: bool = False
     likely: str = ""
-    is_range: bool = False
 
 
 def write_questions(
     path: Path,
     text_format: TextFormat = UNDECLARED,
     language: Language = "en",
-    ask: Callable[[Question], str] | None = None,
 ) -> tuple[str, int]:
     """Text of the file of answers, and how many of them are missing.
 
@@ -122,8 +115,6 @@ def write_questions(
         As for reading.
     language : str
         Of the comments and headings.
-    ask : callable, optional
-        Gives the answer to a question, or an empty text; without it all stay open.
 
     Raises
     ------
@@ -132,23 +123,17 @@ def write_questions(
     """
     workbook = read_cells(path, text_format)
     answers = workbook.answers
-    asked = [
-        _answer(one, ask)
-        for one in _ask_sheets(path, text_format, workbook, _collect(path, text_format))
-    ]
+    unread = _collect(path, text_format)
+    asked = list(_ask_sheets(path, text_format, workbook, unread))
     # The headings of a sheet are asked for together with what the sheet may be.
-    taken = {one.asked: _take(one) for one in asked if _take(one)}
+    taken = {one.asked: one.likely for one in asked if one.likely}
     findings = _collect(path, text_format, taken)
     workbook = read_cells(path, text_format, taken)
     found = [table for plan in SHEETS for table in find_tables(workbook, plan, [])]
-    mark = Question("", _MARK, UNANSWERED, (say("map.mark"),))
     asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
-    if asks_mark:
-        mark = _answer(mark, ask)
-    names = _ask_names(found, findings, language)
-    questions = [_answer(one, ask) for one in names]
-    of_ranges = [_answer(one, ask) for one in _ask_ranges(workbook, findings, language)]
-    lines = [*_begin(path, workbook, mark.answer if asks_mark else "", language)]
+    questions = _ask_names(found, findings, language)
+    of_ranges = list(_ask_ranges(workbook, findings, language))
+    lines = [*_begin(path, workbook, UNANSWERED if asks_mark else "", language)]
     if answers.sheets or asked:
         lines += [*_list_answers("sheets", answers.sheets, asked, language), ""]
     if answers.ranges or of_ranges:
@@ -167,22 +152,6 @@ def write_questions(
             lines += [*_list_answers(place, words, asked, language), ""]
     text = "\n".join(lines) + "\n"
     return text, len(_OPEN.findall(text))
-
-
-def _answer(question: Question, ask: Callable[[Question], str] | None) -> Question:
-    """Question with what somebody answers to it, if somebody is asked."""
-    typed = ask(question).strip() if ask else ""
-    if not typed:
-        return question
-    is_whole = typed == IGNORE or question.answer == UNANSWERED
-    answer = typed if is_whole else question.answer.replace(UNANSWERED, typed)
-    return replace(question, answer=answer)
-
-
-def _take(question: Question) -> str:
-    """Planned sheet that a sheet is taken for until somebody answers; may be empty."""
-    is_open = question.answer == UNANSWERED
-    return question.likely if is_open else question.answer
 
 
 def _collect(
@@ -240,7 +209,7 @@ def _ask_ranges(
         lacks = say("range.lacks", heading=one.title)
         if one.required and (is_nowhere or any(x.rule == lacks for x in findings)):
             name = f"{one.label_in(language)} [{one.unit}]"
-            yield Question("", name, UNANSWERED, (say("map.range"),), is_range=True)
+            yield Question("", name, UNANSWERED, (say("map.range"),))
 
 
 def _ask_names(
@@ -381,27 +350,6 @@ def _list_understood(table: Table, language: Language) -> Iterator[str]:
         unit = f" [{column.unit}]" if is_given else ""
         label = render(field.name, language)
         yield f"# {_quote(titles.get(column.number, ''))} = {_quote(label + unit)}"
-
-
-def is_accepted(question: Question, typed: str) -> bool:
-    """An answer means something: a sheet, a unit, a heading, a word of a column."""
-    if typed == IGNORE:
-        return question.asked != _MARK
-    if question.is_range:
-        return split_range(typed) is not None
-    if question.asked == _MARK and not question.sheet:
-        return typed in MARKS and bool(typed)
-    if not question.sheet:
-        return find_plan(typed) is not None
-    if question.is_word:
-        spelled = (one.spellings for plan in SHEETS for one in plan.fields)
-        return normalise(typed) in {normalise(x) for names in spelled for x in names}
-    if question.answer != UNANSWERED:  # a unit is asked for
-        return normalise_unit(typed) in KNOWN_UNITS
-    return any(
-        Lexicon.of([*plan.fields, *plan.items], plan).match(typed).field
-        for plan in SHEETS
-    )
 
 
 def _list_unread(

@@ -4,10 +4,7 @@ import tomllib
 
 import openpyxl
 import pytest
-from click.testing import CliRunner
 
-from netdesign.commands.site_input import map_headings
-from netdesign.site.reader import read_site
 from tests.short_example import write_short_example
 
 
@@ -119,15 +116,6 @@ def test_a_list_of_unknown_headings_is_asked_for_whole(call, tmp_path):
     assert len(tomllib.loads(text)["headings"]["Anchors"]) == columns
 
 
-def test_answers_typed_at_the_terminal_are_in_the_file(site, tmp_path):
-    ended = CliRunner().invoke(map_headings, [str(site), "--ask"], input="ignore\n")
-    assert ended.exit_code == 0, ended.output
-    assert "nothing is left to be answered" in ended.output
-    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
-    assert '= "?"' not in text
-    assert read_site(site).rows
-
-
 def test_what_is_left_open_stays_in_the_file(call, site, tmp_path):
     call("map", site)
     before = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
@@ -135,25 +123,3 @@ def test_what_is_left_open_stays_in_the_file(call, site, tmp_path):
     after = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
     still = [line.split("  #")[0] for line in before.splitlines() if '= "?"' in line]
     assert still == [x.split("  #")[0] for x in after.splitlines() if '= "?"' in x]
-
-
-def test_headings_of_a_sheet_that_is_answered_are_asked_at_once(tmp_path):
-    path = tmp_path / "site.xlsx"
-    write_short_example(path, ["R1"])
-    book = openpyxl.load_workbook(path)
-    book["Nets"].title = "Fences of steel"
-    for cell in book["Fences of steel"][1]:
-        if str(cell.value).startswith("slope angle"):
-            cell.value = "steepness of the ground [deg]"
-    book.save(path)
-    answers = "Nets\nslope angle [deg]\n"
-    ended = CliRunner().invoke(map_headings, [str(path), "--ask"], input=answers)
-    assert "nothing is left to be answered" in ended.output
-    assert [row.id for row in read_site(path).rows] == ["R1"]
-
-
-def test_an_empty_answer_leaves_the_question(site, tmp_path):
-    ended = CliRunner().invoke(map_headings, [str(site), "--ask"], input="\n")
-    assert "1 to be answered" in ended.output
-    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
-    assert '= "?"' in text
