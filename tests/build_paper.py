@@ -1,6 +1,4 @@
-"""A study made up from formulas: what the findings have to say of it is known."""
-
-import math
+"""A study of the paper made up from formulas."""
 
 import numpy as np
 
@@ -15,46 +13,36 @@ from netdesign.evidence.paper.runs import (
 from netdesign.words.message import say
 
 SETTINGS = PaperSettings()
+PLATEAU = 1000.0  # [s]
 TRIANGLE = np.array([[0.0, 4.0, 0.0], [0.0, 0.0, 4.0]])
 CURVE = np.array([[0.0, 0.3, 0.0], [0.0, 2.0, 4.0]])
 
 
-def build_study(pull=None, *, swings=0, plateau=1000.0, density=400.0, failing=()):
-    """Study in which the foot carries ``pull(case)`` [N/m] at rest.
-
-    Staggered runs turn back ``swings`` times; all begin their plateau at ``plateau``
-    seconds, None: never.
-    """
+def build_study(pull=None, *, failing=()):
+    """Study in which the foot carries ``pull(case)`` [N/m] at rest."""
     pull = pull or (lambda _: 3e5)
     runs = {}
-    for case in list_cases(SETTINGS):
+    for case in list_cases():
         if case in failing:
-            runs[case] = PaperRun(
-                case=case, failure=say("text.as_given", text="made to fail")
-            )
-            continue
-        runs[case] = build_run(case, pull(case), swings, plateau, density)
+            told = say("text.as_given", text="made to fail")
+            runs[case] = PaperRun(case=case, failure=told)
+        else:
+            runs[case] = build_run(case, pull(case))
     return PaperStudy(settings=SETTINGS, runs=runs)
 
 
-def build_run(case, size, swings, plateau, density):
+def build_run(case, size):
     shape = Shape(
         nodes=TRIANGLE,
         triangles=np.array([[0], [1], [2]]),
-        density=np.array([366.8 if case.until else density]),
+        density=np.array([366.8]),
         curve=CURVE,
-        sag=size / 1e6,
     )
     if case.method == "steady":
         return PaperRun(case=case, foot=size, head=size, shape=shape)
     times = np.geomspace(1.0, case.until or 1e5, 101)
     foot = size * (1.0 - np.exp(-times / 20.0))
-    if case.method == "staggered" and swings:
-        phase = np.linspace(0.0, math.pi * swings, 101)
-        foot = size * (1.0 + 0.3 * np.sin(phase + 1e-9))
-    index = None
-    if plateau is not None and plateau < times[-1]:
-        index = int(np.searchsorted(times, plateau))
+    index = int(np.searchsorted(times, PLATEAU)) if times[-1] > PLATEAU else None
     node = np.array([-foot / 10.0, foot / 100.0])
     track = Track(
         times=times,

@@ -140,10 +140,6 @@ def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, capsy
     assert run(monkeypatch, "paper", "--out", out) == 0
     assert {"index.html", "plateau.csv", "methods.svg"} <= names(out)
     assert "index.html and" in capsys.readouterr().err
-    french = (*("--language", "fr"), "--force")
-    assert run(monkeypatch, "paper", "--out", out, *french) == 0
-    assert "écrit :" in capsys.readouterr().err.replace("\u00a0", " ")
-    assert 'lang="fr"' in (out / "index.html").read_text("utf-8")
     assert run(monkeypatch, "paper", "--out", out) == 2
     failing = build_study(failing=[find_history(0.0)])
     monkeypatch.setattr(module, "run_study", lambda *_, **__: failing)

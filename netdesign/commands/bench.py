@@ -18,7 +18,7 @@ from netdesign.commands.running import (
     require_places,
     write_outputs,
 )
-from netdesign.commands.usage import UsageRefusal, speak
+from netdesign.commands.usage import UsageRefusal
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from netdesign.evidence.benchmark.precision import Row
 
 _EXIT_FAIL = 1
-_RANDOM = ("--stress", "--errors", "--lines")  # over random scenes
+_RANDOM = ("--stress", "--errors")  # over random scenes
 
 
 @click.command()
@@ -40,7 +40,6 @@ def bench(**asked: Any) -> None:
     netdesign bench --plot bench.svg
     netdesign bench --stress 2000 --seed 1 --jobs 2
     netdesign bench --errors 200 --seed 1 --jobs 2
-    netdesign bench --lines 60 --jobs 2
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
     wanted = (*_RANDOM, "--against")
@@ -77,10 +76,9 @@ def _show(document: dict[str, Any], *, is_named: bool) -> None:
 
     from netdesign.evidence.benchmark.precision import print_bench
     from netdesign.evidence.table import show_document
-    from netdesign.report.words import Words
 
     show = print_bench if is_named else show_document
-    show(document, Console(), Words(speak()))
+    show(document, Console())
 
 
 def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
@@ -90,18 +88,19 @@ def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
         write_errors,
         write_stress,
     )
-    from netdesign.evidence.benchmark.lines import study_lines, write_lines
 
     count, seed, accuracy = asked[option.strip("-")], asked["seed"], asked["accuracy"]
-    ends = (seed, accuracy, "en" if asked["as_json"] else speak())
-    what = "lines" if option == "--lines" else "scenes"
-    with follow(count, what, asked) as on_done:
-        how = {"accuracy": accuracy, "jobs": asked["jobs"], "on_done": on_done}
-        if option == "--lines":
-            return write_lines(study_lines(count, seed, **how), *ends)
-        is_compared = option == "--errors"
-        found = attempt_scenes(count, seed, **how, is_compared=is_compared)
-        return (write_errors if is_compared else write_stress)(found, *ends)
+    with follow(count, "scenes", asked) as on_done:
+        found = attempt_scenes(
+            count,
+            seed,
+            accuracy=accuracy,
+            jobs=asked["jobs"],
+            is_compared=option == "--errors",
+            on_done=on_done,
+        )
+    write = write_errors if option == "--errors" else write_stress
+    return write(found, seed, accuracy)
 
 
 def _run_against(asked: Mapping[str, Any]) -> dict[str, Any]:
@@ -128,7 +127,6 @@ def _run_named(asked: Mapping[str, Any]) -> dict[str, Any]:
         write_bench,
     )
     from netdesign.evidence.benchmark.scenes import load_scenes
-    from netdesign.report.words import Words
 
     plot: Path | None = asked["plot"]
     require_places(plot and plot.parent, [plot.name] if plot else [], asked)
@@ -136,7 +134,7 @@ def _run_named(asked: Mapping[str, Any]) -> dict[str, Any]:
     chosen = load_scenes(tuple(name.strip() for name in names))
     rows = _measure(chosen, asked)
     if plot is not None:
-        drawn = draw_work_precision(rows, Words(speak()))
+        drawn = draw_work_precision(rows)
         write_outputs(plot.parent, {plot.name: drawn.encode()}, asked)
     return write_bench(rows, time_accuracies(chosen.values()))
 

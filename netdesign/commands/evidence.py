@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Mapping
@@ -17,7 +16,6 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.running import (
     follow,
-    format_time,
     print_document,
     require_places,
     write_outputs,
@@ -27,7 +25,7 @@ from netdesign.commands.stored_study import (
     show_differences,
     solve_again,
 )
-from netdesign.commands.usage import UsageRefusal, speak, tell
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -52,24 +50,19 @@ def verify(**asked: Any) -> None:
     \b
     netdesign verify
     netdesign verify --json
-    netdesign verify --out verification
     netdesign verify --study reports/study.json --site site.xlsx
     """
     if asked["study_file"] is None:
         refuse_without(("site_file", "standard", "jobs"), "--study")
         sys.exit(_run_pack(asked))
-    if asked["out"] is not None:
-        raise UsageRefusal(say("usage.out_not_with_study"))
     if asked["as_json"]:
         raise UsageRefusal(say("usage.json_not_with_study"))
     sys.exit(_verify_study(asked["study_file"], asked))
 
 
 def _run_pack(asked: Mapping[str, Any]) -> int:
-    from netdesign.evidence.validation.page import gather, list_pages, render_pages
     from netdesign.evidence.verification.pack import GROUPS, run_pack, write_pack
 
-    require_places(asked["out"], list_pages(), asked)
     with follow(len(GROUPS), "groups", asked) as advance:
         cases = run_pack(advance)
     if asked["as_json"]:
@@ -78,12 +71,8 @@ def _run_pack(asked: Mapping[str, Any]) -> int:
         from rich.console import Console
 
         from netdesign.evidence.verification.pack import print_cases
-        from netdesign.report.words import Words
 
-        print_cases(cases, Console(), Words(speak()))
-    if asked["out"] is not None:
-        pages = render_pages(gather((), cases=cases), speak())
-        write_outputs(asked["out"], pages, asked)
+        print_cases(cases, Console())
     return 0 if all(case.passes for case in cases) else _FAIL
 
 
@@ -156,86 +145,41 @@ def _show_unverified(study: Study, again: Study) -> bool:
     return bool(others or study.left_out)
 
 
-def _predict(structures: Path | None, asked: Mapping[str, Any]) -> int:
-    """Exit code; writes form and letter, a prediction, or forces beside one."""
-    from netdesign.edge.given_files import MAX_TOML_BYTES, read_bounded
-    from netdesign.evidence.validation import prediction_page as page
-    from netdesign.evidence.validation.measured_file import read_form
-    from netdesign.evidence.validation.prediction import (
-        compare,
-        open_sealed,
-        predict,
-        seal,
-        write_hits,
-    )
-
-    if structures or (asked["form"] and asked["predict"]):
-        raise UsageRefusal(say("usage.one_of_predict"))
-    folder, language = asked["out"], asked["language"]
-    if asked["form"]:
-        write_outputs(folder, page.write_form(language), asked)
-        return 0
-    form, stored = read_form(asked["predict"]), folder / page.PREDICTION_FILE
-    if not stored.exists():
-        made = predict(form, format_time())
-        told = page.render_prediction(made, language)
-        files = {page.PREDICTION_FILE: seal(made), page.PAGE_FILE: told}
-        write_outputs(folder, files, asked)
-        if asked["as_json"]:
-            print_document(json.loads(seal(made)))
-        else:
-            tell(say("prediction.stored", digest=made.digest))
-        return 0
-    prediction = open_sealed(read_bounded(stored, MAX_TOML_BYTES).decode())
-    hits = compare(form, prediction)
-    told = page.render_comparison(prediction, hits, language)
-    write_outputs(folder, {page.COMPARISON_FILE: told}, asked)
-    if asked["as_json"]:
-        print_document(write_hits(hits, prediction))
-    return 0 if all(one.is_inside for one in hits) else _NOT_PROVEN
-
-
 @click.command()
 @click.argument(
     "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
 )
 @take_options("validate")
 def validate(structures: Path | None, **asked: Any) -> None:
-    """Write one page: verification, settling of snow, measured structures.
+    """Write one page: forces measured on structures, in the bands of the model.
 
     With a file, its structures stand first: one whose inputs are all values gets a
     misfit, others a band. The form is that of the program's own,
-    netdesign/evidence/validation/measured.toml. Exit code 1 if a case of the
-    verification fails, 4 if a measured force lies outside its band.
+    netdesign/evidence/validation/measured.toml. Exit code 4 if a measured force lies
+    outside its band.
 
     \b
     netdesign validate --out validation
     netdesign validate my-net.toml --out validation
     netdesign validate --out validation --json > validation.json
-    netdesign validate --form --out my-net
-    netdesign validate --predict my-net/form.toml --out my-net
     """
-    if asked["form"] or asked["predict"]:
-        sys.exit(_predict(structures, asked))
     from netdesign.evidence.validation.measured_file import read_all
     from netdesign.evidence.validation.page import (
-        count_parts,
+        DOCUMENT_FILE,
+        PAGE_FILE,
         gather,
-        list_pages,
-        render_pages,
-        write_evidence,
+        render_validation,
+        write_validations,
     )
 
-    require_places(asked["out"], list_pages(), asked)
+    require_places(asked["out"], [PAGE_FILE, DOCUMENT_FILE], asked)
     known = read_all(structures)
-    with follow(count_parts(known), "parts", asked) as advance:
-        evidence = gather(known, advance)
-    write_outputs(asked["out"], render_pages(evidence, asked["language"]), asked)
+    with follow(len(known), "structures", asked) as on_done:
+        found = gather(known, on_done)
+    write_outputs(asked["out"], render_validation(found), asked)
     if asked["as_json"]:
-        print_document(write_evidence(evidence))
-    if not all(case.passes for case in evidence.cases):
-        sys.exit(_FAIL)
-    bands = [one for one in evidence.validations if not one.structure.is_known]
+        print_document(write_validations(found))
+    bands = [one for one in found if not one.structure.is_known]
     if not all(c.is_inside for one in bands for c in one.comparisons):
         sys.exit(_NOT_PROVEN)
 
@@ -243,7 +187,7 @@ def validate(structures: Path | None, **asked: Any) -> None:
 @click.command()
 @take_options("paper")
 def paper(**asked: Any) -> None:
-    """Reproduce the source paper's study: histories, meshes, plateaus.
+    """Reproduce the source paper's study: numbers, and four plates.
 
     \b
     netdesign paper --out paper
@@ -253,9 +197,9 @@ def paper(**asked: Any) -> None:
 
     settings, jobs = PaperSettings(), asked["jobs"] or os.cpu_count() or 1
     require_places(asked["out"], [PAGE_FILE], asked)
-    with follow(len(list_cases(settings)), "runs", asked) as on_done:
+    with follow(len(list_cases()), "runs", asked) as on_done:
         study = run_study(settings, jobs=jobs, on_done=on_done)
-    files = render_paper(study, asked["language"])
+    files = render_paper(study)
     write_outputs(asked["out"], files, {**asked, "quiet": True})
     if not asked["quiet"]:
         page = str(asked["out"] / PAGE_FILE)

@@ -18,7 +18,7 @@ from netdesign.report.blocks import (
     number_cell,
     text_cell,
 )
-from netdesign.report.words import MISSING, Words, show_own
+from netdesign.report.words import ENGLISH, MISSING
 from netdesign.words.catalogue import load_texts
 
 if TYPE_CHECKING:
@@ -35,24 +35,22 @@ _ANSWERS = ("bench.yes", "bench.no")
 Row = Mapping[str, Any]
 
 
-def show_document(document: Row, console: Console, words: Words) -> None:
+def show_document(document: Row, console: Console) -> None:
     """Print the numbers of a document, then each of its lists of rows as a table."""
     from rich.text import Text
 
     lists = {key: value for key, value in document.items() if _is_table(value)}
     for key, value in document.items():
         if key not in lists and _is_named(AREA, key):
-            line = Text(f"  {words(f'{AREA}.{key}'):{_WIDTH}} ")
-            console.print(line + _show(key, value, words, AREA), soft_wrap=True)
+            line = Text(f"  {ENGLISH(f'{AREA}.{key}'):{_WIDTH}} ")
+            console.print(line + _show(key, value, AREA), soft_wrap=True)
     for key, rows in lists.items():
         if rows and _is_named(AREA, key):
-            show_lines([words(f"{AREA}.{key}")], console)
-            show_rows(rows, console, words)
+            show_lines([ENGLISH(f"{AREA}.{key}")], console)
+            show_rows(rows, console)
 
 
-def show_rows(
-    rows: Sequence[Row], console: Console, words: Words, area: str = AREA
-) -> None:
+def show_rows(rows: Sequence[Row], console: Console, area: str = AREA) -> None:
     """Print rows of equal keys as a table, numbers to the right.
 
     The longest texts alone are broken where there is no room.
@@ -62,8 +60,8 @@ def show_rows(
 
     table = Table(box=None, pad_edge=False, padding=(0, _GAP, 0, 0))
     keys = [key for key in rows[0] if _is_named(area, key)]
-    heads = [Text(words(f"{area}.{key}")) for key in keys]
-    shown = [[_show(key, row[key], words, area) for key in keys] for row in rows]
+    heads = [Text(ENGLISH(f"{area}.{key}")) for key in keys]
+    shown = [[_show(key, row[key], area) for key in keys] for row in rows]
     widths = [
         max(one.cell_len for one in column)
         for column in zip(heads, *shown, strict=True)
@@ -92,38 +90,38 @@ def show_lines(lines: Iterable[str], console: Console) -> None:
         console.print(line, highlight=False, markup=False, soft_wrap=True)
 
 
-def _show(key: str, value: object, words: Words, area: str) -> Text:
+def _show(key: str, value: object, area: str) -> Text:
     from rich.text import Text
 
     if isinstance(value, bool) and key == "pass":
-        good, bad = (words(f"verify_table.{one}") for one in ("passes", "fails"))
+        good, bad = (ENGLISH(f"verify_table.{one}") for one in ("passes", "fails"))
         return Text(good, "green") if value else Text(bad, "bold red")
-    return Text(_write(key, value, words, area))
+    return Text(_write(key, value, area))
 
 
-def _write(key: str, value: object, words: Words, area: str) -> str:
+def _write(key: str, value: object, area: str) -> str:
     """Value on one line: a number to four digits, parts one after the other."""
     if isinstance(value, Mapping):
         named = [(name, one) for name, one in value.items() if _is_named(area, name)]
-        return words.join(
-            f"{words(f'{area}.{name}')} {_write(name, one, words, area)}"
+        return ENGLISH.join(
+            f"{ENGLISH(f'{area}.{name}')} {_write(name, one, area)}"
             for name, one in named
         )
     if isinstance(value, list):
-        return words.join(_write(key, one, words, area) for one in value) or MISSING
+        return ENGLISH.join(_write(key, one, area) for one in value) or MISSING
     if isinstance(value, bool):
-        return words(_ANSWERS[not value])
+        return ENGLISH(_ANSWERS[not value])
     if isinstance(value, float):
-        return words.write(f"{value:.{_DIGITS.get(key, 4)}g}")
+        return f"{value:.{_DIGITS.get(key, 4)}g}"
     if value is None:
         return MISSING
-    return _name(value, words) if isinstance(value, str) else str(value)
+    return _name(value) if isinstance(value, str) else str(value)
 
 
-def _name(text: str, words: Words) -> str:
-    """Word of the program in the language; what others wrote, as it is."""
+def _name(text: str) -> str:
+    """Word of the program by its key; what others wrote, as it is."""
     key = f"bench_word.{text.replace(' ', '_')}"
-    return words(key) if key in load_texts("en") else show_own(words, text)
+    return ENGLISH(key) if key in load_texts("en") else text
 
 
 def _is_named(area: str, key: str) -> bool:
@@ -141,7 +139,7 @@ FORCE = "foot_size_kN_per_m"
 class Kind:
     """Kind of a column: how a value becomes a cell, and the quantity of its numbers."""
 
-    show: Callable[[Words, Any], Cell]
+    show: Callable[[Any], Cell]
     quantity: str = ""
     is_number: bool = True
 
@@ -150,15 +148,14 @@ def tabulate(
     caption: str,
     columns: Sequence[tuple[str, Kind]],
     rows: Iterable[Sequence[object]],
-    words: Words,
 ) -> Table:
-    """Table of rows of plain values in a language; a heading, or its key, is enough."""
+    """Table of rows of plain values; a heading, or its key, is enough."""
     texts = load_texts("en")
     return Table(
         caption=caption,
         columns=tuple(
             Column(
-                heading=words(heading) if heading in texts else heading,
+                heading=ENGLISH(heading) if heading in texts else heading,
                 quantity=kind.quantity,
                 is_number=kind.is_number,
             )
@@ -166,8 +163,7 @@ def tabulate(
         ),
         rows=tuple(
             tuple(
-                kind.show(words, value)
-                for (_, kind), value in zip(columns, row, strict=True)
+                kind.show(value) for (_, kind), value in zip(columns, row, strict=True)
             )
             for row in rows
         ),
@@ -178,22 +174,11 @@ def tabulate_items(
     caption: str,
     columns: Mapping[str, tuple[Kind, Callable[[Any], object]]],
     items: Iterable[object],
-    words: Words,
 ) -> Table:
     """Table of a line for each item; a column's heading, kind and value of an item."""
     kinds = [(heading, kind) for heading, (kind, _) in columns.items()]
     rows = [[value(one) for _, value in columns.values()] for one in items]
-    return tabulate(caption, kinds, rows, words)
-
-
-def numbers(form: str) -> Kind:
-    """Kind of numbers in one of Python's forms; all digits stay in files."""
-
-    def show(words: Words, value: float | None) -> Cell:
-        text = MISSING if value is None else words.write(f"{value:{form}}")
-        return Cell(text=text, number=value)
-
-    return Kind(show=show)
+    return tabulate(caption, kinds, rows)
 
 
 def kilo(value: float | None) -> float | None:
@@ -201,41 +186,40 @@ def kilo(value: float | None) -> float | None:
     return None if value is None else value / 1e3
 
 
-def _show_time(words: Words, value: float | None) -> Cell:
+def _show_time(value: float | None) -> Cell:
     """Three significant digits without a power of ten."""
     if value is None:
         return Cell(text=MISSING)
     shown = float(f"{value:.3g}")
-    return Cell(text=words.write(f"{shown:.10g}"), number=value)
+    return Cell(text=f"{shown:.10g}", number=value)
 
 
-def _show_change(words: Words, share: float | None) -> Cell:
+def _show_change(share: float | None) -> Cell:
     percent = None if share is None else 100.0 * share
-    return number_cell(words, "change_percent", percent)
+    return number_cell(ENGLISH, "change_percent", percent)
+
+
+def _show_given(value: float) -> Cell:
+    return given_cell(ENGLISH, value)
 
 
 FORCES = Kind(
-    show=lambda words, value: number_cell(words, FORCE, kilo(value)), quantity=FORCE
+    show=lambda value: number_cell(ENGLISH, FORCE, kilo(value)), quantity=FORCE
 )
 ERRORS = Kind(
-    show=lambda words, value: number_cell(words, "error_kN_per_m", kilo(value)),
+    show=lambda value: number_cell(ENGLISH, "error_kN_per_m", kilo(value)),
     quantity="error_kN_per_m",
 )
 CHANGES = Kind(show=_show_change, quantity="change_percent")
-INCLINATIONS = Kind(show=given_cell, quantity="inclination_deg")
-FRICTIONS = Kind(show=given_cell, quantity="friction_deg")
-GIVEN = Kind(show=given_cell)
+INCLINATIONS = Kind(show=_show_given, quantity="inclination_deg")
+FRICTIONS = Kind(show=_show_given, quantity="friction_deg")
+GIVEN = Kind(show=_show_given)
 TIMES = Kind(show=_show_time)
-TEXTS = Kind(show=lambda _, text: text_cell(text), is_number=False)
-# Two forces in one cell, in kN of N; the ends of a range.
-PAIRS = Kind(
-    show=lambda words, pair: text_cell(
-        " / ".join(words.show_number("max_kN", one / 1e3) for one in pair)
-    )
-)
+TEXTS = Kind(show=lambda text: text_cell(text), is_number=False)
+# The ends of a range.
 RANGES = Kind(
-    show=lambda words, ends: text_cell(
-        words("show.band", low=f"{ends[0]:.0f}", high=f"{ends[1]:.0f}")
+    show=lambda ends: text_cell(
+        ENGLISH("show.band", low=f"{ends[0]:.0f}", high=f"{ends[1]:.0f}")
     )
 )
-NUMBER_TEXTS = Kind(show=lambda _, text: text_cell(text))  # set as numbers are
+NUMBER_TEXTS = Kind(show=lambda text: text_cell(text))  # set as numbers are

@@ -288,7 +288,7 @@ def show_own(words: Words, text: str) -> str:
 _OWN = (
     *("profile_title", "profile_about", "profile_text", "profile_source"),
     "profile_choice",
-    *("creep_law", "measured", "model_source"),
+    "creep_law",
 )
 
 

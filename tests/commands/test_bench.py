@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from netdesign.commands.bench import bench
-from netdesign.evidence.benchmark import attempts, lines, precision
+from netdesign.evidence.benchmark import attempts, precision
 from netdesign.evidence.benchmark.attempts import Attempt
 from netdesign.outcome import ModelError, OutputError
 from tests.each import each
@@ -54,22 +54,12 @@ def test_errors_of_one_scene():
     assert result.exit_code == (0 if document["pass"] else 1)
 
 
-def test_a_short_line(monkeypatch):
-    monkeypatch.setattr(lines.study_line, "__kwdefaults__", {"points": 6})
-    result = run("--lines", "1", "--accuracy", "0.05", "--json")
-    document = json.loads(result.stdout)
-    assert document["of_lines"][0]["parameter"] == "friction angle"
-    assert result.exit_code == (0 if document["pass"] else 1)
-    shown = run("--lines", "1", "--accuracy", "0.05")
-    assert "jumps beyond the stated errors" in shown.stdout
-
-
 @each(
     "arguments",
     [
         ["--stress", "1", "--errors", "1"],
         ["--stress", "1", "--quick"],
-        ["--lines", "1", "--stress", "1"],
+        ["--against", ".", "--stress", "1"],
         ["--errors", "1", "--plot", "x.svg"],
         ["--stress", "0"],
         ["--jobs", "0"],

@@ -54,7 +54,7 @@ def test_a_delimiter_has_an_effect_where_a_csv_file_is_read(call, site):
 @pytest.mark.parametrize(
     ("words", "needed"),
     [
-        (("bench", "--jobs", "2"), "--stress or --errors or --lines"),
+        (("bench", "--jobs", "2"), "--stress or --errors"),
         (("snowpack", "heights.csv", "--layers"), "--json"),
         (("verify", "--jobs", "2"), "--study"),
         (("verify", "--site", "site.xlsx"), "--study"),

@@ -28,7 +28,6 @@ STRUCTURE = """
 [[structure]]
 id = "{name}"
 title = "My net"
-kind = "net"
 source = "me"
 [[structure.measured]]
 name = "guy"

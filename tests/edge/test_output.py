@@ -171,7 +171,6 @@ WRITING = {
     ("paper",): "paper --out {}",
     ("winter",): "winter --example --out {}",
     ("validate",): "validate --out {}",
-    ("verify",): "verify --out {}",
     ("standards", "copy"): "standards copy eurocode {}/mine",
     ("tests",): "tests {}/site.xlsx --plan --out {}/form.xlsx",
     ("terrain",): "terrain --example --out {}/ground.xlsx",

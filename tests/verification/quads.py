@@ -1,9 +1,9 @@
-"""Independent finite elements for the exported scenes: other elements, other solver.
+"""Independent finite elements for three scenes: other elements, other solver.
 
 Nine-node quadrilaterals on a mapped grid, velocities, Newton's method on the creep
-potential with a line search. It takes of the program what ``netdesign validate``
-exports: the net's curve, layers with a and b, the slope, the base. The law is written
-from the exported text, in three dimensions, not from the program's plane matrices.
+potential with a line search. It takes of the program the net's curve, layers
+with a and b, the slope, the base. The law is written from its equations, in three
+dimensions, not from the program's plane matrices.
 
 Run it for the stored figures (a minute)::
 
@@ -204,7 +204,7 @@ def find_free(flow, grid):
 
 
 def read_scene(scene):
-    """Flow without units of an exported scene; forces in N/m by ``unit``."""
+    """Flow without units of a scene; forces in N/m by ``unit``."""
     from netdesign.snow.creep_law import (
         ICE_DENSITY,
         compute_bulk_factor,
@@ -233,9 +233,9 @@ def read_scene(scene):
 
 def main():
     """Print the figures that are stored, beside those of the program."""
-    from netdesign.evidence.verification.exported import solve_exported
+    from netdesign.evidence.verification.another_code import solve_shared
 
-    for scene in solve_exported():
+    for scene in solve_shared():
         flow, unit, depth = read_scene(scene)
         for parts, least in ((16, 4e-3), (24, 2e-3), (36, 1e-3)):
             force, moment = solve(flow, parts, least)

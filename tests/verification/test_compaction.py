@@ -1,7 +1,5 @@
 """Apparent compaction viscosity: the law by itself, the models, contrast of layers."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -10,8 +8,6 @@ from netdesign.evidence.verification.compaction import (
     compute_viscosity,
     find_middle,
     list_compaction,
-    list_places,
-    match_contrast,
 )
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
@@ -44,42 +40,22 @@ def test_viscosity_is_that_of_confined_snow(density):
 
 def test_models_at_one_place():
     """367 kg/m3 at 0 C, by hand."""
-    values = {model.name: model.compute(367.0, 0.0) for model in MODELS}
+    values = {name: compute(367.0) for name, compute in MODELS.items()}
     assert values["Crocus"] == pytest.approx(5.18e10, rel=2e-3)
     assert values["ISBA"] == pytest.approx(2.74e10, rel=2e-3)
     assert values["HS2SWE"] == pytest.approx(4.47e10, rel=2e-3)
     assert values["SNTHRM"] == pytest.approx(8.01e9, rel=2e-3)
-    for model in MODELS:
-        assert model.compute(367.0, 5.0) > 1.4 * model.compute(367.0, 0.0)
 
 
 def test_default_law_settles_like_them_in_the_middle_only():
     (case,) = list_compaction()
     assert case.passes
     softness = {
-        (one.density_kg_m3, one.stress_Pa): find_middle(one.density_kg_m3)
-        / one.laws_Pa_s["boutillier-2004"]
-        for one in list_places()
+        place: find_middle(place[0]) / compute_viscosity(BOUTILLIER_2004, *place)
+        for place in ((250.0, 10e3), (450.0, 1e3))
     }
     assert softness[250.0, 10e3] > 20.0
     assert softness[450.0, 1e3] < 0.01
     stiff = compute_viscosity(ZWINGER_2007, 367.0, 5e3)
     own = compute_viscosity(BOUTILLIER_2004, 367.0, 5e3)
     assert stiff / own == pytest.approx(9.56, rel=1e-2)
-
-
-def test_matched_contrast_grows_as_that_of_the_models():
-    law = match_contrast(BOUTILLIER_2004)
-    low, high = 240.0, 400.0
-    grown = math.log(
-        compute_viscosity(law, high, 3e3) / compute_viscosity(law, low, 3e3)
-    )
-    middle = math.log(find_middle(high) / find_middle(low))
-    assert grown == pytest.approx(middle, rel=1e-12)
-    for density in (low, high):
-        ratios = [
-            compute_shear_factor(one, density / ICE_DENSITY)
-            / compute_bulk_factor(one, density / ICE_DENSITY)
-            for one in (law, BOUTILLIER_2004)
-        ]
-        assert ratios[0] == pytest.approx(ratios[1], rel=1e-12)

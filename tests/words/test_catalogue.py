@@ -32,14 +32,12 @@ FAMILIES: tuple[str, ...] = (
         "shared_sum.",
         "tested.",
     ),
-    *("reference.", "case_kind.", "piece.", "verify_table."),
+    *("reference.", "piece.", "verify_table."),
     *("against_figure.", "against_clock.", "against_table."),
     *("bench_word.", "bench_plot.", "bench_value."),
-    *("measured.", "model_source.", "validation."),
-    *("validation_mark.", "validation_input.", "validation_member.", "variant."),
+    *("validation.", "validation_member."),
     "formula.",
     *("method.", "method_used.", "setting.", "start.", "end."),
-    *("paper_call.", "paper_said.", "paper_found.", "paper_reason."),
     *("paper_value.", "paper_plate."),
     *("reliability.", "source.", "variable.", "distribution.", "consequences."),
     *(
@@ -66,9 +64,13 @@ FAMILIES: tuple[str, ...] = (
 # program. All others - reports with workbook and document, template, findings on the
 # input, the table on the terminal - every language has.
 ENGLISH_ONLY = (
+    "bench",
     "commands",
     "errors",
+    "evidence",
     "files",
+    "paper",
+    "validation",
 )
 FOLDER = PACKAGE / "words"
 

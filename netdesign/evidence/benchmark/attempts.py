@@ -28,7 +28,6 @@ from netdesign.evidence.benchmark.scenes import Tables, build_tables, draw_scene
 from netdesign.evidence.benchmark.truth import find_level, solve_truth, state_error
 from netdesign.evidence.runner import Clock, share, spread, summarise_times
 from netdesign.outcome import ModelError, Outcome, SolveError
-from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 STRESS_SCHEMA, ERRORS_SCHEMA = "netdesign.stress/1", "netdesign.errors/1"
@@ -183,9 +182,8 @@ def write_stress(
     attempts: Sequence[Attempt],
     seed: int,
     accuracy: float = DEFAULT_ACCURACY,
-    language: Language = "en",
 ) -> dict[str, Any]:
-    """Plain values in the form ``netdesign.stress/1``; reasons in a language."""
+    """Plain values in the form ``netdesign.stress/1``."""
     converged = [one for one in attempts if one.kind == "converged"]
     solved = [one for one in attempts if one.kind != "refused before"]
     by_time = sorted(solved, key=lambda one: one.cpu_s, reverse=True)
@@ -196,10 +194,8 @@ def write_stress(
         "accuracy": accuracy,
         "converged": len(converged),
         "pass": not any(one.kind == "failed" for one in attempts),
-        "refused": _count_refusals(attempts, language),
-        "failures": [
-            _write_failure(one, language) for one in attempts if one.kind == "failed"
-        ],
+        "refused": _count_refusals(attempts),
+        "failures": [_write_failure(one) for one in attempts if one.kind == "failed"],
         "accuracy_missed": sum(not one.stated_error <= accuracy for one in converged),
         "worst_balance": max((one.balance for one in converged), default=None),
         "most_linear_solves": max((one.linear_solves for one in solved), default=0),
@@ -217,11 +213,9 @@ def generalise(reason: str) -> str:
     return _NUMBER.sub("...", reason)
 
 
-def _count_refusals(
-    attempts: Sequence[Attempt], language: Language
-) -> list[dict[str, Any]]:
+def _count_refusals(attempts: Sequence[Attempt]) -> list[dict[str, Any]]:
     counts = Counter(
-        (generalise(render(one.reason, language)), one.kind.removeprefix("refused "))
+        (generalise(str(one.reason)), one.kind.removeprefix("refused "))
         for one in attempts
         if one.kind.startswith("refused")
     )
@@ -231,8 +225,8 @@ def _count_refusals(
     ]
 
 
-def _write_failure(one: Attempt, language: Language) -> dict[str, Any]:
-    reason = render(one.reason, language)
+def _write_failure(one: Attempt) -> dict[str, Any]:
+    reason = str(one.reason)
     return {"scene": one.number, "reason": reason, "tables": one.tables}
 
 
@@ -240,9 +234,8 @@ def write_errors(
     attempts: Sequence[Attempt],
     seed: int,
     accuracy: float = DEFAULT_ACCURACY,
-    language: Language = "en",
 ) -> dict[str, Any]:
-    """Plain values in the form ``netdesign.errors/1``; reasons in a language."""
+    """Plain values in the form ``netdesign.errors/1``."""
     compared = [one for one in attempts if not one.reason]
     counted = [one for one in attempts if not one.kind.startswith("refused")]
     inside = share(one.is_inside for one in counted)
@@ -268,7 +261,7 @@ def write_errors(
             if not (one.is_inside and one.true_error <= accuracy)
         ],
         "not_compared": [
-            {"scene": one.number, "reason": render(one.reason, language)}
+            {"scene": one.number, "reason": str(one.reason)}
             for one in attempts
             if one.reason
         ],

@@ -51,7 +51,7 @@ from netdesign.report.drawing.plain_svg import (
     Frame,
     bounds_of,
 )
-from netdesign.report.words import ENGLISH, Words
+from netdesign.report.words import ENGLISH
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -184,11 +184,11 @@ def write_bench(rows: Sequence[Row], asked: Sequence[dict[str, Any]]) -> dict[st
     }
 
 
-def print_bench(document: dict[str, Any], console: Console, words: Words) -> None:
+def print_bench(document: dict[str, Any], console: Console) -> None:
     """Print a line for each row, times to accuracies, then what all say together."""
-    show_rows(document["rows"], console, words)
-    show_rows(document["asked"], console, words)
-    show_document(document["summary"], console, words)
+    show_rows(document["rows"], console)
+    show_rows(document["asked"], console)
+    show_document(document["summary"], console)
 
 
 Path = Literal["fast", "reference"]
@@ -283,9 +283,9 @@ def compare_paths(rows: Sequence[Row]) -> list[float]:
 _TALL, _LEFT, _ABOVE, _BELOW = 200.0, 42.0, 28.0, 32.0  # of the panel, beside it [pt]
 
 
-def draw_work_precision(rows: Sequence[Row], words: Words = ENGLISH) -> str:
+def draw_work_precision(rows: Sequence[Row]) -> str:
     """Run time against error: a dot a row, the median of each resolution joined."""
-    chart, points = Chart(language=words.language), [_place(row) for row in rows]
+    chart, points = Chart(language="en"), [_place(row) for row in rows]
     (left, right), (low, high) = (
         bounds_of([axis]) for axis in zip(*points, strict=True)
     )
@@ -308,15 +308,15 @@ def draw_work_precision(rows: Sequence[Row], words: Words = ENGLISH) -> str:
             _draw_rows(chart, frame, found, stroke, dash)
             x = frame.left + 130.0 * number
             chart.line(((x, 7.0), (x + 18.0, 7.0)), stroke=stroke, dash=dash)
-            chart.text(x + 22.0, 9.5, words(f"bench_plot.{name}"))
+            chart.text(x + 22.0, 9.5, ENGLISH(f"bench_plot.{name}"))
     chart.axes(frame, x_ticks=False, y_ticks=False)
     for across in (True, False):
         chart.decades(frame, across=across)
-    chart.text(2.0, _ABOVE - 5.0, words("bench_plot.time"))
+    chart.text(2.0, _ABOVE - 5.0, ENGLISH("bench_plot.time"))
     bottom = _ABOVE + _TALL + _BELOW
     middle = frame.left + frame.width / 2.0
-    chart.text(middle, bottom - 6.0, words("bench_plot.error"), anchor="middle")
-    return chart.write(bottom, words("bench_plot.title"))
+    chart.text(middle, bottom - 6.0, ENGLISH("bench_plot.error"), anchor="middle")
+    return chart.write(bottom, ENGLISH("bench_plot.title"))
 
 
 def _draw_rows(

@@ -13,11 +13,6 @@ from netdesign.coupling.moments import (
     REST_SHARE,
     REST_WAY,
 )
-from netdesign.evidence.paper.findings import (
-    SETTLED,
-    list_findings,
-    word_finding,
-)
 from netdesign.evidence.paper.runs import (
     ASSUMED_SLOPE_DEG,
     ASSUMED_STIFFNESS,
@@ -37,28 +32,26 @@ from netdesign.evidence.paper.runs import (
     find_paper_time,
     find_steady,
 )
-from netdesign.evidence.paper.tables import list_tables
+from netdesign.evidence.paper.tables import Listed, list_tables
 from netdesign.report.blocks import (
     Block,
     Figure,
     Heading,
-    Pairs,
     Paragraph,
     Part,
-    Piece,
     masthead,
     section,
-    strong,
     write_csv,
 )
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import MeshPicture, draw_meshes
 from netdesign.report.page.render import render_page
-from netdesign.report.words import ENGLISH, Words
+from netdesign.report.words import ENGLISH
 from netdesign.units import day_from_second, kilonewton_from_newton
-from netdesign.words.catalogue import Language
 
 _NODES = ("lower", "upper")
+# Creep time in which a straight net finds its first shape: not drawn.
+_SETTLED = 1e-5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,23 +64,23 @@ class Plate:
     svg: str
 
 
-def draw_plates(study: PaperStudy, words: Words) -> list[Plate]:
+def draw_plates(study: PaperStudy) -> list[Plate]:
     """All drawings, in the order of the page; those without a run are left out."""
     plates = [
-        _plate_nodes(study, words, "staggered"),
-        _plate_nodes(study, words, "implicit"),
-        _plate_meshes(study, words),
-        _plate_methods(study, words),
+        _plate_nodes(study, "staggered"),
+        _plate_nodes(study, "implicit"),
+        _plate_meshes(study),
+        _plate_methods(study),
     ]
     return [plate for plate in plates if plate is not None]
 
 
-def _plate_nodes(study: PaperStudy, words: Words, kind: str) -> Plate | None:
+def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
     drag = study.settings.exchange_drag
     is_staggered = kind == "staggered"
     runs = [
         study[
-            find_exchange(NORMAL_NET_DEG, study.settings, phi)
+            find_exchange(NORMAL_NET_DEG, phi)
             if is_staggered
             else find_history(NORMAL_NET_DEG, phi)
         ]
@@ -97,26 +90,26 @@ def _plate_nodes(study: PaperStudy, words: Words, kind: str) -> Plate | None:
     if len(tracks) < len(runs):
         return None
     lower, upper = tracks[0][1].heights
-    heading = words(f"paper_plate.nodes_{kind}")
-    shown = words("paper_plate.nodes", lower=lower, upper=upper)
+    heading = ENGLISH(f"paper_plate.nodes_{kind}")
+    shown = ENGLISH("paper_plate.nodes", lower=lower, upper=upper)
     svg = draw_panels(
-        _list_node_panels(tracks, words, is_thin=is_staggered),
+        _list_node_panels(tracks, is_thin=is_staggered),
         heading,
         across=2,
-        time_label=words("paper_plate.since"),
+        time_label=ENGLISH("paper_plate.since"),
         panel_pt=122.0,
-        language=words.language,
+        language="en",
     )
     return Plate(
         name=f"node-forces-{kind}",
         heading=heading,
-        caption=f"{shown} {words(f'paper_plate.nodes_{kind}_caption', drag=drag)}",
+        caption=f"{shown} {ENGLISH(f'paper_plate.nodes_{kind}_caption', drag=drag)}",
         svg=svg,
     )
 
 
 def _list_node_panels(
-    tracks: Sequence[tuple[PaperCase, Track]], words: Words, *, is_thin: bool
+    tracks: Sequence[tuple[PaperCase, Track]], *, is_thin: bool
 ) -> list[Panel]:
     """Both parts of both nodes' forces, a line for each friction angle."""
 
@@ -127,7 +120,7 @@ def _list_node_panels(
 
     return [
         Panel(
-            title=words(f"paper_plate.{node}_node", axis=axis.upper()),
+            title=ENGLISH(f"paper_plate.{node}_node", axis=axis.upper()),
             lines=[
                 draw(style, case, track, node, part)
                 for style, (case, track) in enumerate(tracks)
@@ -138,7 +131,7 @@ def _list_node_panels(
     ]
 
 
-def _plate_meshes(study: PaperStudy, words: Words) -> Plate | None:
+def _plate_meshes(study: PaperStudy) -> Plate | None:
     cases = [find_paper_time()]
     cases += [find_history(NORMAL_NET_DEG, phi) for phi in reversed(FRICTIONS_DEG)]
     cases.append(find_history(DESIGN_NET_DEG))
@@ -149,7 +142,7 @@ def _plate_meshes(study: PaperStudy, words: Words) -> Plate | None:
             continue
         pictures.append(
             MeshPicture(
-                title=_name_mesh(case, run.track, words),
+                title=_name_mesh(case, run.track),
                 nodes=run.shape.nodes,
                 triangles=run.shape.triangles,
                 density=run.shape.density,
@@ -160,45 +153,45 @@ def _plate_meshes(study: PaperStudy, words: Words) -> Plate | None:
         return None
     return Plate(
         name="meshes",
-        heading=words("paper_plate.meshes"),
-        caption=words("paper_plate.meshes_caption"),
-        svg=draw_meshes(pictures, words),
+        heading=ENGLISH("paper_plate.meshes"),
+        caption=ENGLISH("paper_plate.meshes_caption"),
+        svg=draw_meshes(pictures, ENGLISH),
     )
 
 
-def _name_mesh(case: PaperCase, track: Track, words: Words) -> str:
+def _name_mesh(case: PaperCase, track: Track) -> str:
     angles = {"friction": case.friction_deg, "inclination": case.inclination_deg}
     if case.until:
-        return words("paper_plate.mesh_after_s", seconds=case.until, **angles)
+        return ENGLISH("paper_plate.mesh_after_s", seconds=case.until, **angles)
     days = day_from_second(float(track.times[-1]))
-    return words("paper_plate.mesh_after_days", days=days, **angles)
+    return ENGLISH("paper_plate.mesh_after_days", days=days, **angles)
 
 
-def _plate_methods(study: PaperStudy, words: Words) -> Plate | None:
-    panels = [_compare_ways(study, net, words) for net in NETS_DEG]
+def _plate_methods(study: PaperStudy) -> Plate | None:
+    panels = [_compare_ways(study, net) for net in NETS_DEG]
     if not any(panel.lines for panel in panels):
         return None
-    heading = words("paper_plate.methods")
+    heading = ENGLISH("paper_plate.methods")
     return Plate(
         name="methods",
         heading=heading,
-        caption=words("paper_plate.methods_caption"),
+        caption=ENGLISH("paper_plate.methods_caption"),
         svg=draw_panels(
             panels,
             heading,
             across=1,
             panel_pt=137.0,
-            time_label=words("paper_plate.since"),
-            language=words.language,
+            time_label=ENGLISH("paper_plate.since"),
+            language="en",
         ),
     )
 
 
-def _compare_ways(study: PaperStudy, net: float, words: Words) -> Panel:
+def _compare_ways(study: PaperStudy, net: float) -> Panel:
     """Pull on the foot by each way, and that of the steady state."""
     straight = find_history(net)
     ways = {
-        "staggered": (find_exchange(net, study.settings), 2),
+        "staggered": (find_exchange(net), 2),
         "straight": (straight, 0),
         "sagged": (replace(straight, start="sagged"), 1),
     }
@@ -206,17 +199,17 @@ def _compare_ways(study: PaperStudy, net: float, words: Words) -> Panel:
     for way, (case, style) in ways.items():
         if (track := study[case].track) is not None:
             pulls, label = [pull / 1e3 for pull in track.foot], f"paper_plate.{way}"
-            lines.append(_line(case, track, pulls, words(label), style))
+            lines.append(_line(case, track, pulls, ENGLISH(label), style))
     steady, marks = study[find_steady(straight)].foot, []
     if steady is not None and lines:
         x = [min(line.x[0] for line in lines), max(line.x[-1] for line in lines)]
-        label, level = words("paper_plate.steady"), [steady / 1e3] * 2
+        label, level = ENGLISH("paper_plate.steady"), [steady / 1e3] * 2
         lines.append(Line(label=label, x=x, y=level, is_accent=True))
     begin = study[straight].plateau_time
     if begin is not None:
-        label = words("solved.plateau_from")
+        label = ENGLISH("solved.plateau_from")
         marks.append(Mark(x=day_from_second(begin), label=label))
-    title = words("paper_plate.foot_at", inclination=net)
+    title = ENGLISH("paper_plate.foot_at", inclination=net)
     return Panel(title=title, lines=lines, marks=marks)
 
 
@@ -224,7 +217,7 @@ def _line(
     case: PaperCase, track: Track, values: Sequence[float], label: str, style: int
 ) -> Line:
     """Line from when a straight net has its first shape."""
-    settled = SETTLED * case.scene.time_scale
+    settled = _SETTLED * case.scene.time_scale
     first = min(int((track.times <= settled).sum()), len(track.times) - 1)
     times = [day_from_second(float(time)) for time in track.times[first:]]
     return Line(label=label, x=times, y=list(values[first:]), style=style)
@@ -233,23 +226,17 @@ def _line(
 PAGE_FILE = "index.html"
 
 
-def render_paper(study: PaperStudy, language: Language = "en") -> dict[str, bytes]:
+def render_paper(study: PaperStudy) -> dict[str, bytes]:
     """Contents of all files of the study, by name.
-
-    CSV files are for programs: the same in every language.
 
     Parameters
     ----------
     study : PaperStudy
-        As computed; a run without a result is named on the page.
-    language : str
-        Of page and drawings.
+        As computed; how many runs gave no result is told on the page.
     """
-    words = Words(language)
-    plates = draw_plates(study, words)
-    files = {PAGE_FILE: _render_page(study, plates, words).encode()}
+    plates, tables = draw_plates(study), list_tables(study)
+    files = {PAGE_FILE: _render_page(study, plates, tables).encode()}
     files |= {f"{plate.name}.svg": plate.svg.encode() for plate in plates}
-    tables = list_tables(study, ENGLISH)
     files |= {f"{listed.name}.csv": listed.render() for listed in tables}
     for run in study.runs.values():
         if run.track is not None:
@@ -266,9 +253,7 @@ def name_history(run: PaperRun) -> str:
         f"net{case.inclination_deg:.0f}",
         f"friction{case.friction_deg:.0f}",
         "" if case.gravity == "full" else case.gravity,
-        case.start if case.method == "transient" else f"drag{case.drag:g}",
-        "" if case.densifies else "undensified",
-        "coarse" if case.is_coarse else "",
+        case.start if case.method == "transient" else "",
         f"{case.until:.0f}s" if case.until else "",
     ]
     return "-".join(part for part in parts if part)
@@ -296,42 +281,63 @@ def write_track(track: Track) -> bytes:
     return write_csv(headings, [list(row) for row in zip(*columns, strict=True)])
 
 
-def _render_page(study: PaperStudy, plates: list[Plate], words: Words) -> str:
-    findings, scene = list_findings(study), _describe_scene(study, words)
-    lead = words(
+def _render_page(
+    study: PaperStudy, plates: Sequence[Plate], tables: Sequence[Listed]
+) -> str:
+    lead = ENGLISH(
         "paper.lead",
-        length=scene["length"],
-        thickness=scene["thickness"],
-        density=scene["density"],
-        count=len(findings),
-        agreed=sum(finding.call == "agrees" for finding in findings),
+        length=LENGTH,
+        thickness=THICKNESS,
+        density=RELATIVE_DENSITY,
+        slope=ASSUMED_SLOPE_DEG,
+        stiffness=kilonewton_from_newton(ASSUMED_STIFFNESS),
     )
-    rule = words("paper.rule", slope=scene["slope"], stiffness=scene["stiffness"])
+    failures = sum(bool(run.failure) for run in study.runs.values())
+    told = ENGLISH("paper.failures", count=failures) if failures else ""
+    histories = ENGLISH(
+        "paper.how_histories",
+        days=day_from_second(study.settings.horizon),
+        criterion=ENGLISH(
+            "solved.criterion",
+            strain=LEAST_STRAIN,
+            pull=PULL_DRIFT,
+            node=NODE_DRIFT,
+            rest=REST_SHARE,
+            way=REST_WAY,
+        ),
+        hours=find_history(NORMAL_NET_DEG).scene.time_scale / 3600.0,
+    )
     blocks = (
         masthead(
             f"netdesign paper · {__version__}",
-            words("paper.heading"),
+            ENGLISH("paper.heading"),
             Paragraph(text=lead, look="lead"),
         ),
+        section("pictures", ENGLISH("paper.pictures"), *_show_plates(plates)),
         section(
-            "statements",
-            words("paper.statements"),
-            Pairs(
-                look="claims",
-                pairs=tuple(word_finding(one, words) for one in findings),
+            "tables",
+            ENGLISH("paper.tables"),
+            *(
+                Part(kind="div", id=f"table-{one.name}", blocks=(shown,))
+                for one in tables
+                for shown in [one.table.shown("study")]
             ),
-            Paragraph(text=rule, look="small"),
+            look="page",
         ),
-        section("pictures", words("paper.pictures"), *_show_plates(plates)),
         section(
-            "tables", words("paper.tables"), *_show_tables(study, words), look="page"
+            "how",
+            ENGLISH("paper.how"),
+            *(
+                Paragraph(text=one, look="text")
+                for one in (told, ENGLISH("paper.how_forces"), histories)
+                if one
+            ),
         ),
-        section("how", words("paper.how"), *_describe_method(scene, words)),
     )
-    return render_page(blocks, words("paper.title"), words.language)
+    return render_page(blocks, ENGLISH("paper.title"), "en")
 
 
-def _show_plates(plates: list[Plate]) -> Iterator[Block]:
+def _show_plates(plates: Sequence[Plate]) -> Iterator[Block]:
     for number, plate in enumerate(plates, 1):
         yield Heading(text=f"{number}. {plate.heading}", level=3)
         yield Figure(
@@ -340,52 +346,3 @@ def _show_plates(plates: list[Plate]) -> Iterator[Block]:
             id=f"plate-{plate.name}",
             look="plate",
         )
-
-
-def _show_tables(study: PaperStudy, words: Words) -> Iterator[Block]:
-    for listed in list_tables(study, words):
-        yield Part(
-            kind="div", id=f"table-{listed.name}", blocks=(listed.table.shown("study"),)
-        )
-    failures = sum(bool(run.failure) for run in study.runs.values())
-    if failures:
-        count = strong(words("paper.failures", count=failures))
-        text = (*count, Piece(f" {words('paper.failures_mean')}"))
-        yield Part(
-            kind="div",
-            id="failures",
-            look="notes open",
-            blocks=(Paragraph(text=text),),
-        )
-
-
-def _describe_method(scene: dict[str, str], words: Words) -> list[Paragraph]:
-    histories = words(
-        "paper.how_histories",
-        days=scene["days"],
-        criterion=words(
-            "solved.criterion",
-            strain=LEAST_STRAIN,
-            pull=PULL_DRIFT,
-            node=NODE_DRIFT,
-            rest=REST_SHARE,
-            way=REST_WAY,
-        ),
-        time_scale=scene["time_scale"],
-    )
-    told = (words("paper.how_forces"), histories, words("paper.how_files"))
-    return [Paragraph(text=text, look="text") for text in told]
-
-
-def _describe_scene(study: PaperStudy, words: Words) -> dict[str, str]:
-    """Numbers that the page's sentences name, as the language writes them."""
-    numbers = {
-        "length": f"{LENGTH:g}",
-        "thickness": f"{THICKNESS:g}",
-        "density": f"{RELATIVE_DENSITY:g}",
-        "slope": f"{ASSUMED_SLOPE_DEG:g}",
-        "stiffness": f"{kilonewton_from_newton(ASSUMED_STIFFNESS):g}",
-        "time_scale": f"{find_history(0.0).scene.time_scale / 3600.0:.1f}",
-        "days": f"{study.settings.horizon / 86_400.0:g}",
-    }
-    return {name: words.write(number) for name, number in numbers.items()}

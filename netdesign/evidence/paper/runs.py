@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -17,7 +16,7 @@ from netdesign.coupling.history.settings import (
     TransientSettings,
 )
 from netdesign.coupling.history.staggered import run_exchange
-from netdesign.coupling.history.transient import run_history, solve_transient
+from netdesign.coupling.history.transient import solve_transient
 from netdesign.coupling.moments import History
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Method, Solution
@@ -29,7 +28,6 @@ from netdesign.outcome import SolveError
 from netdesign.snow.creep_law import ICE_DENSITY, PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import GravityMode
-from netdesign.snow.triangulation import measure_twice_areas
 from netdesign.units import second_from_day
 from netdesign.words.message import Message, say
 
@@ -49,9 +47,7 @@ MIDDLE_FRICTION_DEG = 30.0
 class PaperCase:
     """One run; angles in degrees, as the paper gives them.
 
-    ``drag`` is the base drag of a staggered run; ``is_coarse`` takes the coarsest mesh
-    alone, to compare with staggered runs, which have no other. ``until`` ends a run
-    at a time of its own [s]; 0 takes that of the settings.
+    ``until`` ends a run at a time of its own [s]; 0 takes that of the settings.
     """
 
     method: Method
@@ -59,9 +55,6 @@ class PaperCase:
     friction_deg: float
     gravity: GravityMode = "full"
     start: Start = "straight"
-    densifies: bool = True
-    drag: float = 0.0
-    is_coarse: bool = False
     until: float = 0.0
 
     @property
@@ -88,24 +81,15 @@ class PaperSettings:
     levels : tuple of MeshSize
         Meshes of the histories; their difference gives the stated error.
     horizon : float
-        Of the histories with densification [s].
-    undensified_horizon : float
-        Of those without: they lean over the head and end [s].
+        Of the histories [s].
     exchange_drag, exchange_time : float
-        Base drag and creep time of the staggered runs that are drawn [-].
-    drags : tuple of float
-        Of the staggered runs that show the trend, descending [-].
-    trend_time : float
-        Creep time at which these are compared [-].
+        Base drag and creep time of the staggered runs [-].
     """
 
     levels: tuple[MeshSize, ...] = field(default=TRANSIENT_LEVELS[:2])
     horizon: float = second_from_day(30.0)
-    undensified_horizon: float = second_from_day(0.1)
     exchange_drag: float = 0.05
     exchange_time: float = 0.36
-    drags: tuple[float, ...] = (0.2, 0.1, 0.05, 0.02)
-    trend_time: float = 0.06
 
 
 def find_history(
@@ -118,17 +102,10 @@ def find_history(
 
 
 def find_exchange(
-    inclination_deg: float,
-    settings: PaperSettings,
-    friction_deg: float = MIDDLE_FRICTION_DEG,
+    inclination_deg: float, friction_deg: float = MIDDLE_FRICTION_DEG
 ) -> PaperCase:
-    """Staggered run that is drawn."""
-    return PaperCase(
-        method="staggered",
-        inclination_deg=inclination_deg,
-        friction_deg=friction_deg,
-        drag=settings.exchange_drag,
-    )
+    """Staggered run of the same scene, as the paper computed it."""
+    return replace(find_history(inclination_deg, friction_deg), method="staggered")
 
 
 def find_steady(case: PaperCase) -> PaperCase:
@@ -141,21 +118,12 @@ def find_steady(case: PaperCase) -> PaperCase:
     )
 
 
-def find_trend(settings: PaperSettings) -> list[PaperCase]:
-    """Staggered runs whose drag shrinks; a history on their mesh comes last."""
-    scene = find_history(NORMAL_NET_DEG)
-    return [
-        *(replace(scene, method="staggered", drag=drag) for drag in settings.drags),
-        replace(scene, is_coarse=True),
-    ]
-
-
 def find_paper_time() -> PaperCase:
     """History that ends where the paper's computations did."""
     return replace(find_history(NORMAL_NET_DEG), until=PAPER_TIME)
 
 
-def list_cases(settings: PaperSettings) -> list[PaperCase]:
+def list_cases() -> list[PaperCase]:
     """All runs of the study, the long ones first, each once."""
     histories = [find_history(net, phi) for net in NETS_DEG for phi in FRICTIONS_DEG]
     histories += [find_history(net) for net in INCLINATIONS_DEG]
@@ -163,29 +131,12 @@ def list_cases(settings: PaperSettings) -> list[PaperCase]:
         middle = find_history(net)
         histories += [
             replace(middle, start="sagged"),
-            replace(middle, densifies=False),
-            replace(middle, start="sagged", densifies=False),
             replace(middle, gravity="parallel"),
         ]
-    exchanges = [find_exchange(NORMAL_NET_DEG, settings, phi) for phi in FRICTIONS_DEG]
-    exchanges.append(find_exchange(DESIGN_NET_DEG, settings))
-    others = [find_paper_time(), *find_trend(settings)]
+    exchanges = [find_exchange(NORMAL_NET_DEG, phi) for phi in FRICTIONS_DEG]
+    exchanges.append(find_exchange(DESIGN_NET_DEG))
     steady = [find_steady(case) for case in histories]
-    return list(dict.fromkeys([*exchanges, *histories, *others, *steady]))
-
-
-def horizon_of(case: PaperCase, settings: PaperSettings) -> float:
-    """Time that a run follows [s]."""
-    scale = case.scene.time_scale
-    if case.until:
-        return case.until
-    if case.is_coarse:
-        return settings.trend_time * scale
-    if case.method == "staggered":
-        is_drawn = math.isclose(case.drag, settings.exchange_drag)
-        time = settings.exchange_time if is_drawn else settings.trend_time
-        return time * scale
-    return settings.horizon if case.densifies else settings.undensified_horizon
+    return list(dict.fromkeys([*exchanges, *histories, find_paper_time(), *steady]))
 
 
 # Heights of the two nodes that are followed, over the net's. The paper's nodes 3 and 8
@@ -239,13 +190,6 @@ class Shape:
     triangles: Ints
     density: Floats
     curve: Floats
-    sag: float
-
-    @property
-    def mean_density(self) -> float:
-        """Mean density over the snow's area [kg/m3]."""
-        areas = np.abs(measure_twice_areas(self.nodes.T[self.triangles.T]))
-        return float((self.density * areas).sum() / areas.sum())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -288,8 +232,8 @@ def run_case(case: PaperCase, settings: PaperSettings) -> PaperRun:
     try:
         if case.method == "steady":
             return _run_steady(case)
-        if case.method == "staggered" or case.is_coarse:
-            return _run_one_mesh(case, settings)
+        if case.method == "staggered":
+            return _run_exchange(case, settings)
         return _run_history(case, settings)
     except SolveError as failure:
         return PaperRun(case=case, failure=failure.reason)
@@ -315,8 +259,7 @@ def _run_history(case: PaperCase, settings: PaperSettings) -> PaperRun:
         TransientSettings(
             accuracy=_ACCURACY,
             start=case.start,
-            densifies=case.densifies,
-            horizon=horizon_of(case, settings),
+            horizon=case.until or settings.horizon,
             levels=settings.levels,
         ),
     )
@@ -336,19 +279,16 @@ def _run_history(case: PaperCase, settings: PaperSettings) -> PaperRun:
     )
 
 
-def _run_one_mesh(case: PaperCase, settings: PaperSettings) -> PaperRun:
+def _run_exchange(case: PaperCase, settings: PaperSettings) -> PaperRun:
     scene = case.scene
-    horizon = horizon_of(case, settings)
-    creep_time = horizon / scene.time_scale
-    size = settings.levels[0]
-    if case.method == "staggered":
-        run = run_exchange(
-            scene,
-            StaggeredSettings(base_drag=case.drag, horizon=creep_time, size=size),
-        )
-    else:
-        plain = TransientSettings(start=case.start, horizon=horizon)
-        run = run_history(scene, size, plain, creep_time)
+    run = run_exchange(
+        scene,
+        StaggeredSettings(
+            base_drag=settings.exchange_drag,
+            horizon=settings.exchange_time,
+            size=settings.levels[0],
+        ),
+    )
     history = scale_history(run, scene)
     body = run.state.body
     heights = body.vertices[1, body.topology.net][1:] * scene.snowpack.thickness
@@ -398,7 +338,6 @@ def _shape_of(solution: Solution) -> Shape:
         triangles=solution.mesh_triangles,
         density=solution.mesh_density,
         curve=solution.net_curve,
-        sag=solution.sag,
     )
 
 
@@ -425,7 +364,7 @@ def run_study(
     Parameters
     ----------
     settings : PaperSettings, optional
-        Meshes, horizons, drags.
+        Meshes, horizons, drag.
     jobs : int
         Processes; 1 stays in this one.
     on_done : callable, optional
@@ -437,7 +376,7 @@ def run_study(
         The same whatever the number of processes.
     """
     settings = settings or PaperSettings()
-    cases = list_cases(settings)
+    cases = list_cases()
     work = partial(run_case, settings=settings)
     runs = spread(work, cases, jobs=jobs, chunk=1, on_done=on_done)
     return PaperStudy(settings=settings, runs=dict(zip(cases, runs, strict=True)))

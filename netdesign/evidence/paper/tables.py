@@ -3,43 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.coupling.history.settings import Start
-from netdesign.evidence.paper.findings import judge_growth, last_swing
+import numpy as np
+
 from netdesign.evidence.paper.runs import (
     FRICTIONS_DEG,
     INCLINATIONS_DEG,
     NETS_DEG,
     NORMAL_NET_DEG,
-    PaperCase,
     PaperRun,
     PaperStudy,
+    Track,
     find_exchange,
     find_history,
     find_steady,
-    find_trend,
 )
 from netdesign.evidence.table import (
     CHANGES,
     ERRORS,
-    FORCE,
     FORCES,
-    FRICTIONS,
-    GIVEN,
     INCLINATIONS,
-    TEXTS,
     TIMES,
     Kind,
-    kilo,
     tabulate,
 )
 from netdesign.report.blocks import Table, text_cell, write_csv
-from netdesign.report.words import MISSING, Words
-from netdesign.units import day_from_second
-
-_STARTS: tuple[Start, ...] = ("sagged", "straight")
+from netdesign.report.words import ENGLISH
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,35 +55,28 @@ class Listed:
 
 Columns = Mapping[str, tuple[str, Kind]]  # by their keys in a file: heading, kind
 _WORDS = Kind(
-    show=lambda words, key: text_cell(words(f"paper_value.{key}")), is_number=False
+    show=lambda key: text_cell(ENGLISH(f"paper_value.{key}")), is_number=False
 )
 _NET: Columns = {"inclination_deg": ("θ [°]", INCLINATIONS)}
 
 
-def list_tables(study: PaperStudy, words: Words) -> list[Listed]:
-    """All tables of the study in a language."""
+def list_tables(study: PaperStudy) -> list[Listed]:
+    """All tables of the study."""
     return [
-        _tabulate_plateaus(study, words),
-        _tabulate_growth(study, words),
-        _tabulate_parameters(study, words),
-        _tabulate_trend(study, words),
-        _tabulate_drift(study, words),
-        _tabulate_runs(study, words),
+        _tabulate_plateaus(study),
+        _tabulate_growth(study),
+        _tabulate_parameters(study),
     ]
 
 
 def _list(
-    name: str,
-    caption: str,
-    columns: Columns,
-    rows: Iterable[Sequence[object]],
-    words: Words,
+    name: str, caption: str, columns: Columns, rows: Iterable[Sequence[object]]
 ) -> Listed:
-    table = tabulate(caption, list(columns.values()), rows, words)
+    table = tabulate(ENGLISH(caption), list(columns.values()), rows)
     return Listed(name=name, keys=tuple(columns), table=table)
 
 
-def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
+def _tabulate_plateaus(study: PaperStudy) -> Listed:
     columns: Columns = {
         **_NET,
         "method": ("paper_table.method", _WORDS),
@@ -111,7 +95,7 @@ def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
             "steady": find_steady(straight),
             "sagged": replace(straight, start="sagged"),
             "straight": straight,
-            "staggered": find_exchange(net, study.settings),
+            "staggered": find_exchange(net),
         }
         steady = study[find_steady(straight)].foot
         for way, case in ways.items():
@@ -127,10 +111,10 @@ def _tabulate_plateaus(study: PaperStudy, words: Words) -> Listed:
                     run.plateau_time,
                 )
             )
-    return _list("plateau", words("paper_table.plateau"), columns, rows, words)
+    return _list("plateau", "paper_table.plateau", columns, rows)
 
 
-def _tabulate_growth(study: PaperStudy, words: Words) -> Listed:
+def _tabulate_growth(study: PaperStudy) -> Listed:
     columns: Columns = {
         "method": ("paper_table.method", _WORDS),
         **_NET,
@@ -140,20 +124,51 @@ def _tabulate_growth(study: PaperStudy, words: Words) -> Listed:
             for phi in FRICTIONS_DEG
         },
         "change_percent": ("paper_table.change", CHANGES),
-        "trend": ("paper_table.trend_heading", _WORDS),
     }
-    rows = [
-        (
-            *(one.method, one.inclination_deg, one.quantity),
-            *one.values,
-            *(one.change, one.trend),
-        )
-        for one in judge_growth(study)
-    ]
-    return _list("friction", words("paper_table.friction"), columns, rows, words)
+    rows: list[tuple[object, ...]] = []
+    for net in NETS_DEG:
+        histories = [find_history(net, phi) for phi in FRICTIONS_DEG]
+        rows += _grow_histories("transient", net, [study[one] for one in histories])
+        steady = [study[find_steady(one)] for one in histories]
+        for end in ("foot", "head"):
+            values = [getattr(run, end) for run in steady]
+            rows.append(("steady", net, end, *values, _change(values[-1], values[0])))
+    exchanges = [study[find_exchange(NORMAL_NET_DEG, phi)] for phi in FRICTIONS_DEG]
+    rows += _grow_histories("staggered", NORMAL_NET_DEG, exchanges)
+    return _list("friction", "paper_table.friction", columns, rows)
 
 
-def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
+def _grow_histories(
+    method: str, inclination: float, runs: Sequence[PaperRun]
+) -> Iterator[tuple[object, ...]]:
+    """At one time for all: when the last of them has come to its plateau, or ended.
+
+    The change of a component of a node's force is told over that whole force.
+    """
+    tracks = [run.track for run in runs if run.track is not None]
+    if len(tracks) < len(runs):
+        return
+    ends = [float(track.times[-1]) for track in tracks]
+    begins = [run.plateau_time or end for run, end in zip(runs, ends, strict=True)]
+    time = min(max(begins), min(ends))
+    for end in ("foot", "head"):
+        values = [track.at(time, end) for track in tracks]
+        yield (method, inclination, end, *values, values[-1] / values[0] - 1.0)
+    for node in ("lower", "upper"):
+        forces = [_read_node(track, node, time) for track in tracks]
+        whole = math.hypot(*forces[0])
+        for axis, name in enumerate("xy"):
+            values = [abs(force[axis]) for force in forces]
+            change = (values[-1] - values[0]) / whole
+            yield (method, inclination, f"{node}_{name}", *values, change)
+
+
+def _read_node(track: Track, node: str, time: float) -> tuple[float, float]:
+    x, y = (float(np.interp(time, track.times, part)) for part in getattr(track, node))
+    return x, y
+
+
+def _tabulate_parameters(study: PaperStudy) -> Listed:
     columns: Columns = {
         **_NET,
         "gravity": ("paper_table.gravity", _WORDS),
@@ -169,97 +184,7 @@ def _tabulate_parameters(study: PaperStudy, words: Words) -> Listed:
         history, steady = study[case], study[find_steady(case)]
         ends = (history.foot, history.head, steady.foot, steady.head)
         rows.append((case.inclination_deg, case.gravity, *ends))
-    caption = words("paper_table.parameters")
-    return _list("inclination-and-gravity", caption, columns, rows, words)
-
-
-def _tabulate_trend(study: PaperStudy, words: Words) -> Listed:
-    columns: Columns = {
-        "base_drag": ("paper_table.base_drag", GIVEN),
-        "step_s": ("paper_table.step", TIMES),
-        "foot_kN_per_m": ("paper_table.foot", FORCES),
-        "against_implicit_percent": ("paper_table.against_implicit", CHANGES),
-        "oscillates_until_s": ("paper_table.oscillates", TIMES),
-    }
-    *staggered, history = (study[case] for case in find_trend(study.settings))
-    end = study.settings.trend_time * history.case.scene.time_scale
-    expected = _foot_at(history, end)
-    rows = []
-    for run in staggered:
-        got = _foot_at(run, end)
-        step = None if run.track is None else float(run.track.times[0])
-        change = _change(got, expected)
-        rows.append((run.case.drag, step, got, change, last_swing(run)))
-    shown = words.show_number(FORCE, kilo(expected))
-    caption = words("paper_table.trend", end=end, expected=shown)
-    return _list("staggered-trend", caption, columns, rows, words)
-
-
-def _tabulate_drift(study: PaperStudy, words: Words) -> Listed:
-    columns: Columns = {
-        **_NET,
-        "start": ("paper_table.start", _WORDS),
-        "densification": ("paper_table.densification", _WORDS),
-        "foot_at_plateau_kN_per_m": ("paper_table.at_plateau", FORCES),
-        "plateau_from_s": ("paper_table.from", TIMES),
-        "foot_at_end_kN_per_m": ("paper_table.at_end", FORCES),
-        "end_d": ("paper_table.after", TIMES),
-        "drift_percent_per_efold": ("paper_table.drift_rate", CHANGES),
-    }
-    rows = [
-        _list_drift(study[replace(find_history(net), start=start, densifies=densifies)])
-        for net in NETS_DEG
-        for start in _STARTS
-        for densifies in (True, False)
-    ]
-    return _list("drift", words("paper_table.drift"), columns, rows, words)
-
-
-def _list_drift(run: PaperRun) -> tuple[object, ...]:
-    case, track, begin = run.case, run.track, run.plateau_time
-    last = None if track is None else float(track.foot[-1])
-    end = None if track is None else float(track.times[-1])
-    drift = None
-    if run.foot is not None and last is not None and begin and end and end > begin:
-        drift = (last / run.foot - 1.0) / math.log(end / begin)
-    return (
-        *(case.inclination_deg, case.start, _name_switch(case)),
-        *(run.foot, begin),
-        *(last, None if end is None else day_from_second(end)),
-        drift,
-    )
-
-
-def _tabulate_runs(study: PaperStudy, words: Words) -> Listed:
-    columns: Columns = {
-        "method": ("paper_table.method", TEXTS),
-        **_NET,
-        "friction_deg": ("φ [°]", FRICTIONS),
-        "gravity": ("paper_table.gravity", _WORDS),
-        "start": ("paper_table.start", TEXTS),
-        "densification": ("paper_table.densification", _WORDS),
-        "steps": ("paper_table.steps", GIVEN),
-        "result": ("paper_table.result", TEXTS),
-    }
-    rows = []
-    for run in study.runs.values():
-        case, track = run.case, run.track
-        is_steady = case.method == "steady"
-        start = MISSING if is_steady else words(f"paper_value.{case.start}")
-        rows.append(
-            (
-                _name_method(case, words),
-                *(case.inclination_deg, case.friction_deg, case.gravity),
-                *(start, _name_switch(case)),
-                float(0 if track is None else len(track.times)),
-                _describe_result(run, words),
-            )
-        )
-    return _list("runs", words("paper_table.runs"), columns, rows, words)
-
-
-def _foot_at(run: PaperRun, time: float) -> float | None:
-    return None if run.track is None else run.track.at(time, "foot")
+    return _list("inclination-and-gravity", "paper_table.parameters", columns, rows)
 
 
 def _change(value: float | None, reference: float | None) -> float | None:
@@ -267,20 +192,3 @@ def _change(value: float | None, reference: float | None) -> float | None:
     if value is None or reference is None:
         return None
     return value / reference - 1.0
-
-
-def _name_switch(case: PaperCase) -> str:
-    return "on" if case.densifies else "off"
-
-
-def _name_method(case: PaperCase, words: Words) -> str:
-    method = words(f"paper_value.{case.method}")
-    return words("paper_value.coarse", method=method) if case.is_coarse else method
-
-
-def _describe_result(run: PaperRun, words: Words) -> str:
-    if run.failure:
-        return words.show(run.failure)
-    if run.track is not None and run.track.ended:
-        return words("paper_value.ended", reason=run.track.ended)
-    return words("paper_value.complete")

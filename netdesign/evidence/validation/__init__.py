@@ -1,1 +1,1 @@
-"""Measured structures against the model, its export for other codes, and one page."""
+"""Measured structures against the model, on one page."""

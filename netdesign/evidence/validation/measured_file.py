@@ -19,9 +19,8 @@ from netdesign.edge.given_files import (
     read_bounded,
 )
 from netdesign.evidence.validation.structure import (
-    NET_INPUTS,
+    INPUTS,
     ROPE_INPUTS,
-    WALL_INPUTS,
     Span,
     Structure,
 )
@@ -31,18 +30,15 @@ from netdesign.words.message import Message, say
 SCHEMA = "netdesign.measured/1"
 _OWN = "measured.toml"
 _MOST = 200  # structures
-_UNITS = {"net": "kN", "wall": "kN_per_m"}  # of what is measured
 
 
-def read_structures(content: bytes, *, is_form: bool = False) -> tuple[Structure, ...]:
+def read_structures(content: bytes) -> tuple[Structure, ...]:
     """Structures of a file.
 
     Parameters
     ----------
     content : bytes
         TOML in the form of ``measured.toml``.
-    is_form : bool
-        Its forces may still be without a value.
 
     Raises
     ------
@@ -57,17 +53,14 @@ def read_structures(content: bytes, *, is_form: bool = False) -> tuple[Structure
     tables = document.get("structure")
     if not isinstance(tables, list) or not 0 < len(tables) <= _MOST:
         raise ModelError(_tell("structure", "[[structure]]"))
-    found = [
-        _read_named(number, table, is_form=is_form)
-        for number, table in enumerate(tables, 1)
-    ]
+    found = [_read_named(number, table) for number, table in enumerate(tables, 1)]
     for name, count in Counter(one.id for one in found).items():
         if count > 1:
             raise ModelError(_tell(f"id = {name!r:.60}", "structure.id: 1 x"))
     return tuple(found)
 
 
-def _read_named(number: int, table: Any, *, is_form: bool) -> Structure:
+def _read_named(number: int, table: Any) -> Structure:
     """Structure; a refusal tells every fault, and names it by its id or number."""
     faults = list(_list_strange(table)) if isinstance(table, dict) else []
     try:
@@ -75,7 +68,7 @@ def _read_named(number: int, table: Any, *, is_form: bool) -> Structure:
     except ValidationError as error:
         faults += [_describe(fault) for fault in error.errors()]
     else:
-        faults += _list_odd(structure, table, is_form=is_form)
+        faults += _list_odd(structure, table)
         if not faults:
             return structure
     name = table.get("id") if isinstance(table, dict) else None
@@ -94,37 +87,26 @@ def _describe(fault: Any) -> Message:
 
 
 def _list_strange(table: Mapping[str, Any]) -> Iterator[Message]:
-    """Inputs that the kind does not have, and those that are missing."""
-    given, is_net = table.get("inputs"), table.get("kind") != "wall"
+    """Inputs that a net does not have, and those that are missing."""
+    given = table.get("inputs")
     if not isinstance(given, dict):
         return
-    wanted = NET_INPUTS if is_net else WALL_INPUTS
-    for name in sorted(given.keys() - {*wanted, *(ROPE_INPUTS if is_net else ())}):
-        yield _tell(f"inputs.{name}", ", ".join(wanted))
-    missing = [name for name in wanted if name not in given]
+    for name in sorted(given.keys() - {*INPUTS, *ROPE_INPUTS}):
+        yield _tell(f"inputs.{name}", ", ".join(INPUTS))
+    missing = [name for name in INPUTS if name not in given]
     if missing or len(ROPE_INPUTS.keys() & given.keys()) == 1:
         yield _tell("inputs", ", ".join(missing or ROPE_INPUTS))
 
 
-def _list_odd(
-    structure: Structure, table: Mapping[str, Any], *, is_form: bool
-) -> Iterator[Message]:
-    """Ranges that do not ascend or leave what is accepted; forces of another unit."""
+def _list_odd(structure: Structure, table: Mapping[str, Any]) -> Iterator[Message]:
+    """Ranges that do not ascend or leave what is accepted; forces of no member."""
     if not structure.measured:
         yield _tell("measured", "[[structure.measured]]")
     for name, span in structure.inputs.items():
         yield from _list_odd_ends(name, span, table["inputs"][name])
-    unit = _UNITS[structure.kind]
-    for one, force in zip(table["measured"], structure.measured, strict=True):
+    for force in structure.measured:
         if not force.members:
             yield _tell("members", "foot_anchor, uphill_guy, post ...")
-        if math.isnan(force.value) and not is_form:
-            yield _tell(f"measured.{force.name}", f"value_{unit}")
-        for name in one:
-            if name.partition("_")[0] in ("value", "uncertainty") and (
-                name.partition("_")[2] != unit
-            ):
-                yield _tell(f"measured.{name}", f"value_{unit}, uncertainty_{unit}")
 
 
 def _list_odd_ends(
@@ -135,7 +117,7 @@ def _list_odd_ends(
         yield _tell(name, "value, or low and high")
     if not span.low <= span.high:
         yield _tell(f"{name} = {span.low:g} .. {span.high:g}", "low <= high")
-    low, high = (NET_INPUTS | ROPE_INPUTS).get(name, (-math.inf, math.inf))
+    low, high = (INPUTS | ROPE_INPUTS).get(name, (-math.inf, math.inf))
     for end in dict.fromkeys((span.low, span.high)):
         if not low <= end <= high:
             yield _tell(f"{name} = {end:g}", f"{low:g} .. {high:g}")
@@ -159,17 +141,10 @@ def read_all(path: Path | None) -> tuple[Structure, ...]:
         If the file cannot be read, or a field is missing, unknown or out of range.
     """
     own = read_structures(find_files(__package__).joinpath(_OWN).read_bytes())
-    return own if path is None else (*_read_file(path), *own)
-
-
-def read_form(path: Path) -> tuple[Structure, ...]:
-    """Structures of a form, whose forces may lack a value; errors as of `read_all`."""
-    return _read_file(path, is_form=True)
-
-
-def _read_file(path: Path, *, is_form: bool = False) -> tuple[Structure, ...]:
+    if path is None:
+        return own
     try:
-        return read_structures(read_bounded(path, MAX_TOML_BYTES), is_form=is_form)
+        return (*read_structures(read_bounded(path, MAX_TOML_BYTES)), *own)
     except (ModelError, OSError, ValueError) as error:
         told = say("text.at_place", place=str(path), text=explain(error))
         raise ModelError(told) from None

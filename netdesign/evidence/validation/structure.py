@@ -15,12 +15,12 @@ import numpy as np
 from pydantic import AliasChoices, Field
 
 from netdesign.cable.net import LARGEST_FRICTION_ANGLE, LARGEST_SLACK
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
-from netdesign.evidence.scene import build_scene, solve_wall
+from netdesign.evidence.scene import build_scene
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import ModelError, SolveError
+from netdesign.outcome import ModelError
 from netdesign.panel.inputs import LARGEST_SAG, Panel, Rope
 from netdesign.snow.ground import (
     LARGEST_GLIDE_FACTOR,
@@ -31,7 +31,7 @@ from netdesign.structure.members import Member
 from netdesign.words.message import say
 
 # Inputs of a structure and what is accepted of them, by the names of the file.
-WALL_INPUTS = {
+INPUTS = {
     "slope_deg": (5.0, 70.0),
     "net_height_m": (0.5, 10.0),
     "filled": (0.05, 1.0),
@@ -40,8 +40,6 @@ WALL_INPUTS = {
     "glide_factor": (1.0, LARGEST_GLIDE_FACTOR),
     "inclination_deg": (0.0, 70.0),
     "friction_deg": (0.0, math.degrees(LARGEST_FRICTION_ANGLE)),
-}
-NET_INPUTS = WALL_INPUTS | {
     "slack": (0.0, LARGEST_SLACK),
     "stiffness_kN_per_m": (10.0, 1e7),
     "post_spacing_m": (0.5, 20.0),
@@ -49,7 +47,6 @@ NET_INPUTS = WALL_INPUTS | {
 }
 # Both, for the ropes between posts.
 ROPE_INPUTS = {"rope_stiffness_kN": (10.0, 1e7), "rope_sag": (0.0, LARGEST_SAG)}
-ALONG_SLOPE = "along_slope"  # of a wall, per metre
 
 Mark = Literal["read", "assumed", "unknown", "measured"]
 _Number = Annotated[float, Field(ge=0, allow_inf_nan=False, strict=True)]
@@ -87,12 +84,9 @@ class Measurement:
     __pydantic_config__: ClassVar = {"extra": "forbid"}
     name: str
     members: tuple[str, ...]
-    # [kN], or [kN/m] of a wall; no number before it was measured
-    value: Annotated[_Number, _named("value_kN", "value_kN_per_m")] = math.nan
+    value: Annotated[_Number, _named("value_kN")]  # [kN]
     mark: Mark = "measured"
-    uncertainty: Annotated[
-        _Number, _named("uncertainty_kN", "uncertainty_kN_per_m")
-    ] = 0.0
+    uncertainty: Annotated[_Number, _named("uncertainty_kN")] = 0.0
     note: str = ""
 
 
@@ -102,8 +96,8 @@ class Structure:
 
     Attributes
     ----------
-    id, title, kind, source, note : str
-        What it is, "net" or "wall", and where that stands.
+    id, title, source, note : str
+        What it is, and where that stands.
     measured : tuple of Measurement
         Forces.
     inputs : mapping of str to Span
@@ -115,7 +109,6 @@ class Structure:
     __pydantic_config__: ClassVar = {"extra": "forbid"}
     id: str
     title: str
-    kind: Literal["net", "wall"]
     source: str
     measured: tuple[Measurement, ...]
     inputs: Mapping[str, Span]
@@ -149,7 +142,7 @@ class MemberBand:
     member : str
         Its key.
     low, high : float
-        Least and largest [kN], or [kN/m] of a wall.
+        Least and largest [kN].
     middle : tuple of float
         Between which four of five cases lie.
     share_below : float
@@ -242,7 +235,11 @@ def validate_structure(structure: Structure, samples: int = SAMPLES) -> Validati
     ModelError
         If no case has a result.
     """
-    good, reasons, failed = solve_cases(structure, samples)
+    points = _draw(structure, 1 if structure.is_known else samples)
+    forces = [_solve(point, has_ropes=structure.has_ropes) for point in points]
+    good = [one for one in forces if one.values]
+    if not good:
+        raise ModelError(say("measured.none_solved", name=structure.id[:200]))
     return Validation(
         structure=structure,
         comparisons=tuple(
@@ -253,28 +250,9 @@ def validate_structure(structure: Structure, samples: int = SAMPLES) -> Validati
             for one in structure.measured
         ),
         solved=len(good),
-        failed=failed,
-        reasons=reasons,
+        failed=len(forces) - len(good),
+        reasons=tuple(dict.fromkeys(one.reason for one in forces if one.reason)),
     )
-
-
-def solve_cases(
-    structure: Structure, samples: int = SAMPLES
-) -> tuple[list[CaseForces], tuple[str, ...], int]:
-    """Forces of the cases drawn from the ranges; why some failed, and how many.
-
-    Raises
-    ------
-    ModelError
-        If no case has a result.
-    """
-    points = _draw(structure, 1 if structure.is_known else samples)
-    forces = [_solve(structure, point) for point in points]
-    good = [one for one in forces if one.values]
-    reasons = tuple(dict.fromkeys(one.reason for one in forces if one.reason))
-    if not good:
-        raise ModelError(say("measured.none_solved", name=structure.id[:200]))
-    return good, reasons, len(forces) - len(good)
 
 
 def _draw(structure: Structure, count: int) -> list[dict[str, float]]:
@@ -293,24 +271,11 @@ def _draw(structure: Structure, count: int) -> list[dict[str, float]]:
     ]
 
 
-def _solve(structure: Structure, point: dict[str, float]) -> CaseForces:
+def _solve(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
     try:
-        if structure.kind == "wall":
-            return _solve_wall(point)
-        return _solve_net(point, has_ropes=structure.has_ropes)
+        return _solve_net(point, has_ropes=has_ropes)
     except ModelError as error:
         return CaseForces(values={}, reason=str(error))
-    except SolveError as failure:
-        return CaseForces(values={}, reason=str(failure.reason))
-
-
-def _solve_wall(point: dict[str, float]) -> CaseForces:
-    friction = math.radians(point["friction_deg"])
-    force = solve_wall(_build(point), _SETTINGS, friction_angle=friction).force
-    return CaseForces(
-        values={ALONG_SLOPE: force.x / 1e3, "size": force.size / 1e3},
-        error=force.error / force.size,
-    )
 
 
 def _solve_net(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
@@ -329,8 +294,14 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
         friction_angle=math.radians(point["friction_deg"]),
         inclination=math.radians(point["inclination_deg"]),
     )
-    scene = _build(
-        point,
+    thickness = height * point["filled"]
+    scene = build_scene(
+        (thickness, point["density_kg_m3"]),
+        slope=point["slope_deg"],
+        length=point["upslope_length_m"],
+        ground=build_ground_from_glide_factor(point["glide_factor"], thickness),
+        lean=point["inclination_deg"],
+        friction=point["friction_deg"],
         height=height,
         stiffness=point["stiffness_kN_per_m"] * 1e3,
         slack=point["slack"],
@@ -346,19 +317,6 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
         name: band.value / 1e3 for name, band in bands.items()
     }
     return CaseForces(values=values, error=error / largest)
-
-
-def _build(point: dict[str, float], **net: Any) -> Scene:
-    thickness = point["net_height_m"] * point["filled"]
-    return build_scene(
-        (thickness, point["density_kg_m3"]),
-        slope=point["slope_deg"],
-        length=point["upslope_length_m"],
-        ground=build_ground_from_glide_factor(point["glide_factor"], thickness),
-        lean=point["inclination_deg"],
-        friction=point["friction_deg"],
-        **net,
-    )
 
 
 def _find_band(

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from netdesign.evidence.table import show_lines, show_rows
+from netdesign.evidence.verification.another_code import list_another_code
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.closed_forms import (
     list_cable,
@@ -25,12 +26,11 @@ from netdesign.evidence.verification.coupled import (
     list_reference,
     list_walls,
 )
-from netdesign.evidence.verification.exported import list_another_code
 from netdesign.evidence.verification.manufactured import list_manufactured
 from netdesign.evidence.verification.panels import list_panels
 from netdesign.evidence.verification.plan_view import list_plan_view
 from netdesign.evidence.verification.winters import list_snow_heights, list_winters
-from netdesign.report.words import Words
+from netdesign.report.words import ENGLISH
 from netdesign.words.catalogue import load_texts
 
 if TYPE_CHECKING:
@@ -96,30 +96,12 @@ def write_pack(cases: Sequence[VerificationCase]) -> dict[str, Any]:
     }
 
 
-def print_cases(
-    cases: Sequence[VerificationCase], console: Console, words: Words
-) -> None:
+def print_cases(cases: Sequence[VerificationCase], console: Console) -> None:
     """Print one line per case, then how many of each kind pass."""
-    rows = [
-        row
-        | {
-            "kind": name_kind(case.kind, words),
-            "reference": words(f"reference.{case.reference}"),
-        }
-        for case, row in zip(cases, write_pack(cases)["cases"], strict=True)
-    ]
-    show_rows(rows, console, words, "verify_table")
+    show_rows(write_pack(cases)["cases"], console, "verify_table")
     for kind in dict.fromkeys(case.kind for case in cases):
         passes = [case.passes for case in cases if case.kind == kind]
-        line = words(
-            "verify_table.of_kind",
-            kind=name_kind(kind, words),
-            passed=sum(passes),
-            count=len(passes),
+        line = ENGLISH(
+            "verify_table.of_kind", kind=kind, passed=sum(passes), count=len(passes)
         )
         show_lines([line], console)
-
-
-def name_kind(kind: str, words: Words) -> str:
-    """Kind of a case: ``closed form``."""
-    return words(f"case_kind.{kind.replace(' ', '_')}")

@@ -3,12 +3,10 @@
 import re
 import xml.etree.ElementTree as ElementTree
 
-import pytest
 from rich.console import Console
 
 from netdesign.evidence.benchmark.against import _describe
 from netdesign.evidence.benchmark.attempts import Attempt, write_errors, write_stress
-from netdesign.evidence.benchmark.lines import write_lines
 from netdesign.evidence.benchmark.precision import (
     Row,
     draw_work_precision,
@@ -16,10 +14,8 @@ from netdesign.evidence.benchmark.precision import (
     write_bench,
 )
 from netdesign.evidence.table import show_document
-from netdesign.report.words import Words
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import say
-from tests.words.english import list_vocabulary, list_words
 
 AGAINST = dict.fromkeys(("this", "other", "core", "python", "processors")) | {
     "rows": [_describe("row", "wall", {"this": ["why"], "other": ["why"]})]
@@ -50,11 +46,11 @@ def compared(number, **more) -> Attempt:
     return Attempt(number=number, kind="converged", cpu_s=1, **more)
 
 
-def printed(show, document, language="en") -> list[list[str]]:
+def printed(show, document) -> list[list[str]]:
     """Words of every line that a function shows of a document."""
     console = Console(width=200)
     with console.capture() as captured:
-        show(document, console, Words(language))
+        show(document, console)
     return [re.split(r"  +", line.strip()) for line in captured.get().splitlines()]
 
 
@@ -105,23 +101,6 @@ def test_honesty_on_a_terminal():
     assert ["2", "finer mesh: diverged"] in lines
 
 
-LINES = write_lines(
-    [
-        {
-            "number": 0,
-            "parameter": "slack",
-            "solved": 8,
-            "jumps": [{"place": 3, "end": "foot", "over_stated": 1.25}],
-            "largest_jump": 1.25,
-            "ratios": [0.25, 0.97],
-            "missing": 1,
-        }
-    ],
-    1,
-    0.005,
-)
-
-
 # Of use to programs alone: what made a document, a scene's file.
 FOR_PROGRAMS = {"schema", "tables"}
 
@@ -141,7 +120,6 @@ def test_every_key_of_a_document_has_a_name():
     documents = [
         write_stress(ATTEMPTS, 4),
         write_errors(FINDINGS, 1, 0.005),
-        {key: one for key, one in LINES.items() if key != "of_lines"},
         *write_bench(ROWS, ASKED)["rows"],
         write_bench(ROWS, ASKED)["summary"],
         AGAINST,
@@ -175,26 +153,3 @@ FINDINGS = [
     compared(1, true_error=0.0213, stated_error=0.01),
     compared(2, reason=FINER),
 ]
-
-
-@pytest.mark.parametrize("language", ["fr", "de"])
-def test_every_table_in_a_language(language):
-    """No word of English, and no decimal point, besides names and what others said."""
-    documents = (
-        (print_bench, write_bench(ROWS, ASKED)),
-        (show_document, write_stress(ATTEMPTS, 4, 0.005, language)),
-        (show_document, write_errors(FINDINGS, 1, 0.005, language)),
-        (show_document, LINES),
-    )
-    told = [
-        "\n".join(map(" ".join, printed(show, one, language)))
-        for show, one in documents
-    ]
-    told += ElementTree.fromstring(
-        draw_work_precision(ROWS, Words(language))
-    ).itertext()
-    english = list_vocabulary("en") - list_vocabulary(language)
-    text = re.sub(r"scikit-fem|paper-\d+|layered", "", "\n".join(told))
-    assert list_words(text) & english == set()
-    assert re.findall(r"\d\.\d", text) == []
-    assert len(re.findall(r"\d,\d", text)) > 50

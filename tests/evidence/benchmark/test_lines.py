@@ -7,7 +7,10 @@ from hypothesis import strategies as st
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.benchmark.lines import (
+from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
+from netdesign.outcome import Outcome, SolveError
+from tests.each import each
+from tests.evidence.benchmark.lines import (
     PARAMETERS,
     Point,
     build,
@@ -22,9 +25,6 @@ from netdesign.evidence.benchmark.lines import (
     study_lines,
     write_lines,
 )
-from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
-from netdesign.outcome import Outcome, SolveError
-from tests.each import each
 
 ACCURACY = SolverSettings(accuracy=0.005)
 

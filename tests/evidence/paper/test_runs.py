@@ -2,13 +2,11 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.evidence.paper.runs import (
     PaperSettings,
-    Shape,
     find_exchange,
     find_history,
     find_steady,
@@ -18,17 +16,13 @@ from netdesign.evidence.paper.runs import (
 )
 from netdesign.snow.mesh import MeshSize
 from netdesign.words.message import say
-from tests.build_paper import CURVE, TRIANGLE
 
 COARSE = MeshSize(net_spacing=0.34, corner=0.1, sectors=4, upslope_spacing=1.5)
 THIN = PaperSettings(
     levels=(COARSE, TRANSIENT_LEVELS[0]),
     horizon=600.0,
-    undensified_horizon=300.0,
     exchange_drag=0.2,
     exchange_time=5e-3,
-    drags=(0.2, 0.1),
-    trend_time=5e-3,
 )
 
 
@@ -43,7 +37,7 @@ def test_history_is_in_balance_with_its_nodes():
     assert track.heights[0] == pytest.approx(1.0, abs=0.5)
     assert track.heights[1] == pytest.approx(3.0, abs=0.5)
     assert track.at(600.0, "foot") == pytest.approx(track.foot[-1])
-    assert run.shape.mean_density > 366.8
+    assert run.shape.density.mean() > 366.8
 
 
 def test_steady_run_is_that_of_the_scene():
@@ -54,7 +48,7 @@ def test_steady_run_is_that_of_the_scene():
 
 
 def test_exchange_stops_at_its_creep_time():
-    case = find_exchange(0.0, THIN)
+    case = find_exchange(0.0)
     track = run_case(case, THIN).track
     step = track.times[1] - track.times[0]
     end = THIN.exchange_time * case.scene.time_scale
@@ -70,7 +64,7 @@ def test_a_failure_is_a_result_with_its_reason(monkeypatch):
         raise SolveError(Outcome.DIVERGED, "made to fail")
 
     monkeypatch.setattr(runs, "run_exchange", fail)
-    run = run_case(find_exchange(0.0, THIN), THIN)
+    run = run_case(find_exchange(0.0), THIN)
     assert str(run.failure) == "made to fail"
     assert run.track is None
     assert run.foot is None
@@ -87,18 +81,5 @@ def test_study_runs_every_case_once(monkeypatch):
         lambda case, **_: PaperRun(case=case, failure=say("outcome.diverged")),
     )
     study = run_study(THIN, on_done=done.append)
-    assert list(study.runs) == list_cases(THIN)
+    assert list(study.runs) == list_cases()
     assert len(done) == len(study.runs) == len(set(study.runs))
-
-
-def test_mean_density_is_weighted_by_area():
-    nodes = np.column_stack([TRIANGLE, [4.0, 4.0]])
-    shape = Shape(
-        nodes=np.column_stack([nodes, [0.0, 12.0]]),
-        triangles=np.array([[0, 2], [1, 1], [2, 4]]),
-        density=np.array([300.0, 600.0]),
-        curve=CURVE,
-        sag=0.3,
-    )
-    # areas 8 and 16 m2
-    assert shape.mean_density == pytest.approx((300.0 * 8 + 600.0 * 16) / 24)

@@ -135,12 +135,7 @@ class Point:
 def study_lines(
     count: int, seed: int, *, accuracy: float, jobs: int = 1, on_done: Done = None
 ) -> list[Row]:
-    """Lines 0 to ``count`` - 1 of a seed; each goes through the next parameter.
-
-    Verified by
-    -----------
-    tests/evidence/benchmark/test_lines.py
-    """
+    """Lines 0 to ``count`` - 1 of a seed; each goes through the next parameter."""
     work = partial(study_line, seed=seed, accuracy=accuracy)
     return spread(work, range(count), jobs=jobs, chunk=1, on_done=on_done)
 
@@ -173,9 +168,7 @@ def study_line(number: int, *, seed: int, accuracy: float, points: int = POINTS)
     }
 
 
-def write_lines(
-    lines: Sequence[Row], seed: int, accuracy: float, _language: object = "en"
-) -> Row:
+def write_lines(lines: Sequence[Row], seed: int, accuracy: float) -> Row:
     """Plain values in the form ``netdesign.lines/1``.
 
     A point without a true error counts as outside the stated one, and fails.
