@@ -20,7 +20,7 @@ from netdesign.words.message import Message, say
 
 _LIBRARIES = (
     *("numpy", "scipy", "scikit-fem", "pandas", "openpyxl", "defusedxml"),
-    *("XlsxWriter", "jinja2", "click", "rich", "pydantic"),
+    *("rapidfuzz", "XlsxWriter", "jinja2", "click", "rich", "pydantic"),
 )
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _EXIT_UNSOUND = 5
