@@ -361,16 +361,3 @@ def _find_push(leaves: Leaves, support: Support) -> Quantity | None:
     if "T_r" not in leaves:
         return None
     return push_end_post(pull_at_end(leaves["T_r"], support), leaves["γ"])
-
-
-def calculate_resistance(leaves: Leaves, force: SupportForce | None) -> Quantity:
-    """Characteristic resistance of a check from its leaves: as given, or worked out."""
-    if "R_m" in leaves:
-        return resist_by_tests(
-            *(leaves[one] for one in ("R_m", "ξ_m", "R_min", "ξ_min"))
-        )
-    if "R_G" in leaves:
-        return resist_by_fractile(leaves["R_G"], leaves["ξ_5"])
-    if "μ_b" in leaves and force is not None and force.pressing is not None:
-        return resist_by_friction(leaves["μ_b"], leaves["γ_E"], force.pressing)
-    return leaves["R_k"]

@@ -50,8 +50,6 @@ MODES = (
     *("bending", "compression_bending", "sliding", "tension"),
     *("mesh", "connection", "wedge"),
 )
-# Checks of a member that compare no force with a resistance.
-MODES_WITHOUT_FORCE = ("direction", "lateral")
 BASES = ("tested", "computed", "declared")
 # What no demand lies below: the guideline's load, or nothing.
 Floor = Literal["guideline", "none"]

@@ -67,7 +67,7 @@ _FOLLOWS = (
 )
 # Names of what is told by its count alone.
 _PARTS = {
-    **dict.fromkeys(("cases", "envelope", "extremes", "forces", "statics"), "cases"),
+    **dict.fromkeys(("cases", "envelope", "extremes", "forces"), "cases"),
     **dict.fromkeys(("checks", "reasons", "questions", "unsaid"), "checks"),
     **dict.fromkeys(("drawing", "anchors", "head", "pulls", "panel"), "forces"),
     **dict.fromkeys(("guideline", "floor", "model_form", "reliability"), "opinions"),

@@ -244,14 +244,3 @@ class FloorRecord:
     altitude_factor: float  # on the density of load case 1
     assumed: Items[Text] = field(default_factory=list)  # of the row, for its load
     reason: Text | None = None  # why it is not
-
-
-@dataclass(frozen=True, kw_only=True)
-class GuidelineLoadRecord(LoadOnNet):
-    """The guideline's load with its parts: (G1) to (G9)."""
-
-    rigid_kN_per_m: float
-    parallel_kN_per_m: float
-    normal_kN_per_m: float
-    prism_kN_per_m: float
-    loaded_share: float  # of the chord, from the foot

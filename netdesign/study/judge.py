@@ -48,7 +48,6 @@ from netdesign.study.record_guideline import (
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_monitoring import record_monitoring
 from netdesign.study.record_provenance import record_profile, record_provenance
-from netdesign.study.record_statics import record_statics
 from netdesign.study.record_support import (
     record_drawn,
     record_panel,
@@ -185,7 +184,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         model_form=model_form,
         panel=panel,
         notes=[*notes, *list_history_notes(extremes)],
-        statics=record_statics(task, floor),
         held_sideways=known.along_row,
         tilt=known.tilt,
         envelope=_record_search(solved, checks),

@@ -385,13 +385,6 @@ def name_governing(reason: Message, force: MemberForce, load_case: str) -> Messa
     return say("load.reason", reason=reason, load=load)
 
 
-def leave_out_governing(reason: Message) -> Message:
-    """The reason alone of what `name_governing` gives."""
-    alone = reason.arguments.get("reason")
-    is_told = reason.key == "load.reason"
-    return alone if is_told and isinstance(alone, Message) else reason
-
-
 def name_unsaid(row: NetRow) -> Message:
     """The columns that a row leaves empty, and that every force depends on.
 

@@ -42,7 +42,6 @@ from netdesign.study.support_records import (
     HeldSidewaysRecord,
     PanelRecord,
     PullRecord,
-    StaticsRecord,
 )
 from netdesign.words.message import Message, Text, say
 
@@ -357,7 +356,6 @@ class RowStudy:
     independent: Items[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
-    statics: Items[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
     model_form: ModelFormRecord | None = None  # None where nothing governs

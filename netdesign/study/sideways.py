@@ -29,9 +29,7 @@ from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.support_records import HeldSidewaysRecord
 from netdesign.units import (
     degree_from_radian,
-    given_degree_from_radian,
     kilonewton_from_newton,
-    kilonewton_if_known,
 )
 from netdesign.words.message import Message, say
 
@@ -83,7 +81,7 @@ def _record(
     solved = min(head.tension for head in heads)
     pull = _widen(row, heads, sum(hidden.values()), floor.pull if floor else 0.0)
     least = _find_least_tension(row, solved - in_guys, floor)
-    (uphill, uphill_at), (downhill, downhill_at), (post, post_at) = (
+    uphill, downhill, post = (
         _find_largest(heads, name)
         for name in ("largest_uphill", "largest_downhill", "post")
     )
@@ -93,28 +91,17 @@ def _record(
         pull_low_kN=kilonewton_from_newton(pull.low),
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
-        solved_tension_kN=kilonewton_from_newton(solved),
-        hidden_tension_kN=kilonewton_from_newton(in_guys),
-        floor_tension_kN=kilonewton_if_known(floor.least_tension if floor else None),
         least_tension_kN=kilonewton_from_newton(least),
         uphill_part=uphill,
-        uphill_at_deg=uphill_at,
         downhill_part=downhill,
-        downhill_at_deg=downhill_at,
         post_part=post,
-        post_at_deg=post_at,
     )
 
 
-def _find_largest(heads: Sequence[SupportState], name: str) -> tuple[float, float]:
-    """Largest weight over the heads [-], and the inclination there [deg]."""
-    weighed = [
-        (float(getattr(weights, name)), one.result.case.inclination)
-        for one in heads
-        if one.result and (weights := weigh_splay(one.points))
-    ]
-    value, inclination = max(weighed, key=lambda one: one[0])
-    return value, given_degree_from_radian(inclination)
+def _find_largest(heads: Sequence[SupportState], name: str) -> float:
+    """Largest weight over the heads [-]."""
+    weighed = (weigh_splay(one.points) for one in heads)
+    return max(float(getattr(one, name)) for one in weighed if one)
 
 
 def _fail(head: SupportState, share: float, splay: float) -> Message | None:

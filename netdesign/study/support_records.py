@@ -11,7 +11,7 @@ from netdesign.edge.json_text import Items
 from netdesign.structure.axis import PullRange
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
-from netdesign.study.case_records import CasePoint, ExtremeRecord, GuidelineLoadRecord
+from netdesign.study.case_records import CasePoint, ExtremeRecord
 from netdesign.units import radian_from_degree
 from netdesign.words.message import Message
 
@@ -108,37 +108,6 @@ class HeadForce:
 
 
 @dataclass(frozen=True, kw_only=True)
-class StaticsRecord:
-    """Way from the net's end pulls to the members of a support inside the row.
-
-    (S1) to (S8). X along the slope from the net's foot, Y out of the ground.
-    """
-
-    brings: Items[str]  # members that it loads most; "head_pull", "foot_least", ...
-    case: CasePoint | None  # None under the guideline's load
-    load: GuidelineLoadRecord | None
-    foot_x_kN_per_m: float
-    foot_y_kN_per_m: float
-    foot_error_kN_per_m: float
-    head_x_kN_per_m: float
-    head_y_kN_per_m: float
-    head_error_kN_per_m: float
-    head_x_m: float
-    head_y_m: float
-    base_x_m: float
-    uphill_x_m: float
-    downhill_x_m: float
-    foot_anchor_kN: float  # of the net alone
-    uphill_guy_kN: float
-    downhill_guy_kN: float
-    post_kN: float
-    post_base_kN: float  # across the plate
-    post_foot_kN: float = 0.0  # of a post that pulls
-    is_by_panel: bool = False  # pulls are the means of a bay between two posts
-    mid_foot_kN: float = 0.0  # of an anchor in mid-panel
-
-
-@dataclass(frozen=True, kw_only=True)
 class HeldSidewaysRecord:
     """Numbers of a row that the load along it follows from: (S15) to (S18)."""
 
@@ -147,16 +116,10 @@ class HeldSidewaysRecord:
     pull_low_kN: float  # largest pull on a head, over cases and floor
     pull_kN: float
     pull_high_kN: float
-    solved_tension_kN: float  # least of the guys at work, low end over the cases
-    hidden_tension_kN: float  # what may hide of it between the cases
-    floor_tension_kN: float | None
     least_tension_kN: float
-    uphill_part: float  # c of the uphill guy, and the inclination where it is largest
-    uphill_at_deg: float
+    uphill_part: float  # c of the uphill guy
     downhill_part: float
-    downhill_at_deg: float
     post_part: float  # w
-    post_at_deg: float
 
 
 @dataclass(frozen=True, kw_only=True)

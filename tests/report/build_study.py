@@ -27,7 +27,6 @@ from netdesign.study.case_records import (
     FloorForceRecord,
     FloorRecord,
     GuidelineCase,
-    GuidelineLoadRecord,
     GuidelineRecord,
 )
 from netdesign.study.records import (
@@ -53,7 +52,6 @@ from netdesign.study.support_records import (
     HeadForce,
     HeldSidewaysRecord,
     PullRecord,
-    StaticsRecord,
 )
 from netdesign.words.message import Message, say
 
@@ -201,7 +199,6 @@ def build_row(
         floor=build_floor(extremes[0]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
         pulls=build_pulls(),
-        statics=build_statics(extremes),
         held_sideways=build_held_sideways(),
     )
 
@@ -223,66 +220,6 @@ def build_pulls() -> list[PullRecord]:
     ]
 
 
-def build_statics(extremes: list[ExtremeRecord]) -> list[StaticsRecord]:
-    """One solved case, and one of the guideline's load; made-up numbers."""
-    pulls = {
-        "foot_x_kN_per_m": 56.202613,
-        "foot_y_kN_per_m": 17.838518,
-        "head_x_kN_per_m": -1.2569341,
-        "head_y_kN_per_m": -42.082913,
-    }
-    rest = {
-        "head_x_m": 2.4507264,
-        "head_y_m": 3.5,
-        "base_x_m": 1.5128991,
-        "uphill_x_m": -4.0,
-        "downhill_x_m": 5.0128991,
-        "foot_anchor_kN": 176.89671,
-        "uphill_guy_kN": 40.014123,
-        "downhill_guy_kN": 0.0,
-        "post_kN": 150.45831,
-        "post_base_kN": 145.33151,
-    }
-    load = GuidelineLoadRecord(
-        load_case="load_case_2",
-        inclination_deg=34.5,
-        snow_thickness_m=2.9875,
-        density_kg_m3=400.0,
-        height_vertical_m=3.003,
-        creep_factor=0.81384512,
-        glide_factor=1.8,
-        rigid_kN_per_m=26.421312,
-        parallel_kN_per_m=21.137051,
-        normal_kN_per_m=4.898091,
-        prism_kN_per_m=7.410981,
-        load_along_kN_per_m=25.900812,
-        load_across_kN_per_m=-10.575213,
-        loaded_share=0.65726612,
-        stiffness_kN_per_m=15000.0,
-        slack=0.08,
-        chord_tension_kN_per_m=22.506212,
-    )
-    errors = {"foot_error_kN_per_m": 0.218068, "head_error_kN_per_m": 0.110016}
-    return [
-        StaticsRecord(
-            brings=["foot_anchor", "head_pull"],
-            case=extremes[0].case,
-            load=None,
-            **pulls,
-            **errors,
-            **rest,
-        ),
-        StaticsRecord(
-            brings=["post", "least_tension"],
-            case=None,
-            load=load,
-            **pulls,
-            **dict.fromkeys(errors, 0.0),
-            **rest,
-        ),
-    ]
-
-
 def build_held_sideways() -> HeldSidewaysRecord:
     """Load along the row, without a floor of the tension."""
     return HeldSidewaysRecord(
@@ -291,16 +228,10 @@ def build_held_sideways() -> HeldSidewaysRecord:
         pull_low_kN=127.09771,
         pull_kN=127.44672,
         pull_high_kN=128.44577,
-        solved_tension_kN=23.444545,
-        hidden_tension_kN=0.19042309,
-        floor_tension_kN=None,
         least_tension_kN=23.254122,
         uphill_part=0.5326683943,
-        uphill_at_deg=25.3,
         downhill_part=0.5,
-        downhill_at_deg=25.3,
         post_part=0.681464,
-        post_at_deg=34.9,
     )
 
 

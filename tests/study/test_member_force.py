@@ -21,7 +21,6 @@ from netdesign.study.judge import judge_site
 from netdesign.study.member_force import (
     RowForces,
     find_force,
-    leave_out_governing,
     name_governing,
 )
 from netdesign.study.record_envelope import record_point
@@ -248,8 +247,6 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     assert str(told).endswith(
         "; the guideline's load (load case 2) governs the design force."
     )
-    assert leave_out_governing(told) == reason
-    assert leave_out_governing(reason) == reason
     slack = find_member_force(Member.DOWNHILL_GUY, none, width)
     assert slack.action.high == 0.0
     assert name_governing(reason, slack, case) == reason

@@ -33,16 +33,10 @@ def draw(random_numbers):
         pull_low_kN=pull * 0.993,
         pull_kN=pull,
         pull_high_kN=pull * 1.0071,
-        solved_tension_kN=least,
-        hidden_tension_kN=0.0,
-        floor_tension_kN=None,
         least_tension_kN=least,
         uphill_part=random_numbers.uniform(0.1, 0.9),
-        uphill_at_deg=30.0,
         downhill_part=random_numbers.uniform(0.1, 0.9),
-        downhill_at_deg=30.0,
         post_part=random_numbers.uniform(0.2, 1.6),
-        post_at_deg=30.0,
     )
 
 

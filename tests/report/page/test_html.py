@@ -95,7 +95,6 @@ def test_empty_parts_say_none():
         anchors=[],
         head=[],
         pulls=[],
-        statics=[],
         held_sideways=None,
         guideline=None,
         model_form=None,
