@@ -70,7 +70,6 @@ _COMMANDS = CommandTable(
         "init": "site_input.init",
         "map": "site_input.map_headings",
         "snowpack": "snow.snowpack",
-        "tests": "anchor_tests.anchor_tests",
     }
 )
 

@@ -1,4 +1,4 @@
-"""What commands tell, and command lines that are refused."""
+"""Sentences of the commands, and refusals of command lines."""
 
 from __future__ import annotations
 

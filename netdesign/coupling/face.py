@@ -56,7 +56,7 @@ class Face:
 
     @property
     def pressures(self) -> Floats:
-        """Pressures of the nodes, from foot to head [Pa]."""
+        """Pressures of the nodes from foot to head [Pa], shape (n,)."""
         along = _bisect(self.points)
         normal = np.array([along[1], -along[0]])
         found: Floats = (self.forces * normal).sum(axis=0) / self._lengths()

@@ -223,13 +223,13 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
         if line[key].state == "blank"
     }
     if "test_count" in counted:
-        singles = tuple(map(read_single, tests))
+        singles = tuple(map(_read_single, tests))
         counted["test_count"] = replace(counted["test_count"], singles=singles)
     field = line["ground"].field
     return {**line, **counted, "ground": replace(ground, field=field)}
 
 
-def read_single(test: Row) -> SingleTest:
+def _read_single(test: Row) -> SingleTest:
     """One test; what is not said of its result stays open."""
     words = {"held": True, "pulled out": False}
     return SingleTest(

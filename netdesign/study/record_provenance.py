@@ -10,6 +10,7 @@ from typing import cast, get_args
 
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue, load_standard
+from netdesign.checks.routes import find_proof_factor
 from netdesign.checks.schema import GLIDE_FACTORS
 from netdesign.core.library import name_core
 from netdesign.coupling.scene import SolverSettings
@@ -44,6 +45,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
         is_floor_overruled=standard.is_floor_overruled,
         not_checked=list(standard.not_checked),
         is_default=standard.is_default,
+        proof_factor=find_proof_factor(standard),
         values=[*standard.listed, *_list_floor_values(standard)],
     )
 

@@ -385,6 +385,7 @@ class ProfileRecord:
     shared_sum: str = "vector"  # of the pulls of two guys on one anchor
     is_floor_overruled: bool = False  # the profile itself takes the other one
     is_default: bool = False  # nobody named it
+    proof_factor: float | None = None  # load of a test over the design force it proves
     not_checked: Items[str] = field(default_factory=list)  # topics that others check
 
 

@@ -172,7 +172,6 @@ WRITING = {
     ("winter",): "winter --example --out {}",
     ("validate",): "validate --out {}",
     ("standards", "copy"): "standards copy eurocode {}/mine",
-    ("tests",): "tests {}/site.xlsx --plan --out {}/form.xlsx",
     ("terrain",): "terrain --example --out {}/ground.xlsx",
 }
 

@@ -251,6 +251,7 @@ def build_quantities(study: Study, words: Words, *, has_prices: bool = False) ->
         columns=(
             *key_columns(words, "quantities.", ("part", "type", "rows")),
             Column(heading="E_d [kN]", is_number=True),
+            *key_columns(words, "quantities.", ("proof",), numbers=("proof",)),
             *key_columns(words, "quantities.", counts, numbers=counts),
             *key_columns(words, "quantities.", prices, numbers=prices),
             Column(heading=words("quantities.needed")),
@@ -297,10 +298,19 @@ def _show(
         text_cell(type_id or MISSING),
         text_cell(name_rows(list(line.rows), study, words)),
         number_cell(words, "demand_kN", find_largest(line.checks, "E_d")),
+        _show_proof(line, study.profile.proof_factor, words),
         text_cell(MISSING) if kind == "net" else _sum(counts, words, 0),
         text_cell(MISSING) if kind == "net" else _show_each(sizes, words),
         _sum(products, words, 0 if kind == "net" else 1, unit),
     )
+
+
+def _show_proof(line: _Line, factor: float | None, words: Words) -> Cell:
+    """Load to which a test of the type proves it in all its net rows [kN]."""
+    pulled = [one for one in line.checks if one.mode == "pull_out"]
+    force = find_largest(pulled, "E_d")
+    load = None if factor is None or force is None else factor * force
+    return Cell(text=words.show_minimum(load), number=load)
 
 
 def _show_each(sizes: Sequence[float | None], words: Words) -> Cell:

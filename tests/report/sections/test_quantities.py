@@ -71,9 +71,9 @@ def test_the_table_has_every_type_once_with_its_sums(study, language):
     english = build_quantities(study, Words("en")).rows
     for row, own in zip(table.rows, english, strict=True):
         pieces, metres = sums[own[0].text, own[1].text]
-        assert row[4].number in (None, pieces)
-        assert row[6].number is None or row[6].number == pytest.approx(metres)
-        assert (row[4].number is None) == (row[4].text[0] in "-≥")
+        assert row[5].number in (None, pieces)
+        assert row[7].number is None or row[7].number == pytest.approx(metres)
+        assert (row[5].number is None) == (row[5].text[0] in "-≥")
 
 
 def test_a_type_has_the_largest_force_of_all_its_checks(study):
@@ -91,6 +91,29 @@ def test_a_type_has_the_largest_force_of_all_its_checks(study):
             assert row[3].number == pytest.approx(max(forces))
 
 
+def test_a_tested_type_has_the_proof_load_of_its_largest_pull_out(study):
+    factor = 1.37
+    profile = replace(study.profile, proof_factor=factor)
+    table = build_quantities(replace(study, profile=profile), Words("en"))
+    shown = 0
+    for row in table.rows:
+        forces = [
+            check.read_band("E_d")[1]
+            for one in study.rows
+            for check in one.checks
+            if check.mode == "pull_out"
+            and check.resistance_type == row[1].text
+            and name_kind(check.member) == row[0].text
+        ]
+        known = forces and None not in forces
+        wanted = factor * max(forces) if known else None
+        assert row[4].number == (pytest.approx(wanted) if known else None)
+        shown += bool(known)
+    assert shown
+    without = build_quantities(study, Words("en"))
+    assert {row[4].number for row in without.rows} == {None}
+
+
 def test_a_price_gives_an_amount_in_the_sheet(study):
     book = read_workbook(render_workbook(study), formulas=True)
     sheet = book[book.sheetnames[1]]
@@ -105,6 +128,6 @@ def test_a_price_gives_an_amount_in_the_sheet(study):
     for (number, formula), line in zip(formulas, lines, strict=True):
         assert sheet.cell(number, 2).value == line[1].text
         counted = re.fullmatch(
-            r'=IF\(COUNT\(H\d+,[EG]\d+\)<2,"",([EG])\d+\*H\d+\)', formula
+            r'=IF\(COUNT\(I\d+,[FH]\d+\)<2,"",([FH])\d+\*I\d+\)', formula
         )
-        assert counted[1] == ("E" if line[4].number is not None else "G")
+        assert counted[1] == ("F" if line[5].number is not None else "H")
