@@ -8,7 +8,6 @@ from itertools import islice
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Severity, quote
-from netdesign.site.columns.all_tables import POSTS
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
@@ -290,8 +289,6 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
             unit = _find_unit(table, cell, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
             findings.extend(_note_answer(table, cell, meaning, field))
-    if table.plan.name == POSTS.name and "section" in columns:
-        columns.setdefault("id", columns["section"])  # named by its section alone
     _judge_rest(table, columns, claimed, unknown, findings)
     return columns
 
