@@ -81,11 +81,7 @@ THIRD_PARTY = {
         *("files.solution", "evidence.*"),
         *("study.record_envelope", "study.record_support"),
         *("study.response", "study.row_reliability"),
-        *(
-            "report.drawing.net_figures",
-            "report.drawing.terrain_map",
-            "commands.doctor",
-        ),
+        *("report.drawing.terrain_map", "commands.doctor"),
     ),
     "scipy": (
         "numerics.newton",

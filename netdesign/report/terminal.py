@@ -70,7 +70,6 @@ def print_summary(
     language: Language = "en",
     *,
     explain: bool = False,
-    check_of: str = "",
 ) -> None:
     """Print one line per net row, the verdict, what is open, and explanations.
 
@@ -87,8 +86,6 @@ def print_summary(
         Of the summary.
     explain : bool
         Whether to say all that is open, the loads, and what would turn each check.
-    check_of : str
-        Workbook to be checked to see all that is open, where there is no report.
     """
     from rich.text import Text
 
@@ -100,7 +97,7 @@ def print_summary(
         console.print(_build_table(study, words))
     overall = Text(words("show.overall", verdict="")).append_text(_word(verdict))
     console.print(overall.append(f" - {verdict.meaning}"), soft_wrap=True)
-    lines = _list_lines(study, words, is_short=not explain, check_of=check_of)
+    lines = _list_lines(study, words, is_short=not explain)
     print_lines(lines, console)
     if explain:
         print_lines(_explain(study, words), console)
@@ -164,9 +161,7 @@ def _show_row(row: RowStudy, words: Words) -> RowLine:
     )
 
 
-def _list_lines(
-    study: Study, words: Words, *, is_short: bool, check_of: str
-) -> Iterator[str]:
+def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
     """Counts, and what is open."""
     verdicts = [check.verdict for row in study.rows for check in row.checks]
     checks = _count_verdicts(verdicts, words)
@@ -177,8 +172,7 @@ def _list_lines(
     yield from list_reliability(study, words)
     points = list(list_open_points(study, words))
     if is_short:
-        key = "show.points_by_check" if check_of else "show.more_points"
-        yield words(key, count=len(points), site=check_of)
+        yield words("show.more_points", count=len(points))
         return
     for number, point in enumerate(points, 1):
         yield words("show.open_point", number=number, point=point)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
-from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.case_records import CaseRecord
 from netdesign.study.records import CheckRecord, RowStudy
 from netdesign.study.remedies import CLOSE
 
@@ -48,11 +48,6 @@ def find_shown_member(checks: Sequence[CheckRecord]) -> str:
     if shown is None or shown.member in REPORTED_MEMBERS:
         return shown.member if shown else ""
     return BROUGHT_BY.get(shown.member, "")
-
-
-def find_case(check: CheckRecord) -> CasePoint | None:
-    """Case of the ranges that brings the demand; None where the guideline does."""
-    return None if check.governs == "guideline" else check.case
 
 
 def is_far_from_limit(check: CheckRecord) -> bool:

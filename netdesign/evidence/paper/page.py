@@ -13,6 +13,7 @@ from netdesign.coupling.moments import (
     REST_SHARE,
     REST_WAY,
 )
+from netdesign.evidence.paper.mesh_figure import MeshPicture, draw_meshes
 from netdesign.evidence.paper.runs import (
     ASSUMED_SLOPE_DEG,
     ASSUMED_STIFFNESS,
@@ -44,7 +45,6 @@ from netdesign.report.blocks import (
     write_csv,
 )
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
-from netdesign.report.drawing.net_figures import MeshPicture, draw_meshes
 from netdesign.report.page.render import render_page
 from netdesign.report.words import ENGLISH
 from netdesign.units import day_from_second, kilonewton_from_newton
@@ -155,7 +155,7 @@ def _plate_meshes(study: PaperStudy) -> Plate | None:
         name="meshes",
         heading=ENGLISH("paper_plate.meshes"),
         caption=ENGLISH("paper_plate.meshes_caption"),
-        svg=draw_meshes(pictures, ENGLISH),
+        svg=draw_meshes(pictures),
     )
 
 

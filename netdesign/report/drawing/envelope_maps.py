@@ -1,4 +1,4 @@
-"""Drawings of an envelope: maps by inclination, lines with bound, drivers."""
+"""Drawing of an envelope: maps by inclination, or lines with their bound."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
-from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import (
@@ -38,7 +37,6 @@ from netdesign.study.case_records import (
 )
 from netdesign.study.governing import find_shown_member
 from netdesign.study.records import RowStudy
-from netdesign.words.names import name
 
 _MOST_MAPS = 3  # side by side
 _MAPPED = 3  # first quantities of a case: density, friction, inclination
@@ -98,93 +96,76 @@ def _list_further(case: CasePoint) -> list[tuple[str, float]]:
 
 _LEFT, _GAP, _RIGHT = 30.0, 30.0, 42.0  # beside and between panels [pt]
 _HEAD, _PANEL, _FOOT = 25.0, 60.0, 19.0  # heights of a row of panels [pt]
-_LINE_WIDTH = WIDTH / 4  # that lines side by side need; more go below [pt]
-_BESIDE = 0.56 * WIDTH  # of the maps beside a worked check [pt]
+_BESIDE = 0.56 * WIDTH  # of the drawing beside a worked check [pt]
+_ACROSS = 2  # lines side by side; more go below
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
 _FAILED = "×"  # at a case without a result
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
 
 
-def draw_maps(
-    every: Sequence[BoundRecord], words: Words = ENGLISH, width: float = WIDTH
-) -> str:
+def draw_maps(bound: BoundRecord, words: Words = ENGLISH) -> str:
     """SVG of force over density and friction, a column for each inclination.
 
     Returns "" where density or friction does not range. The ring marks the governing
     case, in the map of the inclination nearest to it.
     """
-    bounds = [bound for bound in _list_loaded(every) if bound.maps]
-    if not bounds:
+    if not bound.maps:
         return ""
-    chart = Chart(language=words.language)
-    for place, bound in enumerate(bounds):
-        top = place * (_HEAD + _PANEL + _FOOT)
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, words), bold=True)
-        nearest = min(
-            range(len(bound.maps)),
-            key=lambda k: abs(
-                bound.maps[k].inclination_deg - bound.case["inclination_deg"]
-            ),
-        )
-        low, high = bounds_of(_list_known(bound))
-        frames = [
-            _place_panel(column, len(bound.maps), (top, width), one)
-            for column, one in enumerate(bound.maps)
-        ]
-        pairs = list(zip(frames, bound.maps, strict=True))
-        chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
-        for frame, one in pairs:
-            _name_map(chart, frame, one, words)
-            _mark_failed(chart, frame, one)
-        if any(
-            math.isnan(x) for one in bound.maps for row in one.force_kN for x in row
-        ):
-            told = f"{_FAILED} {words('drawing.no_result')}"
-            chart.text(width - 2.0, top + TEXT_PT + 1.0, told, anchor="end")
-        at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
-        chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
-        _paint_legend(chart, (width, top + _HEAD), low, high)
-    height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    values = [_show_forces(_list_known(bound), bound, words) for bound in bounds]
-    return chart.write(height, _title("drawing.maps", every, values, words), width)
+    chart, at = Chart(language=words.language), bound.case
+    chart.text(2.0, TEXT_PT + 1.0, _name(bound, words), bold=True)
+    nearest = min(
+        range(len(bound.maps)),
+        key=lambda k: abs(bound.maps[k].inclination_deg - at["inclination_deg"]),
+    )
+    known = _list_known(bound)
+    low, high = bounds_of(known)
+    frames = [
+        _place_panel(column, len(bound.maps), one)
+        for column, one in enumerate(bound.maps)
+    ]
+    pairs = list(zip(frames, bound.maps, strict=True))
+    chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
+    for frame, one in pairs:
+        _name_map(chart, frame, one, words)
+        _mark_failed(chart, frame, one)
+    if any(math.isnan(x) for one in bound.maps for row in one.force_kN for x in row):
+        told = f"{_FAILED} {words('drawing.no_result')}"
+        chart.text(_BESIDE - 2.0, TEXT_PT + 1.0, told, anchor="end")
+    governing = at["density_kg_m3"], at["friction_deg"]
+    chart.ring(frames[nearest].x(governing[0]), frames[nearest].y(governing[1]), ACCENT)
+    _paint_legend(chart, low, high)
+    title = _title("drawing.maps", bound, known, words)
+    return chart.write(_HEAD + _PANEL + _FOOT, title, _BESIDE)
 
 
-def draw_lines(
-    every: Sequence[BoundRecord], words: Words = ENGLISH, width: float = WIDTH
-) -> str:
+def draw_lines(bound: BoundRecord, words: Words = ENGLISH) -> str:
     """SVG of force along each quantity through the governing case, with its bound."""
-    bounds = [bound for bound in _list_loaded(every) if bound.lines]
-    if not bounds:
+    if not bound.lines:
         return ""
     chart, top = Chart(language=words.language), 0.0
-    for bound in bounds:
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, words), bold=True)
-        across = round(width / _LINE_WIDTH)
-        for start in range(0, len(bound.lines), across):
-            some = bound.lines[start : start + across]
-            top += _paint_lines(chart, some, bound, (top, width), words)
-    values = [
-        _show_forces([one.force_kN for one in bound.lines], bound, words)
-        for bound in bounds
-    ]
-    return chart.write(top, _title("drawing.lines", every, values, words), width)
+    chart.text(2.0, TEXT_PT + 1.0, _name(bound, words), bold=True)
+    for start in range(0, len(bound.lines), _ACROSS):
+        some = bound.lines[start : start + _ACROSS]
+        top += _paint_lines(chart, some, bound, top, words)
+    forces = [one.force_kN for one in bound.lines]
+    return chart.write(top, _title("drawing.lines", bound, forces, words), _BESIDE)
 
 
 def _paint_lines(
     chart: Chart,
     lines: Sequence[LineRecord],
     bound: BoundRecord,
-    room: tuple[float, float],
+    top: float,
     words: Words,
 ) -> float:
     """Paint lines side by side, all to the scale of their member; their height [pt]."""
     low, high = bounds_of([*(one.force_kN for one in bound.lines)])
     high = max(high, bound.upper_bound_kN)
     margin = 0.06 * (high - low) or 0.01 * high
-    names, across = 1, round(room[1] / _LINE_WIDTH)
+    names = 1
     for column, one in enumerate(lines):
         frame = Frame(
-            **_panel(column, min(len(bound.lines), across), room),
+            **_panel(column, min(len(bound.lines), _ACROSS), top),
             x_low=one.values[0],
             x_high=one.values[-1],
             y_low=low - margin,
@@ -238,11 +219,9 @@ def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
     _name_axis(chart, frame, "ρ [kg/m³]")
 
 
-def _paint_legend(
-    chart: Chart, corner: tuple[float, float], low: float, high: float
-) -> None:
+def _paint_legend(chart: Chart, low: float, high: float) -> None:
     """Bar of all shades, with a few round forces beside it."""
-    right, top = corner
+    right, top = _BESIDE, _HEAD
     left, wide, high_pt = right - _RIGHT + 8.0, 9.0, _PANEL - 14.0
     step = high_pt / SHADES
     chart.tiles(
@@ -286,11 +265,9 @@ def _paint_line(
     return _name_axis(chart, frame, name_heading(words, one.key))
 
 
-def _place_panel(
-    column: int, columns: int, room: tuple[float, float], one: MapRecord
-) -> Frame:
+def _place_panel(column: int, columns: int, one: MapRecord) -> Frame:
     return Frame(
-        **_panel(column, columns, room),
+        **_panel(column, columns, 0.0),
         x_low=one.density_kg_m3[0],
         x_high=one.density_kg_m3[-1],
         y_low=one.friction_deg[0],
@@ -298,10 +275,9 @@ def _place_panel(
     )
 
 
-def _panel(column: int, columns: int, room: tuple[float, float]) -> dict[str, float]:
-    """Sides of a panel below a top on paper of a width [pt]."""
-    top, paper = room
-    width = (paper - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns
+def _panel(column: int, columns: int, top: float) -> dict[str, float]:
+    """Sides of a panel below a top [pt]."""
+    width = (_BESIDE - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns
     return {
         "left": _LEFT + column * (width + _GAP),
         "top": top + _HEAD,
@@ -339,40 +315,25 @@ def _list_loaded(bounds: Sequence[BoundRecord]) -> list[BoundRecord]:
 
 
 def _name(bound: BoundRecord, words: Words) -> str:
-    """Force of a member; tension of a net alone, which is per metre."""
-    key = f"{bound.quantity}_kN"
-    if key in QUANTITIES:
-        return name_heading(words, key)
-    end = words.show(name("end", bound.quantity))
-    return words("drawing.net_tension", end=end)
+    """Force of a member."""
+    return name_heading(words, f"{bound.quantity}_kN")
 
 
 def _title(
-    what: str, every: Sequence[BoundRecord], values: Sequence[str], words: Words
+    what: str, bound: BoundRecord, forces: Sequence[Sequence[float]], words: Words
 ) -> str:
     """Name and numbers of a drawing for those who cannot see it."""
-    named = words(what)
-    if len(every) == 1:
-        member = _name(every[0], words)
-        named = words("drawing.of_member", member=member, what=named)
-    return words("drawing.with_values", what=named, values=tuple(values))
-
-
-def _show_forces(
-    forces: Sequence[Sequence[float]],
-    bound: BoundRecord,
-    words: Words,
-) -> str:
-    """Least and largest of the drawn forces, and where the largest of all is."""
+    member = _name(bound, words)
+    named = words("drawing.of_member", member=member, what=words(what))
     low, high = bounds_of(forces)
-    at = ", ".join(words.name_values(bound.case.items()))
-    return words(
+    told = words(
         "drawing.forces_in_words",
-        member=_name(bound, words),
+        member=member,
         forces=words.show_band("max_kN", low, high),
         largest=words.show_number("max_kN", bound.max_kN),
-        case=at,
+        case=", ".join(words.name_values(bound.case.items())),
     )
+    return words("drawing.with_values", what=named, values=(told,))
 
 
 def draw_envelope(row: RowStudy, words: Words) -> str:
@@ -385,5 +346,5 @@ def draw_envelope(row: RowStudy, words: Words) -> str:
     if not members:
         return ""
     first = find_shown_member(row.checks)
-    shown = [min(members, key=lambda one: one.quantity != first)]
-    return draw_maps(shown, words, _BESIDE) or draw_lines(shown, words, _BESIDE)
+    shown = min(members, key=lambda one: one.quantity != first)
+    return draw_maps(shown, words) or draw_lines(shown, words)

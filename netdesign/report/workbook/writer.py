@@ -204,10 +204,10 @@ class Book:
         form = self.text(font_color=_LINK, underline=1)
         sheet.write_url(*place, f"internal:{target}", form, text[:_LONGEST_LINK])
 
-    def link_back(self, sheet: Any, place: tuple[int, int] = (1, 0)) -> None:
+    def link_back(self, sheet: Any) -> None:
         """Lead back to the first sheet."""
         text = f"← {self.name('decision')}"
-        self.link(sheet, place, self.refer("decision", "A1"), text)
+        self.link(sheet, (1, 0), self.refer("decision", "A1"), text)
 
     def word(self, verdict: Verdict) -> str:
         """Word of a verdict in the language of the workbook."""

@@ -52,10 +52,10 @@ AXES = {
 
 def draw_all(rng: random.Random, words) -> list[str]:
     """Every kind of drawing once, of values drawn with ``rng``."""
-    envelope = build_envelope(rng)
+    bounds = build_envelope(rng).bounds
     return [
         draw_section(build_section(rng), "s", words),
-        *(draw(envelope.bounds, words) for draw in (draw_maps, draw_lines)),
+        *(draw(one, words) for draw in (draw_maps, draw_lines) for one in bounds),
         draw_panel(build_panel(rng), words),
         draw_chains(build_chains(rng), words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
@@ -66,7 +66,7 @@ def draw_all(rng: random.Random, words) -> list[str]:
 def draw_grid(rng: random.Random, words) -> list[str]:
     """The grid of cases."""
     row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
-    return [draw_maps(bound_grid(row), words)]
+    return [draw_maps(one, words) for one in bound_grid(row)]
 
 
 MODES = {

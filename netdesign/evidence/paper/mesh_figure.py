@@ -1,4 +1,4 @@
-"""Drawings of one solution: forces along the net, stick and slip, deformed mesh."""
+"""Deformed meshes of snow against a net, shaded by density."""
 
 from __future__ import annotations
 
@@ -18,19 +18,14 @@ from netdesign.report.drawing.plain_svg import (
     shade,
     show_place,
 )
-from netdesign.report.words import ENGLISH, Words
+from netdesign.report.words import ENGLISH
 
-_FORCES_PT, _SLIP_PT = 208.0, 136.0  # heights of the drawings [pt]
-_TOP, _BELOW = 38.0, 32.0  # above and below a chart [pt]
-_CHART = 0.55 * WIDTH  # where the chart beside the net begins [pt]
-_LONGEST_ARROW = 0.42  # heights of the net
 _STACKED = 0.84  # width of meshes below each other, so that five fit on a page
 _SCALE_PT = 150.0  # width of the density scale [pt]
 _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
 # Share of the snow's area, at each end, that the shades need not tell apart: one that
 # is all but empty at the overhanging surface would flatten all others.
 _OUTLIERS = 0.005
-_NO_FORCE = 1e-9  # of the largest pressure: below it a ratio means nothing
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -44,7 +39,7 @@ class MeshPicture:
     face: Floats  # net or wall, shape (2, k) [m]
 
 
-def draw_meshes(pictures: Sequence[MeshPicture], words: Words = ENGLISH) -> str:
+def draw_meshes(pictures: Sequence[MeshPicture]) -> str:
     """SVG of deformed meshes below each other, to one scale of length and density."""
     wide = max(float(np.ptp(picture.nodes[0])) for picture in pictures)
     tall = max(float(picture.nodes[1].max()) for picture in pictures)
@@ -54,23 +49,18 @@ def draw_meshes(pictures: Sequence[MeshPicture], words: Words = ENGLISH) -> str:
     each = scale * tall * 1.06 + 22.0
     quantiles = [_find_ends(picture) for picture in pictures]
     limits = (min(low for low, _ in quantiles), max(high for _, high in quantiles))
-    sketch = Chart(language=words.language)
+    sketch = Chart()
     for place, picture in enumerate(pictures):
         base = np.array([(wide * 1.03 - right) * scale, each * (place + 1) - 6.0])
         sketch.text(2.0, each * place + TEXT_PT + 2.0, picture.title, bold=True)
         _draw_mesh(sketch, picture, base, scale, limits)
     height = each * len(pictures) + 36.0
-    _draw_scale(sketch, limits, height, words)
-    values = (_show_range("net_drawing.density", np.array(limits), words),)
-    what = words("net_drawing.mesh")
-    title = words("drawing.with_values", what=what, values=values)
+    _draw_scale(sketch, limits, height)
+    density = ENGLISH("net_drawing.density")
+    values = (ENGLISH("show.label", label=density, text=ENGLISH.show_range(limits)),)
+    what = ENGLISH("net_drawing.mesh")
+    title = ENGLISH("drawing.with_values", what=what, values=values)
     return sketch.write(height, title)
-
-
-def _show_range(key: str, values: Floats, words: Words) -> str:
-    """Least and largest of some values under their name."""
-    text = words.show_range([float(values.min()), float(values.max())])
-    return words("show.label", label=words(key), text=text)
 
 
 def _find_ends(picture: MeshPicture) -> tuple[float, float]:
@@ -126,13 +116,11 @@ def _shade(density: float, limits: tuple[float, float]) -> str:
     return shade(density, low - 0.15 * (high - low), high)
 
 
-def _draw_scale(
-    sketch: Chart, limits: tuple[float, float], height: float, words: Words
-) -> None:
+def _draw_scale(sketch: Chart, limits: tuple[float, float], height: float) -> None:
     """Shades of the densities, three of them named."""
     low, high = limits
     if high - low < _ONE_DENSITY:
-        told = words("net_drawing.one_density", density=low)
+        told = ENGLISH("net_drawing.one_density", density=low)
         sketch.text(6.0, height - 9.0, told)
         return
     step = _SCALE_PT / SHADES
@@ -142,4 +130,4 @@ def _draw_scale(
     for share in (0.0, 0.5, 1.0):
         at, shown = 10.0 + share * _SCALE_PT, f"{low + share * (high - low):.0f}"
         sketch.text(at, height - 4.0, shown, anchor="middle")
-    sketch.text(24.0 + _SCALE_PT, height - 15.5, words("net_drawing.density"))
+    sketch.text(24.0 + _SCALE_PT, height - 15.5, ENGLISH("net_drawing.density"))
