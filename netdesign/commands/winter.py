@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from netdesign.files.winter import WinterRun
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
-    from netdesign.words.catalogue import Language
     from netdesign.words.message import Message
 
 _FOLDER = "winter"
@@ -69,7 +68,6 @@ def winter(site_file: Path | None, **asked: Any) -> None:
         render_winter,
     )
 
-    language: Language = asked["language"]
     given = [] if asked["heights"] is None else [asked["heights"]]
     require_source(site_file, asked, *given)
     folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
@@ -84,9 +82,9 @@ def winter(site_file: Path | None, **asked: Any) -> None:
         progress.enter("winters")
         run = _solve(chosen, station, runner, asked)
     failed = print_faults(runner.faults)
-    document = write_winter_document(run, language)
+    document = write_winter_document(run)
     if folder:
-        write_outputs(folder, render_winter(document, language), asked)
+        write_outputs(folder, render_winter(document), asked)
     if asked["as_json"]:
         print_document(document)
     else:

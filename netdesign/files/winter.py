@@ -31,19 +31,18 @@ from netdesign.winter.statistics import (
     Trend,
     fit_gumbel,
 )
-from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 
 def _write_measured(
-    run: WinterRun, row_id: str, compared: Sequence[Comparison], language: Language
+    run: WinterRun, row_id: str, compared: Sequence[Comparison]
 ) -> dict[str, Any]:
     """Parts ``measured`` and ``not_compared`` of a row, by its comparisons."""
     series = run.winter.series
     unused = explain_unused(run.site, row_id, compared)
     return {
         "measured": [_write_compared(one, series) for one in compared if one.computed],
-        "not_compared": [render(one, language) for one in unused],
+        "not_compared": [str(one) for one in unused],
     }
 
 
@@ -121,15 +120,13 @@ class WinterRun:
     step: int
 
 
-def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str, Any]:
-    """Document of all rows; sentences in one language.
+def write_winter_document(run: WinterRun) -> dict[str, Any]:
+    """Document of all rows; its sentences are English.
 
     Parameters
     ----------
     run : WinterRun
         What was solved.
-    language : str
-        Of its sentences.
     """
     station, series = run.winter, run.winter.series
     density = run.site.ranges["density"]
@@ -152,11 +149,10 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
         "days_between": run.step,
         "check_density_kg_m3": [density.low, density.high],
         "ranges_sheet": run.site.ranges_sheet,
-        "notes": [render(note, language) for note in station.notes],
+        "notes": [str(note) for note in station.notes],
         "air_temperatures_C": _write_temperatures(station),
         "rows": [
-            _write_row(row, result, run, language)
-            | _write_measured(run, row.id, compared, language)
+            _write_row(row, result, run) | _write_measured(run, row.id, compared)
             for row, result, compared in zip(
                 run.rows, run.results, run.compared, strict=True
             )
@@ -174,9 +170,7 @@ def _write_temperatures(station: StationWinter) -> dict[str, float]:
     }
 
 
-def _write_row(
-    row: WinterRow, result: RowWinters, run: WinterRun, language: Language
-) -> dict[str, Any]:
+def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, Any]:
     scene, net = row.scene, row.scene.net
     packs = run.packs.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
@@ -195,10 +189,10 @@ def _write_row(
         for maximum in result.maxima
     ]
     for winter, maximum in zip(winters, result.maxima, strict=True):
-        winter["why"] = render(_explain(winter, maximum), language)
+        winter["why"] = str(_explain(winter, maximum))
         for day in winter["curve"]:
             reason = day["reason"]
-            day["reason"] = render(reason, language) if reason else ""
+            day["reason"] = str(reason) if reason else ""
     return {
         "id": row.id,
         "height_factor": row.height_factor,
@@ -211,13 +205,11 @@ def _write_row(
         "slip_length_m": scene.ground.slip_length,
         "winters": winters,
         "statistics": _write_statistics(result.sample.fit, result.extreme_values),
-        "statistics_notes": [
-            render(one, language) for one in _note_sample(result.sample)
-        ],
+        "statistics_notes": [str(one) for one in _note_sample(result.sample)],
         "winters_left_out": result.sample.left_out,
-        "trend": _write_trend(result.trend, language),
-        "equivalent_density": _write_range(result, run, language),
-        "snow_heights": _write_heights(row, winters, run, language),
+        "trend": _write_trend(result.trend),
+        "equivalent_density": _write_range(result, run),
+        "snow_heights": _write_heights(row, winters, run),
         "fit": None,  # of the schema: forces are no longer fitted
     }
 
@@ -381,12 +373,12 @@ def _write_value(
     return {"period_a": period, **shown, "is_gev_far": is_far}
 
 
-def _write_trend(trend: Trend | None, language: Language) -> dict[str, Any]:
+def _write_trend(trend: Trend | None) -> dict[str, Any]:
     """Trend of the maxima, and the sentence that says what it means."""
     if trend is None:
         keys = ("winters", "kendall_tau", "p_value", "slope_kN_per_m_per_decade")
         told = say("winter_trend.none", least=LEAST_FOR_TREND)
-        return {**dict.fromkeys(keys), "is_shown": False, "why": render(told, language)}
+        return {**dict.fromkeys(keys), "is_shown": False, "why": str(told)}
     slope = _YEARS * kilonewton_from_newton(trend.slope)
     shown = math.ceil(1e3 * trend.p_value) / 1e3  # "at most 0.001", never 0
     told = say(_choose_meaning(trend), count=trend.count, p=shown, slope=slope)
@@ -396,7 +388,7 @@ def _write_trend(trend: Trend | None, language: Language) -> dict[str, Any]:
         "p_value": trend.p_value,
         "slope_kN_per_m_per_decade": slope,
         "is_shown": trend.is_shown,
-        "why": render(told, language),
+        "why": str(told),
     }
 
 
@@ -410,9 +402,7 @@ def _choose_meaning(trend: Trend) -> str:
 _YEARS = 10.0  # of a decade
 
 
-def _write_range(
-    result: RowWinters, run: WinterRun, language: Language
-) -> dict[str, Any] | None:
+def _write_range(result: RowWinters, run: WinterRun) -> dict[str, Any] | None:
     """Range of density that the winters give, and the sentence that justifies it."""
     found = result.density_range
     if found is None:
@@ -431,7 +421,7 @@ def _write_range(
     return {
         "low_kg_m3": found[0],
         "high_kg_m3": found[1],
-        "justification": render(text, language),
+        "justification": str(text),
     }
 
 
@@ -442,7 +432,6 @@ def _write_heights(
     row: WinterRow,
     winters: Sequence[Mapping[str, Any]],
     run: WinterRun,
-    language: Language,
 ) -> dict[str, Any] | None:
     """Annual maxima of the snow height at a row, as sheet Uncertainty takes them."""
     heights = [
@@ -469,7 +458,7 @@ def _write_heights(
         "variation": fit.variation,
         "predictive_variation": variation,
         "mean_ratio": ratio,
-        "text": render(text, language),
+        "text": str(text),
     }
 
 

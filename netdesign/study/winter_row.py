@@ -67,7 +67,7 @@ def require_plausible_heights(
         if not _PLAUSIBLE[0] <= share <= _PLAUSIBLE[1]:
             raise ModelError(
                 say(
-                    "winter.unlikely_heights",
+                    "winter_sheet.unlikely_heights",
                     highest=highest,
                     row=row.id,
                     share=share,

@@ -2,10 +2,7 @@
 
 import json
 
-import pytest
-
 from netdesign.commands.winter import _is_proven
-from netdesign.words.catalogue import LANGUAGES, set_marks
 from tests.short_example import write_short_example
 
 QUICK = ("--accuracy", "0.05", "--jobs", "1", "--every", "60", "--quiet")
@@ -35,14 +32,13 @@ def test_a_bound_below_the_largest_maximum_is_enough():
     assert found == [True, False, True]
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_page_and_terminal_say_at_most(call, tmp_path, language):
+def test_page_and_terminal_say_at_most(call, tmp_path):
     site, folder = tmp_path / "site.xlsx", tmp_path / "out"
     write_short_example(site, ["R2"])
     heights = write_winters(tmp_path / "thin.csv", [2.6, 0.9])
     ended = call(
         "winter", site, "--heights", heights, "--out", folder, "--accept-heights",
-        "--language", language, *QUICK,
+        *QUICK,
     )  # fmt: skip
     document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
     (row,) = document["rows"]
@@ -56,7 +52,7 @@ def test_page_and_terminal_say_at_most(call, tmp_path, language):
     assert [thin[one] is None for one in none] == [thin["governing_date"] is None] * 3
     assert ended.code == 0
     page = (folder / "winter.html").read_text(encoding="utf-8")
-    shown = set_marks(f"{bound:.1f}", language)
+    shown = f"{bound:.1f}"
     assert f"≤ {shown}" in page
     assert thin["why"] in ended.out
     assert shown in thin["why"]

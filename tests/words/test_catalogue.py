@@ -71,6 +71,7 @@ ENGLISH_ONLY = (
     "files",
     "paper",
     "validation",
+    "winter",
 )
 FOLDER = PACKAGE / "words"
 

@@ -29,25 +29,20 @@ from netdesign.report.blocks import (
 from netdesign.report.drawing.measured_figure import draw_measured, find_detail
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.page.render import render_page
-from netdesign.report.words import MISSING, Words, show_member, show_text
-from netdesign.words.catalogue import Language
+from netdesign.report.words import ENGLISH, MISSING, Words, show_member, show_text
 
 PAGE_FILE, DOCUMENT_FILE = "winter.html", "winter.json"
 
 
-def render_winter(
-    document: Mapping[str, Any], language: Language = "en"
-) -> dict[str, bytes]:
+def render_winter(document: Mapping[str, Any]) -> dict[str, bytes]:
     """Contents of both files by name.
 
     Parameters
     ----------
     document : mapping
         As ``files.winter.write_winter_document`` gives it.
-    language : str
-        Of the page.
     """
-    words = Words(language)
+    words = ENGLISH
     site = show_text(document["site"]["name"] or document["site"]["file"])
     kind = words("winter_page.title")
     told = (show_text(note) for note in document["notes"])
@@ -73,7 +68,7 @@ def render_winter(
     text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
     return {
         DOCUMENT_FILE: text.encode(),
-        PAGE_FILE: render_page(blocks, f"{site} - {kind}", language).encode(),
+        PAGE_FILE: render_page(blocks, f"{site} - {kind}", "en").encode(),
     }
 
 
