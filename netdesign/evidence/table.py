@@ -212,7 +212,6 @@ ERRORS = Kind(
 )
 CHANGES = Kind(show=_show_change, quantity="change_percent")
 INCLINATIONS = Kind(show=_show_given, quantity="inclination_deg")
-FRICTIONS = Kind(show=_show_given, quantity="friction_deg")
 GIVEN = Kind(show=_show_given)
 TIMES = Kind(show=_show_time)
 TEXTS = Kind(show=lambda text: text_cell(text), is_number=False)

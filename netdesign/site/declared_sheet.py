@@ -56,11 +56,6 @@ def split_replacement(text: str) -> tuple[str, str] | None:
     return f"{found['sheet']}!{address}", value.strip()
 
 
-def write_replacement(cell: str, value: str) -> str:
-    """The same as an option has it: with a point, which no shell takes for its own."""
-    return f"{'.'.join(cell.rsplit('!', 1))}={value}"
-
-
 def replace_cells(
     workbook: Workbook, instead: Mapping[str, str]
 ) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
