@@ -65,7 +65,6 @@ __all__ = [
     "read_study",
     "search_rows",
     "solve_panel",
-    "solve_rigid",
     "solve_steady",
     "solve_transient",
     "write_reports",

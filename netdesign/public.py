@@ -21,7 +21,6 @@ from netdesign.coupling.scene import SolverSettings as SolverSettings
 from netdesign.coupling.solution import FailedSolution as FailedSolution
 from netdesign.coupling.solution import Solution as Solution
 from netdesign.coupling.solution import WallSolution as WallSolution
-from netdesign.coupling.steady.rigid import solve_rigid as solve_rigid
 from netdesign.coupling.steady.solve import solve_steady as solve_steady
 from netdesign.envelope.ranges import Interval as Interval
 from netdesign.envelope.ranges import Ranges as Ranges

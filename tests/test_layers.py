@@ -86,7 +86,6 @@ THIRD_PARTY = {
     "scipy": (
         "numerics.newton",
         "snow.*",
-        "resistance.fractile",
         "reliability.*",
         "winter.maxima",
         "winter.statistics",

@@ -20,15 +20,14 @@ from netdesign.words.message import say
 _LARGEST_FRICTION = np.tan(np.radians(89.0))
 
 
-def compute_end_directions(points: Floats, *, is_curved: bool) -> tuple[Floats, Floats]:
+def compute_end_directions(points: Floats) -> tuple[Floats, Floats]:
     """Unit vectors in which the net leaves its foot and its head.
 
     Parameters
     ----------
     points : ndarray, shape (2, n + 2)
-        Foot, nodes and head [m].
-    is_curved : bool
-        Segments are parabolas through two ends and a node between; else straight.
+        Foot, nodes and head [m]; segments are parabolas through two ends and a node
+        between.
 
     Returns
     -------
@@ -37,7 +36,7 @@ def compute_end_directions(points: Floats, *, is_curved: bool) -> tuple[Floats, 
     """
     directions = []
     for first, second, third in (points[:, :3].T, points[:, :-4:-1].T):
-        along = 4.0 * second - 3.0 * first - third if is_curved else second - first
+        along = 4.0 * second - 3.0 * first - third
         directions.append(along / np.hypot(*along))
     foot, head = directions
     return foot, head

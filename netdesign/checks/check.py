@@ -10,8 +10,8 @@ from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.checks.forces import rate
 from netdesign.checks.loader import Standard, StandardValue
 from netdesign.checks.result import CheckResult, Declaration, GivenResistance
-from netdesign.checks.routes import TestedResistance, find_tested_resistance
 from netdesign.checks.schema import ACTION_FACTOR, list_action_factors
+from netdesign.checks.tested import find_tested_resistance
 from netdesign.outcome import Verdict
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -104,7 +104,6 @@ def check_member(
         verdict=verdict,
         reason=_explain(verdict, gaps, is_slack=action.high == 0.0),
         used=used,
-        tested=find_tested(resistance, standard),
     )
 
 
@@ -213,27 +212,16 @@ def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity
     Without a value, with the reason, where it cannot be known or used.
     """
     what, source = _name_place(resistance), resistance.source
-    value, tested = resistance.value, find_tested(resistance, standard)
+    value, tests = resistance.value, resistance.tests
     if value is not None:
         if not 0.0 < value < math.inf:
             lack = say("check.resistance_not_usable", value=value, what=what)
             return given("R_k", None, "kN", source, lack=lack)
         return given("R_k", kilonewton_from_newton(value), "kN", source)
-    if tested is None:
+    if tests is None:
         lack = resistance.lack or say("check.no_resistance", what=what)
         return given("R_k", None, "kN", source, lack=lack)
-    return tested.counting
-
-
-def find_tested(
-    resistance: GivenResistance, standard: Standard
-) -> TestedResistance | None:
-    """Resistance from tests by every way; None where it is not from tests."""
-    tests = resistance.tests
-    if tests is None or resistance.value is not None:
-        return None
-    what = _name_place(resistance)
-    return find_tested_resistance(tests, standard, resistance.source, what)
+    return find_tested_resistance(tests, standard, source, what)
 
 
 def _name_place(resistance: GivenResistance) -> Message:

@@ -232,11 +232,6 @@ def resist_by_tests(
     return smallest(mean / on_mean, least / on_least).named("R_k", "kN", "(R1)")
 
 
-def resist_by_fractile(median: Quantity, over: Quantity) -> Quantity:
-    """Pull-out resistance from tests, as a fractile of their distribution."""
-    return (median / over).named("R_k", "kN", "(R15)")
-
-
 def rate(
     force: Quantity, on_action: Quantity, resistance: Quantity, on_resistance: Quantity
 ) -> Quantity:

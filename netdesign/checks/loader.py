@@ -21,7 +21,6 @@ from netdesign.checks.schema import (
     Floor,
     LimitsFile,
     ModelFile,
-    Route,
     SharedSum,
     TableEntry,
     TablesFile,
@@ -136,7 +135,6 @@ class Standard:
     what it says of itself; "" for none.
     ``floor`` is what no demand lies below: the guideline's load, unless the profile
     says "none"; ``is_floor_overruled`` tells that somebody chose the other one,
-    ``route`` which way from tests to a characteristic resistance counts,
     ``shared_sum`` how the pulls of two guys on one anchor are added,
     ``is_default`` that nobody named the profile; ``not_checked`` names the topics that
     others must check.
@@ -154,7 +152,6 @@ class Standard:
     choice: str = ""
     choice_text: str = ""
     floor: Floor = "guideline"
-    route: Route = "correlation"
     shared_sum: SharedSum = "vector"
     is_floor_overruled: bool = False
     is_default: bool = False
@@ -257,10 +254,9 @@ def _load_folder(folder: Path) -> Standard:
     if choice is not None:
         tables = _take_from_choice(tables, choice.table)
     return Standard(
-        **document.model_dump(exclude={"load", "scope", "tests", "anchors"}),
+        **document.model_dump(exclude={"load", "scope", "anchors"}),
         choice_text=choice.text if choice else "",
         floor=document.load.floor,
-        route=document.tests.route,
         shared_sum=document.anchors.sum,
         not_checked=tuple(
             topic

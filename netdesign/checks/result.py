@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.steps import list_named
-from netdesign.checks.routes import TestedResistance
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.words.message import Message, say
@@ -119,8 +118,6 @@ class CheckResult:
         Utilisation with all that it follows from: of a check of a force.
     declared : Proof or None
         Where it is said to be proven, whatever the verdict.
-    tested : TestedResistance or None
-        Resistance from tests by every way; None where it is not from tests.
     is_unbounded : bool
         Nothing is left to resist the demand: its utilisation is infinite, and no
         number.
@@ -135,7 +132,6 @@ class CheckResult:
     used: Quantity | None = None
     declared: Proof | None = None
     is_unbounded: bool = False
-    tested: TestedResistance | None = None
 
     def find(self, symbol: str) -> Quantity | None:
         """Quantity of the calculation under a symbol; None if it has no value."""

@@ -42,7 +42,6 @@ ANCHOR_DISTANCE = "anchor.distance.min"
 POST_EFFICIENCY = "post.efficiency"
 # On the strength of the ground that an anchor may pull out with itself.
 SOIL_COHESION, SOIL_FRICTION = "soil.cohesion", "soil.friction"
-TEST_SCATTER = "tests.scatter"  # coefficient of variation, where it is known
 TEST_COUNT = "tests.count"  # of each anchor type in each ground
 ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
 MODES = (
@@ -53,8 +52,6 @@ MODES = (
 BASES = ("tested", "computed", "declared")
 # What no demand lies below: the guideline's load, or nothing.
 Floor = Literal["guideline", "none"]
-# Way from tests to a characteristic resistance.
-Route = Literal["correlation", "scatter_known", "scatter_unknown"]
 # How the pulls of two guys on one anchor are added.
 SharedSum = Literal["vector", "scalar"]
 
@@ -111,7 +108,6 @@ MODEL_UNITS = {
     "end.isolated_gap": "m",
     LATERAL_SHARE: "-",
     POST_EFFICIENCY: "-",
-    TEST_SCATTER: "-",
     TEST_COUNT: "-",
 }
 # Values by a count, such as the number of tests; the counts need no gap.
@@ -169,12 +165,6 @@ class ScopeTable(_Table):
     corrosion: Checked = "checked"  # of anchors and ropes over the design life
 
 
-class RouteTable(_Table):
-    """``tests``: which way from tests to a characteristic resistance counts."""
-
-    route: Route = "correlation"
-
-
 class AnchorsTable(_Table):
     """``anchors``: how the pulls of two guys on one anchor are added."""
 
@@ -196,7 +186,6 @@ class DocumentFile(_Table):
     choice: str = ""  # one of those in choices.toml
     load: LoadTable = LoadTable()
     scope: ScopeTable = ScopeTable()
-    tests: RouteTable = RouteTable()
     anchors: AnchorsTable = AnchorsTable()
 
 

@@ -69,7 +69,6 @@ def check(site_file: Path | None, **asked: Any) -> None:
     _describe_other_profile(asked["standards"], site)
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
-        method=asked["method"],
         jobs=asked["jobs"] or os.cpu_count() or 1,
         started=format_time(),
         has_reliability=asked["reliability"],

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from netdesign.envelope.rows import RowTask
     from netdesign.report.words import Words
     from netdesign.solving.runner import Runner
-    from netdesign.solving.solve import Settings
 
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
@@ -61,19 +60,15 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     ranging = [one.name or "" for one in _list_options()]
     given = {name: asked[name] for name in ranging if asked[name] is not None}
     counted = _require_usable(given)
-    # its settings are those of what confirms
-    read = read_scene_file(
-        scene_file, "transient" if confirm == "transient" else "steady"
-    )
+    read = read_scene_file(scene_file, "steady")
     spans = _build_ranges(given)
     require_valid(read.scene, spans)
     require_places(out, (_DOCUMENT,), asked)
     if read.support is not None and not asked["quiet"]:
         tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
-    with open_phases(_list_phases(given, confirm), asked) as (runner, progress):
-        confirming = None if confirm == "none" else read.settings
-        task = _build_task(read.scene, confirming, spans, asked["accuracy"])
+    with open_phases(_list_phases(given), asked) as (runner, progress):
+        task = _build_task(read.scene, confirm, spans, asked["accuracy"])
         counts = {name: one.count for name, one in given.items()} if counted else {}
         document = _solve(task, counts, runner, progress, start)
         progress.enter("outputs")
@@ -114,10 +109,9 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
     return all(counts)
 
 
-def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
+def _list_phases(given: dict[str, GivenRange]) -> list[Phase]:
     """Phases with about so many cases; confirmations are part of a search."""
     from netdesign.edge.progress import Phase
-    from netdesign.study.cases import HISTORY
 
     counts = [one.count for one in given.values() if one.count]
     number = math.prod(counts) if counts else _USUAL_CASES * len(given)
@@ -128,9 +122,6 @@ def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
             cases=number,
         )
     ]
-    if confirm == "transient" and not counts:
-        words = say("phase.histories")
-        phases.append(Phase(key="histories", words=words, cases=3, cost=HISTORY))
     return [*phases, Phase(key="outputs", words=say("phase.outputs"), cases=0)]
 
 
@@ -153,22 +144,19 @@ def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
     )
 
 
-def _build_task(
-    scene: Scene, confirming: Settings | None, ranges: Ranges, accuracy: float
-) -> RowTask:
+def _build_task(scene: Scene, confirm: str, ranges: Ranges, accuracy: float) -> RowTask:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.envelope.rows import RowTask, refine_settings
     from netdesign.search.maxima import SearchSettings
 
     settings = SolverSettings(accuracy=accuracy)
-    is_mesh = isinstance(confirming, SolverSettings)
     return RowTask(
         scene=scene,
         ranges=ranges,
         layout=None,
         settings=settings,
         search=SearchSettings(gap=accuracy),
-        confirmed_by=refine_settings(settings) if is_mesh else confirming,
+        confirmed_by=refine_settings(settings) if confirm == "mesh" else None,
     )
 
 
@@ -223,9 +211,8 @@ def _describe_extreme(one: dict[str, Any], words: Words) -> Message:
 
 
 def _describe_confirmation(again: dict[str, Any]) -> Message:
-    is_steady = again["method"] == "steady"
     return say(
-        "envelope.confirmed_steady" if is_steady else "envelope.confirmed_transient",
+        "envelope.confirmed_again",
         force=again["confirmed_kN_per_m"],
         elements=again["elements"],
         difference=again["difference_percent"],

@@ -167,12 +167,9 @@ def open_phases(
 
 
 def follow_runner(progress: RunProgress, runner: Runner) -> None:
-    """Count every case of a runner; the first history begins their phase."""
-    from netdesign.solving.solve import method_of
+    """Count every case of a runner."""
 
     def ask(jobs: Sequence[Job]) -> None:
-        if any(method_of(job.settings) != "steady" for job in jobs):
-            progress.enter("histories")
         progress.ask(len(jobs))
 
     runner.on_ask, runner.on_done = ask, progress.count_case

@@ -60,7 +60,6 @@ def show_profile(name: str, *, language: Language) -> None:
         tell(say("standard.choice", choice=profile.choice))
         click.echo(show_own(words, profile.choice_text))
     tell(say(f"floor.profile_{profile.floor}"))
-    tell(say("standard.route", route=name_of("route", profile.route)))
     tell(say("standard.shared_sum", sum=name_of("shared_sum", profile.shared_sum)))
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")

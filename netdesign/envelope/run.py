@@ -68,8 +68,6 @@ class CaseResult:
         State of snow and net.
     fault : Fault or None
         What failed in the program, where it was the program.
-    compared : Compared or None
-        The steady state and the history of a case that was followed in time.
     panel : PanelForces, FailedPanel or None
         The panel between posts, or why it has no forces in this case; None of a row
         without one.
@@ -82,7 +80,6 @@ class CaseResult:
     anchors: AnchorForces | None = None
     solution: SolvedState | None = None
     fault: Fault | None = None
-    compared: Compared | None = None
     panel: PanelForces | FailedPanel | None = None
 
     @property
@@ -96,23 +93,6 @@ class CaseResult:
         if self.is_converged and isinstance(self.panel, FailedPanel):
             return self.panel.reason
         return self.reason
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Compared:
-    """A case at rest and followed in time, both converged."""
-
-    steady: CaseResult
-    history: CaseResult
-
-    def exceeds(self, member: str) -> bool:
-        """The history's force is larger by more than both state as their errors.
-
-        Either may have no forces by the panel between posts.
-        """
-        history = self.history.member_forces.get(member)
-        steady = self.steady.member_forces.get(member)
-        return bool(history and steady and history.low > steady.high)
 
 
 def run_cases(

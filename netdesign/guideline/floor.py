@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
@@ -22,7 +22,7 @@ from netdesign.guideline.comparison import (
 from netdesign.guideline.load_model import LoadModel, SnowLoad
 from netdesign.guideline.net_pull import NetPull
 from netdesign.numerics.arrays import Floats
-from netdesign.numerics.climb import build_grid, find_largest
+from netdesign.numerics.climb import find_largest
 from netdesign.outcome import ModelError
 from netdesign.structure.anchors import (
     AnchorForces,
@@ -39,10 +39,6 @@ SCAN_PARTS = 8
 _LOADED = (*CARRYING_MEMBERS, NetPart.MESH)
 # Keys of what is sought at head and foot beside their forces.
 SPANS = ("head_pull", "least_tension", "foot_least", "foot_largest")
-
-# Share of a member's force and of the pull on the head, by which a grid alone is taken
-# to miss the largest force at most, and by which rounding changes any.
-_MISSED, _ROUNDING = 0.03, 1e-6
 
 Span = tuple[float, float]
 
@@ -163,22 +159,6 @@ class Floor:
         return next((one for one in self.forces if one.member == member), None)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FloorEnd:
-    """Forces that those of a floor are not below, or not above.
-
-    Attributes
-    ----------
-    of_members : mapping of str to float
-        Characteristic, on a support inside the row [N].
-    pull : float
-        Of the net on a head [N].
-    """
-
-    of_members: Mapping[str, float]
-    pull: float
-
-
 def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> Floor:
     """Largest member forces of load cases 1 and 2 over the ranges of a row.
 
@@ -230,47 +210,6 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
         forces=tuple(found[member] for member in _LOADED),
         spans=tuple(found[key] for key in SPANS),
         head=_measure_head(largest),
-    )
-
-
-def bound_floor(
-    model: LoadModel, ranges: NetRanges, altitude: float | None
-) -> tuple[FloorEnd, FloorEnd] | None:
-    """Ends between which the forces of `find_floor` lie, at a part of its cost.
-
-    They are those of its grid, before anything climbs; the upper end is assumed to lie
-    by 3 % of force and pull higher. Theory: guideline/THEORY.md, below eq. (G10).
-
-    Parameters
-    ----------
-    model : LoadModel
-        Numbers of the guideline.
-    ranges : NetRanges
-        Nets that count.
-    altitude : float or None
-        Of the row [m], as of `find_floor`.
-
-    Returns
-    -------
-    tuple of FloorEnd or None
-        Lower and upper end; None where the closed forms fail at a point of the grid.
-
-    Verified by
-    -----------
-    tests/guideline/test_floor.py
-    """
-    scan = _Scan(model=model, ranges=ranges, altitude=altitude)
-    try:
-        tried = scan.try_points(build_grid(_spread(ranges)))
-    except _FailedAtError:
-        return None
-    pull = float(tried.head_pull.max())
-    forces = {one: float(size.max()) for one, size in tried.of_members.items()}
-    low = {one: (1.0 - _ROUNDING) * force for one, force in forces.items()}
-    high = {one: force + _MISSED * (force + pull) for one, force in forces.items()}
-    return (
-        FloorEnd(of_members=low, pull=(1.0 - _ROUNDING) * pull),
-        FloorEnd(of_members=high, pull=(1.0 + _MISSED) * pull),
     )
 
 

@@ -432,7 +432,6 @@ def _list_profile(study: Study) -> Named:
         say("diff.version"): profile.version,
         say("diff.choice"): profile.choice,
         say("diff.floor"): profile.floor,
-        say("diff.route"): profile.route,
         say("diff.shared_sum"): profile.shared_sum,
         **values,
     }

@@ -43,7 +43,7 @@ class Link:
 def find_direction_factor(angle: float) -> Datum:
     """Share of its strength that a shackle has under a force beside its line [-].
 
-    Linear between the angles of the catalogue; resistance/THEORY.md, (R20).
+    Linear between the angles of the catalogue; resistance/THEORY.md, (R17).
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def find_angle(link: Link, pulled: float | None) -> float:
 def resist_link(
     link: Link, *, pulled: float | None, on_action: float, on_resistance: float
 ) -> float:
-    """Characteristic resistance of a link, R_k [N]; resistance/THEORY.md, (R20).
+    """Characteristic resistance of a link, R_k [N]; resistance/THEORY.md, (R17).
 
     A working load limit is met by the characteristic force: both partial factors are
     in what stands for it.

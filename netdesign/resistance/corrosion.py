@@ -46,7 +46,7 @@ class Wear:
 def find_loss(soil: str, years: int) -> Datum:
     """Loss of each exposed face, r_e, after some years [mm].
 
-    Linear between the years of the table; resistance/THEORY.md, (R19).
+    Linear between the years of the table; resistance/THEORY.md, (R16).
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """Ground that an anchor may pull out with itself: a wedge between two planes.
 
-Theory: resistance/THEORY.md, (R21) and (R22).
+Theory: resistance/THEORY.md, (R18) and (R19).
 """
 
 from __future__ import annotations

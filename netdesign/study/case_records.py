@@ -56,7 +56,6 @@ class MapRecord:
 class ConfirmationRecord:
     """The governing case solved again by another fidelity."""
 
-    method: str
     screened_kN: float
     confirmed_kN: float | None
     difference_percent: float | None

@@ -1,4 +1,4 @@
-"""The cases of a site: a grid of them, or a search of the worst; its histories."""
+"""The cases of a site: a grid of them, or a search of the worst."""
 
 from __future__ import annotations
 
@@ -8,11 +8,6 @@ from itertools import product
 
 from netdesign.coupling.scene import Scene
 from netdesign.edge.progress import Phase, Wave
-from netdesign.envelope.confirm import (
-    build_history_settings,
-    confirm_envelopes,
-    confirm_rows,
-)
 from netdesign.envelope.ranges import Case, Ranges, build_cases
 from netdesign.envelope.rows import RowEnvelope, RowGrid, RowTask, refine_settings
 from netdesign.envelope.run import run_cases
@@ -21,19 +16,16 @@ from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
 from netdesign.search.questions import list_first_design
 from netdesign.site.model import CONNECTED, NetRow, Site
-from netdesign.snow.creep_law import CreepLaw
+from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.solving.runner import Runner
 from netdesign.study.check_run import CheckRun
 from netdesign.study.row_to_check import build_row_task, build_scene
 from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
-# has a limit of its own, and a row so many members. Beside the envelope a row takes
-# 26 to 99 for its single values, what would turn its checks and other models of its
-# governing case: 50 in the median of 67 rows, 88 at most of the example.
-_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (115, 250)
+# has a limit of its own. Beside the envelope a row takes one for each other creep law.
+_SEARCH, _BESIDE = (55, 265), len(CREEP_LAWS) - 1
 _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
-HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take
 CLOSEST_GAP = 1e-3  # of a search, however accurate its cases are
 _USUAL_RANGES, _MORE_CASES = 3, 150  # density, friction, inclination; for each more
@@ -51,22 +43,14 @@ def count_cases(site: Site) -> int:
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     """Phases of the check of a site, in their order, with about so many solves."""
     rows = len(site.rows)
-    histories = rows if run.method == "transient" else 0
     checks = sum(map(_count_checks, site.rows))
     phases = [
         _plan_envelope(site, run),
         Phase(
-            key="histories",
-            words=say("phase.histories"),
-            cases=histories * _HISTORIES[0],
-            most=histories * _HISTORIES[1],
-            cost=HISTORY / run.jobs,
-        ),
-        Phase(
             key="checks",
             words=say("phase.checks"),
-            cases=profiles * rows * _BESIDE[0],
-            most=profiles * rows * _BESIDE[1],
+            cases=rows * _BESIDE,
+            most=profiles * rows * _BESIDE,
             cost=1.0 / min(run.jobs, rows),
             pieces=profiles * checks,
         ),
@@ -124,15 +108,12 @@ def search_site(
     Returns
     -------
     list of RowEnvelope
-        One a row, each with its upper bounds and governing cases confirmed, on finer
-        meshes and, where the run asks for it, by histories.
+        One a row, each with its upper bounds and governing cases confirmed on finer
+        meshes.
     """
     runner = runner or Runner()
     tasks = [_build_search(row, site.ranges, run) for row in site.rows]
-    envelopes = search_rows(tasks, runner, on_wave)
-    if run.method == "steady":
-        return envelopes
-    return confirm_envelopes(envelopes, build_history_settings(run.settings), runner)
+    return search_rows(tasks, runner, on_wave)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -254,7 +235,4 @@ def solve_site(
     results = run_cases([task for of_row in tasks for task in of_row], runner)
     count = len(cases)
     by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
-    if run.method == "transient":
-        settings = build_history_settings(run.settings)
-        by_row = confirm_rows(tasks, by_row, settings, runner)
     return [RowGrid(results=of_row) for of_row in by_row]

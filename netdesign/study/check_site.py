@@ -93,7 +93,7 @@ def _judge_new(
     build = partial(_build_job, site, standards, run, runner)
     pool = runner.workers.pool
     groups: list[tuple[NetRow, ...]] = []
-    if run.method == "steady" and not site.ranges.is_grid and pool is not None:
+    if not site.ranges.is_grid and pool is not None:
         groups = list_alike(site, run)
     if pool is not None and len(groups) >= _ROWS_A_PROCESS * pool.processes:
         watch.enter("checks", say("phase.rows"))

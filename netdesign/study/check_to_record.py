@@ -16,7 +16,7 @@ from netdesign.checks import (
     withhold,
 )
 from netdesign.checks.check import conclude, find_missing_force, not_proven
-from netdesign.checks.routes import TestedResistance
+from netdesign.checks.tested import find_proof_factor
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import SingleTest
@@ -180,28 +180,23 @@ def record_result(
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
         resistance_derivation=given.derivation if given else None,
-        tests=_record_tests(given, result.tested) if given else None,
+        tests=_record_tests(given, basis.standard) if given else None,
         steps=[] if result.used is None else list_steps(result.used),
         declared=result.declared,
         is_unbounded=result.is_unbounded,
     )
 
 
-def _record_tests(
-    given: Resistance, tested: TestedResistance | None
-) -> TestsRecord | None:
+def _record_tests(given: Resistance, standard: Standard) -> TestsRecord | None:
     tests = given.tests
-    if tests is None or tested is None:
+    if tests is None or given.value is not None:
         return None
     return TestsRecord(
         count=tests.count,
         least_kN=kilonewton_from_newton(tests.least),
         mean_kN=kilonewton_from_newton(tests.mean),
         singles=[_record_single(one) for one in tests.singles],
-        route=tested.route,
-        routes={name: one.value for name, one in tested.routes.items()},
-        reasons={n: one.lacks[0] for n, one in tested.routes.items() if one.lacks},
-        proof_factor=tested.proof_factor,
+        proof_factor=find_proof_factor(standard),
     )
 
 

@@ -2,7 +2,7 @@
 
 Of anchors, their ground, posts and their bases; of steel at the end of the design life;
 of the links between a rope and its anchor. Theory: resistance/THEORY.md, (R7) to (R12),
-(R21) and (R22).
+(R18) and (R19).
 """
 
 from __future__ import annotations

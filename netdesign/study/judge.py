@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cache, partial
 
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
@@ -26,7 +25,6 @@ from netdesign.study.governing import find_shown_member
 from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
-    list_history_notes,
     list_judged_notes,
     list_reasons,
     list_site_notes,
@@ -40,7 +38,6 @@ from netdesign.study.record_envelope import (
     record_point,
 )
 from netdesign.study.record_guideline import (
-    bound_row_floor,
     find_row_floor,
     record_floor,
     record_guideline,
@@ -62,7 +59,13 @@ from netdesign.study.records import (
     list_verdicts,
     merge_rows,
 )
-from netdesign.study.row_checks import RowChecks, check_row, detail_shown, distrust
+from netdesign.study.row_checks import (
+    RowChecks,
+    check_row,
+    detail_shown,
+    distrust,
+    find_check_by_case,
+)
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
 from netdesign.units import kilonewton_from_newton
@@ -139,8 +142,6 @@ def judge_row(
         law=run.creep_law,
         solved=solved,
         extremes=solved.extremes,
-        find_floor=cache(partial(find_row_floor, row, standard=standard)),
-        bound_floor=cache(partial(bound_row_floor, row, standard=standard)),
         solver=solver,
         on_check=on_check,
     )
@@ -149,7 +150,7 @@ def judge_row(
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     row, solved, extremes = task.row, task.solved, task.extremes
-    floor = task.find_floor(task.site.ranges)
+    floor = find_row_floor(row, task.site.ranges, task.standard)
     known = know_row(task, floor)
     found, model_form = _check_row(task, known)
     checks = found.records
@@ -183,16 +184,16 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         floor=known.floor,
         model_form=model_form,
         panel=panel,
-        notes=[*notes, *list_history_notes(extremes)],
+        notes=notes,
         held_sideways=known.along_row,
         tilt=known.tilt,
         envelope=_record_search(solved, checks),
-        reliability=_find_reliability(task, found, run),
+        reliability=_find_reliability(task, known, found, run),
     )
 
 
 def _find_reliability(
-    task: RowToCheck, found: RowChecks, run: CheckRun
+    task: RowToCheck, known: RowForces, found: RowChecks, run: CheckRun
 ) -> ReliabilityRecord | None:
     """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
@@ -200,7 +201,10 @@ def _find_reliability(
     from netdesign.study.row_reliability import record_reliability
 
     worst = find_worst(found.records)
-    by_case = found.by_case.get(worst.id) if worst else None
+    judged = found.judged.get(worst.id) if worst else None
+    by_case = None
+    if judged is not None:
+        by_case = find_check_by_case(task, known, judged, found.judged.values())
     solver = CaseSolver(run.settings, run.creep_law)
     return record_reliability(task.site, found.records, worst, by_case, solver)
 
@@ -210,13 +214,11 @@ def _check_row(
 ) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
-    Where the program fails in one of those, or in a detail of the check that is shown,
-    it is not trusted in the checks either.
+    Where the program fails in one of those, it is not trusted in the checks either.
     """
-    found = check_row(task, known)
+    found = detail_shown(task, check_row(task, known))
     worst = find_worst(found.records)
     before = task.count_faults()
-    found = detail_shown(task, found)
     form = _find_model_form(task, worst)
     if task.count_faults() > before:
         doubted = [distrust(check) for check in found.records]

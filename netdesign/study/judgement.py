@@ -6,7 +6,7 @@ knows a solved case.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import CheckResult, withhold
@@ -93,15 +93,6 @@ class MemberCheck:
             return None
         return self.force.on_support * factor / design
 
-    def use_least(self, force: float, pull: float) -> float:
-        """Utilisation by a force of the guideline's load and its pull on the head [N].
-
-        On a support as wide as now [-].
-        """
-        if self.force is None or self.use is None:
-            raise ValueError("a check without a force is not used")
-        return self.use * self.force.find_least(force / 1e3, pull / 1e3)
-
     @property
     def ratio(self) -> float:
         """Upper end of the utilisation [-]; below 0 without one."""
@@ -109,7 +100,7 @@ class MemberCheck:
         return -1.0 if used is None or used.high is None else used.high
 
 
-def is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
+def is_worst(one: MemberCheck, judged: Iterable[MemberCheck]) -> bool:
     """No other support uses the member more."""
     rivals = [other for other in judged if other.name == one.name]
     return one is max(rivals, key=lambda other: other.ratio)
@@ -150,15 +141,6 @@ def _find_chain(known: RowForces, given: Resistance, width: LoadedWidth) -> Resi
     anchor = CONNECTED[given.member]
     pull = find_pull(known.pulls, anchor, width.position) if anchor else None
     return connect(given, known.site.links, pull, known.standard)
-
-
-def judge_with_fault(basis: Basis, one: MemberCheck, fault: Message) -> MemberCheck:
-    """Check that is NOT PROVEN, since the program failed in a solve near its cases."""
-    if one.gap is not None or one.force is None:
-        return one
-    doubt = one.doubt or one.unsure
-    result = judge_force(one.given, one.force, basis.standard, gap=fault, doubt=doubt)
-    return replace(one, gap=fault, result=result)
 
 
 def _judge_member(

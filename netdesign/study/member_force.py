@@ -187,15 +187,6 @@ class MemberForce:
         growth, push = self.on_support / other.on_support, _high(other.on.push)
         return max(growth, _high(self.on.push) / push) if push else growth
 
-    def find_least(self, force: float, pull: float) -> float:
-        """The member's force inside the row by the guideline's load [kN].
-
-        ``pull`` is that load's on the head: what it brings grows with it, and never
-        falls.
-        """
-        growth = max(0.0, pull / self.pull - 1.0) if self.pull else 0.0
-        return self.share * force + self.added + growth * self.rise
-
     def find_high(self, force: float) -> float:
         """Upper end of the member's force inside the row, from one solved [kN]."""
         push = _high(self.on.push) if self.is_by_panel else 0.0

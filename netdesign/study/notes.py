@@ -6,19 +6,18 @@ Also on the net under its snow, for information.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from netdesign.checks import Standard
 from netdesign.checks.check import find_action_factor
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
-from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import ModelError, Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.snowpack.model_code import find_model_code_density
-from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.dependent import find_snow_pressure
@@ -28,7 +27,6 @@ from netdesign.study.pulls import may_share
 from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord, PullRecord
-from netdesign.units import kilonewton_from_newton
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
@@ -250,27 +248,6 @@ def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
     if not released:
         return []
     return [say("row.in_cases", count=released, all=len(cases), what=RELEASED)]
-
-
-def list_history_notes(extremes: Mapping[str, Extreme]) -> list[Message]:
-    """Notes by member: steady state or history is the demand, and why."""
-    notes = []
-    for member in REPORTED_MEMBERS:
-        compared = extremes[member].governing.compared if member in extremes else None
-        if compared is None:
-            continue
-        history, steady = (
-            one.member_forces[member] for one in (compared.history, compared.steady)
-        )
-        reaches = {
-            "history_low": kilonewton_from_newton(history.low),
-            "history_high": kilonewton_from_newton(history.high),
-            "steady_low": kilonewton_from_newton(steady.low),
-            "steady_high": kilonewton_from_newton(steady.high),
-        }
-        key = "row.history_exceeds" if compared.exceeds(member) else "row.history_stays"
-        notes.append(say(key, member=name_member(member), **reaches))
-    return notes
 
 
 def list_reasons(

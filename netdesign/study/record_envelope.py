@@ -280,7 +280,6 @@ def _record_confirmation(
     screened, confirmed = one.screened.solution, one.confirmed.solution
     difference, forces = one.difference, one.confirmed.member_forces
     return ConfirmationRecord(
-        method=confirmed.method if confirmed else "",
         screened_kN=kilonewton_from_newton(one.screened.member_forces[member].value),
         confirmed_kN=kilonewton_if_known(forces[member].value if forces else None),
         difference_percent=None if difference is None else 100.0 * difference,

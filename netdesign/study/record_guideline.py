@@ -17,10 +17,8 @@ from netdesign.guideline.comparison import (
 )
 from netdesign.guideline.floor import (
     Floor,
-    FloorEnd,
     FloorForce,
     NetRanges,
-    bound_floor,
     find_floor,
 )
 from netdesign.guideline.load_model import read_load_model
@@ -60,16 +58,6 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
         return None
     model = read_load_model(load_guideline())
     return find_floor(model, _list_nets(row, ranges), row.altitude)
-
-
-def bound_row_floor(
-    row: NetRow, ranges: Ranges, standard: Standard
-) -> tuple[FloorEnd, FloorEnd] | None:
-    """Ends between which the forces of `find_row_floor` lie; None where not known."""
-    if standard.floor == "none":
-        return None
-    model = read_load_model(load_guideline())
-    return bound_floor(model, _list_nets(row, ranges), row.altitude)
 
 
 def _list_nets(row: NetRow, ranges: Ranges) -> NetRanges:

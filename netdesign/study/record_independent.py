@@ -38,9 +38,8 @@ def record_independent(
         _judge("global_balance", state.balance.relative_residual),
         _judge("friction_excess", state.balance.friction_excess),
         _check_ends(state),
+        _check_capstan(state, result.case.friction_angle),
     ]
-    if state.method == "steady":  # forces of a history are its largest, not its last
-        checks.append(_check_capstan(state, result.case.friction_angle))
     share = (state.balance.smallest_tension or 0.0) / state.tension_max
     checks.append(_judge("tension_share", share))  # a net does not push
     if len(head) > 1:
@@ -50,8 +49,7 @@ def record_independent(
 
 def _check_ends(state: SolvedState) -> IndependentRecord:
     """Sine of the larger angle between an end's pull and the net's end there [-]."""
-    is_curved = state.method == "steady"  # a history's net is straight between nodes
-    leaving = compute_end_directions(state.net_curve, is_curved=is_curved)
+    leaving = compute_end_directions(state.net_curve)
     ends = zip((state.foot, state.head), leaving, strict=True)
     sines = [abs(pull.x * y - pull.y * x) / pull.size for pull, (x, y) in ends]
     errors = [

@@ -10,8 +10,8 @@ from typing import cast, get_args
 
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue, load_standard
-from netdesign.checks.routes import find_proof_factor
 from netdesign.checks.schema import GLIDE_FACTORS
+from netdesign.checks.tested import find_proof_factor
 from netdesign.core.library import name_core
 from netdesign.coupling.scene import SolverSettings
 from netdesign.edge.json_text import list_fields
@@ -20,7 +20,7 @@ from netdesign.site.cells.cells import TextFormat
 from netdesign.site.cells.numbers import DecimalMark
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
-from netdesign.study.check_run import CheckRun, read_method
+from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import load_glide_limits, load_guideline
 from netdesign.study.records import ProfileRecord, Provenance, Study
 from netdesign.study.values import Difference, compare_listed, list_values
@@ -40,7 +40,6 @@ def record_profile(standard: Standard) -> ProfileRecord:
         choice=standard.choice,
         choice_text=standard.choice_text,
         floor=standard.floor,
-        route=standard.route,
         shared_sum=standard.shared_sum,
         is_floor_overruled=standard.is_floor_overruled,
         not_checked=list(standard.not_checked),
@@ -92,7 +91,7 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
         site_file=site.file_name,
         site_sha256=site.sha256,
         settings={
-            "method": run.method,
+            "method": "steady",
             "creep_law": name_law(run.creep_law),
             "accuracy": repr(settings.accuracy),  # in full: the study is solved again
             "stress_tolerance": f"{settings.stress_tolerance:g}",
@@ -122,9 +121,6 @@ def read_text_format(made: Provenance) -> TextFormat:
     return TextFormat(delimiter=sign if is_sign else "", decimal_mark=mark)
 
 
-_REPEATED = ("accuracy", "method")
-
-
 def build_run(study: Study, jobs: int) -> CheckRun:
     """Settings with which a study was made; its time is taken over.
 
@@ -144,14 +140,13 @@ def build_run(study: Study, jobs: int) -> CheckRun:
     try:
         run = CheckRun(
             settings=SolverSettings(accuracy=float(given["accuracy"])),
-            method=read_method(given["method"]),
             jobs=jobs,
             started=made.started,
             has_reliability=any(row.reliability for row in study.rows),
         )
     except (KeyError, ValueError):
-        told = tuple(f"{name} = {given.get(name)!r:.60}" for name in _REPEATED)
-        raise StudyError(say("study.settings", given=told)) from None
+        told = f"accuracy = {given.get('accuracy')!r:.60}"
+        raise StudyError(say("study.settings", given=(told,))) from None
     if given.get("creep_law") != name_law(run.creep_law):
         raise StudyError(
             say(

@@ -88,42 +88,21 @@ SCHEMA: Literal["netdesign.study/3"] = "netdesign.study/3"
 class SpreadRecord:
     """One part of the interval of a utilisation."""
 
-    source: Text  # "numerical error", "between the cases", "creep law zwinger-2007"
+    source: Text  # "numerical error", "between the cases"
     low: float | None  # None where there is no number; ``note`` says why
     high: float | None
-    in_verdict: bool
     note: Text | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class ChangeRecord:
-    """The smallest change of one quantity that flips a check, or where it flips."""
+    """The smallest change of one quantity that flips a check."""
 
-    quantity: Text  # "characteristic resistance", "post spacing", "density", ...
+    quantity: Text  # "characteristic resistance", "post spacing", "type B", ...
     unit: str
     now: float | None
-    bound: float | None  # None where no value in reach flips the check
+    bound: float | None  # None where no value flips the check
     sense: Literal["at least", "at most", "has"]
-    solves: int  # coupled solves that it took; 0 for an exact proportion
-    note: Text | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class HoldRecord:
-    """Limits of one single quantity, moved alone, beyond which a check turns.
-
-    Of a check that passes: it holds from ``least`` to ``most``. Of one that does not:
-    it would pass from ``least`` on, and up to ``most``. None where it does not turn
-    on that side within the search. Values in the unit of ``quantity``, a key.
-    """
-
-    quantity: str  # "slack", "stiffness_kN_per_m", ...
-    now: float
-    least: float | None
-    most: float | None
-    low: float  # ends of the search
-    high: float
-    solves: int  # beyond those that other checks took
     note: Text | None = None
 
 
@@ -140,7 +119,7 @@ class SingleTestRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class TestsRecord:
-    """Pull-out tests of a type, and what follows from them by each way."""
+    """Pull-out tests of a type."""
 
     __test__: ClassVar = False  # for pytest
 
@@ -148,9 +127,6 @@ class TestsRecord:
     least_kN: float
     mean_kN: float
     singles: Items[SingleTestRecord]  # empty where each is not given
-    route: str  # way that counts
-    routes: dict[str, float | None]  # characteristic resistance [kN]
-    reasons: dict[str, Text]  # why there is none
     proof_factor: float | None  # proof load over design force
 
 
@@ -188,7 +164,6 @@ class CheckRecord:
     declared: Proof | None = None  # whatever the verdict
     spreads: Items[SpreadRecord] = field(default_factory=list)
     changes: Items[ChangeRecord] = field(default_factory=list)
-    holds: Items[HoldRecord] = field(default_factory=list)
     position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
     is_unbounded: bool = False  # utilisation beyond any number; the check fails
 
@@ -381,7 +356,6 @@ class ProfileRecord:
     choice: str = ""  # set of factors in force; "" where the profile has none
     choice_text: str = ""  # what that set is
     floor: str = "guideline"  # what no demand lies below: or "none"
-    route: str = "correlation"  # way from tests to a resistance that counts
     shared_sum: str = "vector"  # of the pulls of two guys on one anchor
     is_floor_overruled: bool = False  # the profile itself takes the other one
     is_default: bool = False  # nobody named it

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 
-from netdesign.envelope.extremes import Extreme, find_extreme
+from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
-from netdesign.site.model import NetRow
-from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.structure.members import RopeForce, name_in_panel
 from netdesign.study.case_records import ForceRecord
 from netdesign.study.check_by_case import CheckByCase, Push
@@ -22,19 +19,17 @@ from netdesign.study.judgement import (
     MemberCheck,
     is_worst,
     judge_members,
-    judge_with_fault,
     record_member,
     record_others,
 )
-from netdesign.study.margins import find_margins
 from netdesign.study.member_force import (
     MemberForce,
     RowForces,
     find_force,
 )
-from netdesign.study.records import ChangeRecord, CheckRecord, HoldRecord, SpreadRecord
+from netdesign.study.records import CheckRecord, SpreadRecord
 from netdesign.study.remedies import list_remedies
-from netdesign.study.row_to_check import CaseSolver, RowToCheck
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.sideways import find_tilt
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -46,14 +41,10 @@ _FAULT_BESIDE = say("check.fault_beside")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowChecks:
-    """Every check of a row; by their ids how they were judged, and as functions.
-
-    Functions of a solved case are those that follow from one.
-    """
+    """Every check of a row; by their ids how they were judged."""
 
     records: list[CheckRecord]
     judged: Mapping[str, MemberCheck]
-    by_case: Mapping[str, CheckByCase]
 
 
 def check_row(task: RowToCheck, known: RowForces) -> RowChecks:
@@ -62,40 +53,24 @@ def check_row(task: RowToCheck, known: RowForces) -> RowChecks:
     ``known`` is what its solved cases tell.
     """
     judged = judge_members(known)
-    followed = list_checks_by_case(task, known, judged)
-    changes: list[list[ChangeRecord]] = []
-    for place, (one, by_case) in enumerate(zip(judged, followed, strict=True)):
-        before = task.count_faults()
-        changes.append(list_remedies(task, one, by_case) if one.force else [])
-        if task.count_faults() > before:
-            judged[place] = judge_with_fault(task, one, _FAULT_BESIDE)
+    checks = []
+    for one in judged:
+        changes = list_remedies(task, one) if one.force else []
+        checks.append(replace(record_member(known, one), changes=changes))
         task.on_check()
-    checks = [
-        replace(record_member(known, one), changes=found)
-        for one, found in zip(judged, changes, strict=True)
-    ]
-    pairs = zip(judged, followed, strict=True)
     return RowChecks(
         records=[*checks, *record_others(known, judged)],
         judged={one.id: one for one in judged},
-        by_case={one.id: by_case for one, by_case in pairs if by_case is not None},
     )
 
 
 def detail_shown(task: RowToCheck, found: RowChecks) -> RowChecks:
-    """The check that is shown with the parts of its interval, and its margins."""
+    """The check that is shown with the parts of its interval."""
     shown = find_shown(found.records)
     judged = found.judged.get(shown.id) if shown else None
     if shown is None or judged is None or judged.force is None:
         return found
-    by_case, margins = found.by_case.get(shown.id), list[HoldRecord]()
-    if by_case is not None and task.solver is not None:
-        margins = find_margins(by_case, task.solver, _list_known(shown.changes))
-    detailed = replace(
-        shown,
-        spreads=list_spreads(task, judged),
-        holds=margins,
-    )
+    detailed = replace(shown, spreads=list_spreads(task, judged))
     records = [detailed if one is shown else one for one in found.records]
     return replace(found, records=records)
 
@@ -111,37 +86,17 @@ def distrust(check: CheckRecord) -> CheckRecord:
     return replace(check, verdict=Verdict.NOT_PROVEN, reason=reason)
 
 
-# Changes that are limits of single values, too, and the names of these.
-_SOLVED = {"change.snow_density": "density", "change.snow_thickness": "thickness"}
+def find_check_by_case(
+    task: RowToCheck, known: RowForces, one: MemberCheck, judged: Iterable[MemberCheck]
+) -> CheckByCase | None:
+    """The check as a function of a solved case; None of one that no solve may turn.
 
-
-def list_checks_by_case(
-    task: RowToCheck, known: RowForces, judged: Sequence[MemberCheck]
-) -> list[CheckByCase | None]:
-    """Checks as functions of a solved case; None of those that no solve may turn.
-
-    Of several supports that one which uses a member most: where that holds, the
-    others do. What the ropes load has to be known as a whole.
+    What the ropes load has to be known as a whole.
     """
     if task.solver is None or task.solved.gap or task.row.is_overtopped:
-        return [None] * len(judged)
-    return [
-        _build_check(task, known, one)
-        if _follows_cases(one) and is_worst(one, judged)
-        else None
-        for one in judged
-    ]
-
-
-def _list_known(changes: Sequence[ChangeRecord]) -> dict[str, float]:
-    """Largest values up to which a check passes, by the quantity's name [SI]."""
-    found = {}
-    for change in changes:
-        quantity = change.quantity
-        key = quantity.key if isinstance(quantity, Message) else ""
-        if key in _SOLVED and change.bound is not None:
-            found[_SOLVED[key]] = change.bound
-    return found
+        return None
+    is_followed = _follows_cases(one) and is_worst(one, judged)
+    return _build_check(task, known, one) if is_followed else None
 
 
 def _follows_cases(one: MemberCheck) -> bool:
@@ -186,31 +141,7 @@ def _build_check(task: RowToCheck, known: RowForces, one: MemberCheck) -> CheckB
         results=results,
         widen=cache(partial(_find_load, known, one, force)),
         push=_find_push(task, one, force),
-        use_floor=partial(_use_floor, task, one),
-        bound_floor=partial(_bound_floor, task, one),
     )
-
-
-def _use_floor(task: RowToCheck, one: MemberCheck, ranges: Ranges) -> float:
-    """Utilisation of a member by the guideline's load alone [-]."""
-    floor = task.find_floor(ranges)
-    if floor is None or one.is_of_end:
-        return 0.0
-    least = floor.find(one.given.member)
-    pull = floor.head.pull if floor.head else 0.0
-    return math.inf if least is None else one.use_least(least.force, pull)
-
-
-def _bound_floor(
-    task: RowToCheck, one: MemberCheck, ranges: Ranges
-) -> tuple[float, float]:
-    """Ends of what `_use_floor` gives; no upper one where the bound is not known."""
-    ends = None if one.is_of_end else task.bound_floor(ranges)
-    if ends is None:
-        return 0.0, math.inf
-    member = one.given.member
-    least, most = (one.use_least(end.of_members[member], end.pull) for end in ends)
-    return least, most
 
 
 def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push | None:
@@ -252,7 +183,7 @@ def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
 
 
 def list_spreads(task: RowToCheck, one: MemberCheck) -> list[SpreadRecord]:
-    """Parts of the interval of a utilisation, the creep law's for comparison.
+    """Parts of the interval of a utilisation.
 
     A floor cuts off what lies below it. What the ropes load has none, and is not
     compared: it is in proportion to the rope's force.
@@ -265,21 +196,14 @@ def list_spreads(task: RowToCheck, one: MemberCheck) -> list[SpreadRecord]:
         return use * force.find_high(solved / 1e3)
 
     extreme = task.extremes[force.largest.quantity]
-    largest = 1e3 * force.largest.high_kN
-    scale = rate(largest) / largest if largest else use * force.share / 1e3
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)
     is_floor = force.governs == "guideline"
-    spreads = _split(
+    return _split(
         one,
         rate(extreme.force.high),
         say("spread.floor_governs") if is_floor else None,
         say("spread.unknown_along", axes=unknown) if unknown else None,
     )
-    if one.is_of_end:
-        return spreads
-    if task.solver is not None and extreme.force.value > 0.0:
-        spreads += _list_creep_laws(task.solver, task.row, extreme, scale)
-    return spreads
 
 
 def _split(
@@ -299,32 +223,12 @@ def _split(
             source=say("spread.numerical_error"),
             low=used.low,
             high=numerical,
-            in_verdict=True,
             note=of_numbers,
         ),
         SpreadRecord(
             source=say("spread.between_cases"),
             low=used.value,
             high=used.value + used.high - numerical,
-            in_verdict=True,
             note=between,
         ),
     ]
-
-
-def _list_creep_laws(
-    solver: CaseSolver, row: NetRow, extreme: Extreme, scale: float
-) -> Iterable[SpreadRecord]:
-    laws = {k: law for k, law in CREEP_LAWS.items() if k != solver.law.name}
-    results = solver.solve_all(
-        [(row, extreme.governing.case, law) for law in laws.values()]
-    )
-    for law, result in zip(laws, results, strict=True):
-        force = result.member_forces.get(extreme.member)
-        yield SpreadRecord(
-            source=say("spread.creep_law", law=law),
-            low=force.low * scale if force else None,
-            high=force.high * scale if force else None,
-            in_verdict=False,
-            note=say("spread.in_governing_case") if force else result.reason,
-        )

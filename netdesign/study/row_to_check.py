@@ -9,10 +9,9 @@ from netdesign.cable.net import Net
 from netdesign.checks import Standard
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
-from netdesign.guideline.floor import Floor, FloorEnd
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.snow.snowpack import Snowpack
@@ -34,17 +33,13 @@ class Basis:
 class RowToCheck(Basis):
     """One net row under one profile.
 
-    ``extremes`` are the largest forces of its solved cases; ``find_floor`` gives the
-    guideline's load over ranges in which something may be moved, ``bound_floor`` two
-    ends of it, or None where these are not known; ``solver`` is None where nothing
-    beyond the solved cases is to be solved; ``on_check`` is called after each check of
-    a force.
+    ``extremes`` are the largest forces of its solved cases; ``solver`` is None where
+    nothing beyond the solved cases is to be solved; ``on_check`` is called after each
+    check of a force.
     """
 
     solved: RowGrid | RowEnvelope
     extremes: Mapping[str, Extreme]
-    find_floor: Callable[[Ranges], Floor | None]
-    bound_floor: Callable[[Ranges], tuple[FloorEnd, FloorEnd] | None]
     solver: CaseSolver | None
     on_check: Callable[[], None] = lambda: None
 

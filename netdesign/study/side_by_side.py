@@ -73,7 +73,7 @@ def name_rows(
     Command, time and number of processes are no part of a name: no record has them.
     A row with a value of a new kind has no name, and is judged every time.
     """
-    settings = [run.settings, run.method, run.creep_law, run.has_reliability]
+    settings = [run.settings, run.creep_law, run.has_reliability]
     names = {}
     with suppress(TypeError):
         shared = write_parts([identify_installation(), settings, list(standards)])

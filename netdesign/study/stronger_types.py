@@ -154,7 +154,6 @@ def _record(
         now=kilonewton_if_known(given.value),
         bound=math.floor(value * 10.0) / 10.0,
         sense="has",
-        solves=0,
         note=note,
     )
 

@@ -11,8 +11,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.coupling.history.settings import TransientSettings
-from netdesign.coupling.scene import SolverSettings
 from netdesign.edge import progress as progress_module
 from netdesign.edge.progress import Phase, RunProgress, Wave, show_phases
 from netdesign.solving import workers
@@ -128,13 +126,11 @@ def test_a_wave_gives_gap_and_rows_and_corrects_the_count():
 
 @pytest.fixture
 def solves(monkeypatch):
-    """Settings of all cases that are solved; a history takes a steady state's place."""
+    """Settings of all cases that are solved."""
     seen = []
 
     def solve(scene, settings):
         seen.append(settings)
-        if isinstance(settings, TransientSettings):
-            settings = SolverSettings(accuracy=settings.accuracy)
         return solve_once(scene, settings)
 
     monkeypatch.setattr(workers, "solve_scene", solve)
@@ -154,20 +150,17 @@ def read_lines(text):
 
 @pytest.mark.long
 @pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
-@pytest.mark.parametrize("method", ["steady", "transient"])
 def test_every_solve_of_a_check_is_counted_in_its_phase(
-    call, tmp_path, monkeypatch, solves, is_grid, method
+    call, tmp_path, monkeypatch, solves, is_grid
 ):
-    """R7 fails: for most of the run its flips are searched."""
     write_short_example(tmp_path / "site.xlsx", ["R1", "R7"], is_grid=is_grid)
     monkeypatch.setattr(progress_module, "_SILENCE_S", 0.0)  # a line for each case
-    ended = call("check", "site.xlsx", *QUICK, "--method", method, "--json")
+    ended = call("check", "site.xlsx", *QUICK, "--json")
     lines = read_lines(ended.err)
     phases = list(dict.fromkeys(phase for phase, _, _ in lines))
     expected = [
         "cases of the grid" if is_grid else "largest forces and their confirmation",
-        *(["histories of the governing cases"] if method == "transient" else []),
-        "other creep laws, and what would turn a check",
+        "other creep laws",
         "reports",
     ]
     assert phases == expected

@@ -6,11 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.checks import Band
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope import run as running
-from netdesign.envelope.confirm import build_history_settings, merge_history
-from netdesign.envelope.extremes import describe_gap, find_extremes
+from netdesign.envelope.extremes import describe_gap
 from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.panel_forces import (
     PANEL_QUANTITIES,
@@ -18,7 +17,7 @@ from netdesign.envelope.panel_forces import (
     resolve_panels,
 )
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.envelope.rows import RowGrid, RowTask, refine_settings
+from netdesign.envelope.rows import RowTask, refine_settings
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.outcome import Outcome
@@ -204,7 +203,10 @@ def test_a_panel_that_fails_leaves_a_gap_in_a_grid(failing):
 @pytest.fixture(scope="module")
 def at_rest_and_followed():
     case = draw_case(np.random.default_rng(8))
-    return solve(case), solve(case, settings=build_history_settings(COARSE))
+    settings = TransientSettings(
+        accuracy=COARSE.accuracy, horizon=3e10, stops_at_plateau=True
+    )
+    return solve(case), solve(case, settings=settings)
 
 
 def test_panel_of_a_history_is_that_at_rest_under_its_own_load(at_rest_and_followed):
@@ -238,59 +240,6 @@ def test_history_that_went_on_has_no_panel(at_rest_and_followed):
     assert resolve_panels([PANEL], scene.net, points, odd).reason.key == (
         "panel.not_staggered"
     )
-
-
-def scale(result, share):
-    return {
-        name: Band(low=share * one.low, value=share * one.value, high=share * one.high)
-        for name, one in result.member_forces.items()
-    }
-
-
-@pytest.mark.parametrize("share", [0.5, 1.5])
-def test_larger_forces_of_a_history_s_panel_count(at_rest_and_followed, share):
-    steady, history = at_rest_and_followed
-    forces = scale(history, share)
-    merged = merge_history(steady, replace(history, member_forces=forces))
-    assert RowGrid(results=[merged]).gap is None
-    for name in PANEL_QUANTITIES:
-        band, before = merged.member_forces[name], steady.member_forces[name]
-        assert band.high >= before.high
-        if before.value > 0.0:
-            assert (band.value > 1.2 * before.value) is (share > 1.0)
-
-
-@pytest.mark.parametrize("share", [0.5, 1.5])
-def test_where_a_history_is_the_demand_nothing_is_known_of_the_panel(share):
-    steady = solve(draw_case(np.random.default_rng(8)))
-    scaled = scale(steady, share)
-    own = {name: scaled[name] for name in CARRYING_MEMBERS}
-    lost = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("outcome.nonfinite"))
-    history = replace(steady, member_forces=own, panel=lost)
-    merged = merge_history(steady, history)
-    grid = RowGrid(results=[merged])
-    if share < 1.0:
-        assert grid.gap is None
-        assert merged.member_forces["panel_post"] == steady.member_forces["panel_post"]
-        assert set(find_extremes([merged])) == set(steady.member_forces)
-    else:
-        assert "panel_post" not in merged.member_forces
-        assert "by the panel between posts" in str(grid.gap)
-
-
-@pytest.mark.parametrize("share", [0.83, 1.37])
-def test_a_panel_that_the_steady_state_lacks_stays_a_gap(share):
-    """Whatever the history's panel is: of the steady one nothing is known."""
-    whole = solve(draw_case(np.random.default_rng(11)))
-    lost = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("outcome.nonfinite"))
-    own = {name: whole.member_forces[name] for name in CARRYING_MEMBERS}
-    steady = replace(whole, member_forces=own, panel=lost)
-    forces = scale(whole, share)
-    merged = merge_history(steady, replace(whole, member_forces=forces))
-    assert "by the panel between posts" in str(RowGrid(results=[merged]).gap)
-    for name, band in own.items():
-        assert merged.member_forces[name].high >= band.high
-    assert merged.compared.exceeds("panel_post") is False
 
 
 def test_ropes_that_nothing_checks_cost_no_case_and_keep_their_bounds(

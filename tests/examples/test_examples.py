@@ -14,13 +14,13 @@ import xml.etree.ElementTree as ET
 from contextlib import redirect_stdout
 from dataclasses import replace
 from importlib.resources import files
-from itertools import pairwise, product
+from itertools import product
 from pathlib import Path
 
 import pytest
 
-from netdesign import GroundLaw, Scene, Snowpack, solve_rigid, solve_steady
-from netdesign.examples import envelope, history, panel, wall, winter
+from netdesign import Snowpack, solve_steady
+from netdesign.examples import envelope, history, panel, winter
 from tests.each import each
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -82,7 +82,7 @@ def numbers(line):
 
 
 def test_the_page_shows_every_example_with_a_small_picture():
-    assert len(NAMES) == 9
+    assert len(NAMES) == 8
     assert re.findall(r"^## (\w+): ", PAGE, re.MULTILINE) == re.findall(
         r'src="pictures/(\w+)\.png"', PAGE
     )
@@ -135,19 +135,6 @@ def test_envelope(tmp_path):
     assert max(forces) <= bound
     assert max(forces) == pytest.approx(maximum, rel=5e-3)
     assert maximum < bound < 1.02 * maximum
-
-
-def test_wall(tmp_path):
-    *lines, _ = run_as_shown("wall", tmp_path)
-    found = dict(numbers(line) for line in lines)
-    assert list(found) == sorted(found)
-    for (low, less), (high, more) in pairwise(found.items()):
-        assert less < more < less * high / low
-    # No ground makes it more than what the whole snow weighs along the slope.
-    weight = 350.0 * GRAVITY * math.sin(math.radians(38)) * 3.0 * 20.0 / 1e3
-    free = Scene(snowpack=wall.SNOW, ground=GroundLaw(kind="free"), net=wall.WALL)
-    assert solve_rigid(free).force.x / 1e3 == pytest.approx(weight, rel=5e-3)
-    assert found[3.0] < 0.6 * weight
 
 
 def test_layered_pack(tmp_path):

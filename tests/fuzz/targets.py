@@ -500,7 +500,7 @@ WORDS = st.one_of(
                 "steady",
                 "\udcff",
             ),
-            *("transient", "mesh", "none", "dask://", "dask://x", "a/b.xlsx", "--="),
+            *("mesh", "none", "dask://", "dask://x", "a/b.xlsx", "--="),
         ]
     ),
 )

@@ -20,7 +20,6 @@ from netdesign.guideline.floor import (
     SCAN_STEP,
     SPANS,
     NetRanges,
-    bound_floor,
     find_floor,
 )
 from netdesign.guideline.load_model import read_load_model
@@ -29,7 +28,6 @@ from netdesign.structure.anchors import compute_many_forces
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.catalogue import render
-from tests.each import each
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
 DOWNHILL = Member.DOWNHILL_GUY
@@ -479,20 +477,3 @@ def test_states_of_the_spans_bring_what_the_head_says():
         told = [one.force for one in floor.spans]
         assert told == pytest.approx([*sizes, found[3]["turn"]], rel=1e-12)
     assert seen == {True, False}
-
-
-@each("seed", range(12))
-def test_floor_lies_well_between_its_two_ends(seed):
-    """The grid alone misses a tenth of what the upper end has for it, at most."""
-    ranges = draw_ranges(random.Random(f"ends{seed}"))
-    floor, (low, high) = find(ranges), bound_floor(MODEL, ranges, 1742.0)
-    for one in floor.forces:
-        least, most = low.of_members[one.member], high.of_members[one.member]
-        assert least <= one.force <= least + 0.1 * (most - least)
-    assert low.pull <= floor.head.pull <= low.pull + 0.1 * (high.pull - low.pull)
-
-
-def test_a_floor_that_fails_has_no_ends():
-    steep = build_ranges(a_net(slope_angle=1.52))
-    assert find(steep).reason is not None
-    assert bound_floor(MODEL, steep, 1742.0) is None

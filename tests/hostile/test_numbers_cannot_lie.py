@@ -204,7 +204,7 @@ NOT_NEEDED = {
     "resistance.tension",
     *("resistance.wedge", "soil.cohesion", "soil.friction"),
     "post.efficiency",
-    *("tests.scatter", "tests.count"),  # no anchor here has single tests
+    "tests.count",  # no anchor here has single tests
 }
 LIMITS = {
     "end." if one.id.startswith("end.") else one.id

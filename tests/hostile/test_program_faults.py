@@ -108,36 +108,22 @@ def require_told(rows, sound, told, kind):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("method", ["steady", "transient"])
-def test_a_fault_in_any_solve_is_told_and_spares_the_other_rows(spoil, check, method):
-    """The first, the last, and six more: cases, histories, other laws, and flips."""
-    options = ("--method", method)
+def test_a_fault_in_any_solve_is_told_and_spares_the_other_rows(spoil, check):
+    """The first, the last, and six more: cases and other laws."""
     settings = spoil()
-    code, sound, told = check(*options)
+    code, sound, told = check()
     assert (code, told) == (1, "")
     number = len(settings)
-    kinds = {type(one) for one in settings}
-    assert len(kinds) == (1 if method == "steady" else 2)
     draw = random.Random(17)
     drawn = {0, 8, number - 1, *draw.sample(range(number), 6)}
     befallen = set()
     for place in drawn:
         kind = draw.choice(KINDS)
         spoil(lambda call, _, place=place: call == place, kind)
-        code, rows, told = check(*options)
+        code, rows, told = check()
         assert code == 5
         befallen |= require_told(rows, sound, told, kind)
     assert befallen == set(ROWS)
-
-
-def test_a_fault_in_all_histories_leaves_no_row_proven(spoil, check):
-    spoil()
-    _, sound, _ = check("--method", "transient")
-    spoil(lambda _, settings: isinstance(settings, TransientSettings))
-    code, rows, told = check("--method", "transient")
-    assert code == 5
-    assert require_told(rows, sound, told, ValueError) == set(ROWS)
-    assert {one["method"] for one in read_told(told, ValueError)} == {"transient"}
 
 
 def test_a_fault_in_the_statics_of_a_support_is_told_alike(spoil, check, monkeypatch):

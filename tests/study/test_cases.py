@@ -7,13 +7,8 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.coupling.history.settings import TransientSettings
-from netdesign.envelope import confirm
-from netdesign.envelope.confirm import confirm_envelopes
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.envelope.run import CaseResult
-from netdesign.outcome import Outcome, Verdict
-from netdesign.site.model import Project
+from netdesign.outcome import Verdict
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
@@ -23,7 +18,6 @@ from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
 from tests.read_check import compare_support
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
-from tests.solving.made_up_workers import Recording
 
 RANGES = Ranges.of(
     density=Interval(low=270.0, high=400.0),
@@ -119,91 +113,6 @@ def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_
     finally:
         pool.close()
     assert write_document(judge(standard, found)) == expected
-
-
-def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelopes):
-    """Forces no smaller than the steady ones; histories of governing cases only."""
-    workers = Recording()
-    site = build_site(ROWS[0], ranges=RANGES)
-    run = replace(RUN, method="transient")
-    (found,) = search_site(site, run, Runner(workers=workers))
-    settings = [job.settings for job in workers.jobs]
-    histories = [one for one in settings if isinstance(one, TransientSettings)]
-    steady = envelopes[0]
-    governing = {id(steady.extremes[member].governing) for member in loaded(steady)}
-    assert len(histories) == len(governing)
-    assert found.gap is None
-    for member in loaded(steady):
-        assert found.extremes[member].force.value >= steady.extremes[member].force.value
-        assert (
-            found.extremes[member].widened.high >= steady.extremes[member].widened.high
-        )
-        assert found.extremes[member].upper_bound > found.extremes[member].force.value
-    study = judge_site(site, [found], standard, run)
-    assert study.provenance.settings["method"] == "transient"
-    record = study.rows[0].envelope.bounds[0]
-    assert record.max_kN == study.rows[0].extremes[0].max_kN
-
-
-def test_a_history_that_fails_leaves_its_searched_row_unproven(
-    standard, envelopes, monkeypatch
-):
-    def fail(tasks, **_):
-        return [
-            CaseResult(
-                case=task.case,
-                outcome=Outcome.PLATEAU_NOT_REACHED,
-                reason="spoilt",
-                member_forces={},
-            )
-            for task in tasks
-        ]
-
-    monkeypatch.setattr(confirm, "run_cases", fail)
-    found = confirm_envelopes(envelopes, TransientSettings())
-    study = judge(standard, found)
-    assert study.verdict is Verdict.NOT_PROVEN
-    assert all(row.verdict is Verdict.NOT_PROVEN for row in study.rows)
-    assert all("history of a governing case: spoilt" in str(one.gap) for one in found)
-
-
-def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
-    """The snow density that is told passes with the bound, and a little more fails."""
-    band = envelopes[0].extremes["foot_anchor"].widened
-    study = judge(standard, envelopes)
-    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon.end")
-    factor = compare_support(check) * check.read("γ_E") * check.read("γ_R")
-    row = build_row(
-        "R1", resistances=resist(foot_anchor__tendon=0.85 * band.value * factor)
-    )
-    project = Project(accepted_law=RUN.creep_law.name)
-    site = build_site(row, ranges=RANGES, project=project)
-    solver = CaseSolver(RUN.settings, RUN.creep_law)
-    again = judge_site(site, envelopes[:1], standard, RUN, solver)
-    check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon.end")
-    assert check.verdict is Verdict.FAIL
-    changes = {str(change.quantity): change for change in check.changes}
-    bound = changes["snow density"].bound
-    assert 270.0 < bound < 400.0
-    assert changes["snow density"].solves > 0
-
-    def verdict(high):
-        ranges = Ranges.of(
-            **dict(RANGES.intervals) | {"density": Interval(low=270.0, high=high)}
-        )
-        changed = build_site(row, ranges=ranges, project=project)
-        found = search_site(changed, RUN)
-        judged = judge(standard, found, changed).rows[0]
-        return next(
-            c for c in judged.checks if c.id == "foot_anchor.tendon.end"
-        ).verdict
-
-    assert verdict(bound) is Verdict.PASS
-    assert verdict(bound + 15.0) is not Verdict.PASS
-
-
-def loaded(envelope):
-    return [m for m in envelope.members if envelope.extremes[m].force.high > 0.0]
 
 
 # --- what is promised beforehand -----------------------------------------------------

@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import load_standard
+from netdesign.checks import Band, load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.outcome import Outcome
 from netdesign.snow.ground import build_ground_from_glide_factor
-from netdesign.study.check_by_case import CheckByCase, Setting
+from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.effects import find_effects
 from netdesign.study.record_guideline import find_row_floor
 from tests.each import each
@@ -82,33 +84,36 @@ def test_floor_follows_a_moved_inclination():
     assert post != pytest.approx(list_floor(row, ranges)["post"], rel=1e-3)
 
 
-def build_check(row, ranges):
+def build_check(added, rise):
+    """Post whose force is 1 N in its largest case."""
+    case = Case(density=391.0, friction_angle=0.31, inclination=0.5)
+    result = CaseResult(
+        case=case,
+        outcome=Outcome.CONVERGED,
+        member_forces={"post": Band(low=1.0, value=1.0, high=1.0)},
+    )
     return CheckByCase(
-        row=row,
-        ranges=ranges,
+        row=build_row("R"),
+        ranges=draw_ranges(random.Random(7)),
         member="post",
-        scale=1.0,
-        governing=Case(density=391.0, friction_angle=0.31, inclination=0.5),
-        results=[],
-        use_floor=lambda moved: 0.3 if moved is ranges else 0.4,
-        widen=lambda one: find_effects(row, STANDARD, one).supports[-1].width,
+        scale=0.41,
+        governing=case,
+        results=[result],
+        added=added,
+        rise=rise,
     )
 
 
-def test_end_effect_follows_what_is_moved_and_nothing_else():
-    """A range of another quantity does not make the support narrower."""
-    row = draw_row(random.Random(7))
-    ranges = draw_ranges(random.Random(7), slack=Interval(low=0.01, high=0.08))
-    check = build_check(row, ranges)
-    assert check.use_least() == 0.3
-    assert check.use_least(Setting(name="slack", value=0.02)) == 0.4
-    larger = check.use_least(Setting(name="glide_factor", value=row.glide_factor + 0.1))
-    typed = draw_row(random.Random(7), glide_factor=row.glide_factor + 0.1)
-    widths = [
-        find_effects(one, STANDARD, ranges).supports[-1].width for one in (typed, row)
-    ]
-    assert larger == pytest.approx(0.4 * widths[0] / widths[1])
-    assert widths[0] > widths[1]
+def test_what_is_added_stays_below_the_largest_force_and_grows_beyond_it():
+    """As the post's: A = w (k P / tan beta - T), of which only the first part grows."""
+    first, held = 0.37, 0.15
+    check = build_check(first - held, first)
+    for share in (0.0, 0.31, 1.0):
+        expected = 0.41 * share + first - held
+        assert check.use(share) == pytest.approx(expected, rel=1e-12)
+    for share in (1.07, 2.3):
+        expected = 0.41 * share + share * first - held
+        assert check.use(share) == pytest.approx(expected, rel=1e-12)
 
 
 def test_a_moved_thickness_keeps_the_glide_factor():
@@ -137,50 +142,3 @@ def test_at_an_end_the_largest_glide_factor_of_the_ranges_counts():
     ]
     assert widths[1] == pytest.approx(widths[2], rel=1e-12)
     assert widths[1] > 1.005 * widths[0]
-
-
-@pytest.mark.parametrize("ends", [(0.0, math.inf), (0.39, 1.02), (0.39, 0.44)])
-def test_two_ends_of_the_floor_change_no_answer(ends):
-    """The floor itself is found only where its ends leave the answer open."""
-    found = []
-
-    def use_floor(ranges):
-        found.append(ranges)
-        return 0.4
-
-    row, ranges = draw_row(random.Random(9)), draw_ranges(random.Random(9))
-    check = replace(
-        build_check(row, ranges), use_floor=use_floor, bound_floor=lambda _: ends
-    )
-    setting = Setting(name="slack", value=0.0213)
-    assert check.use_more(0.617, setting) == 0.617
-    assert check.use_more(0.217, setting) == (0.4 if ends[1] > 1.0 else ends[0])
-    assert check.use_about(setting) <= 1.0
-    assert len(found) == 3 * (ends[1] > 1.0)
-    found.clear()
-    assert check.use_more(1.003, setting) == 1.003
-    assert not found
-
-
-@pytest.mark.parametrize("quantity", ["density", "friction_angle", "upslope_length"])
-def test_a_quantity_that_the_floor_does_not_know_leaves_it(quantity):
-    """Said of the guideline's own load, and used: its ranges stay as they are."""
-    row, ranges = draw_row(random.Random(19)), draw_ranges(random.Random(19))
-    value = {"density": 523.0, "friction_angle": 0.517, "upslope_length": 12.7}[
-        quantity
-    ]
-    moved = ranges.with_value(quantity, value)
-    assert list_floor(row, moved) == list_floor(row, ranges)
-    check = build_check(row, ranges)
-    assert check.use_least(Setting(name=quantity, value=0.37)) == 0.3
-
-
-@pytest.mark.parametrize("ends", [(0.0, math.inf), (0.97, 1.09), (1.003, 1.09)])
-def test_floor_that_is_not_met_is_so_by_its_ends_too(ends):
-    row, ranges = draw_row(random.Random(9)), draw_ranges(random.Random(9))
-    check = replace(
-        build_check(row, ranges),
-        use_floor=lambda _: 1.004,
-        bound_floor=lambda _: ends,
-    )
-    assert check.use_about(Setting(name="slack", value=0.0213)) > 1.0

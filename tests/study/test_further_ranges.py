@@ -126,16 +126,6 @@ def test_the_document_holds_what_ranges_and_nothing_else(study):
     assert read_document(text) == replace(study, digest=document["digest"])
 
 
-def test_only_single_values_are_moved(study):
-    """At the support that uses its member most."""
-    check = next(one for one in study.rows[0].checks if one.holds)
-    quantities = {hold.quantity for hold in check.holds}
-    assert check.position == "edge"
-    assert quantities == {
-        "friction_deg", "inclination_deg", "upslope_length_m", "stiffness_kN_per_m",
-    }  # fmt: skip
-
-
 def test_outputs_have_a_column_for_what_ranges(study):
     text = render_kind(".csv", study, ReportStyle()).decode()
     lines = list(csv.DictReader(text.splitlines()))

@@ -423,37 +423,16 @@ def list_changes(check):
     return {change.quantity.key: change for change in check.changes}
 
 
-def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(solved):
-    """A free end is loaded wider: what needs solves is told there alone."""
+def test_what_flips_a_check_inside_the_row(solved):
     site = build_site(
         replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=400e3)),
         ranges=RANGES,
         project=ACCEPTED,
     )
-    solver = CaseSolver(RUN.settings, RUN.creep_law)
-    checks = checks_of(judge_site(site, solved, SWISS, RUN, solver))
-    inside = list_changes(checks["foot_anchor.tendon"])
-    assert set(inside) == {
+    checks = checks_of(judge_site(site, solved, SWISS, RUN))
+    assert set(list_changes(checks["foot_anchor.tendon"])) == {
         *("change.characteristic_resistance", "change.post_spacing", "change.bar"),
     }
-    end = checks["foot_anchor.tendon.end"]
-    told = list_changes(end)
-    for key in ("change.snow_density", "change.friction_angle"):
-        assert (told[key].bound, told[key].note.key) == (None, "change.floor_stays")
-    height = told["change.snow_thickness"]
-    assert end.utilisation > 2.0
-    assert height.note.key in ("change.floor_limits", "change.not_even")
-    one = list_changes(judge_end(solved, 700e3)["foot_anchor.tendon.end"])
-    bound = one["change.snow_thickness"].bound
-    assert one["change.snow_thickness"].note.key == "change.floor_limits"
-    for thickness, is_met in ((bound, True), (bound + 0.02, False)):
-        row = replace(site.rows[0], snow_thickness=thickness)
-        force = a_floor(row).find(Member.FOOT_ANCHOR).force
-        effects = find_effects(row, SWISS, RANGES)
-        share = effects.supports[1].width / row.layout.post_spacing
-        factor = share * math.hypot(1.0, effects.lateral_share)
-        used = 1.5 * 1.35 * force * factor / 700e3
-        assert (used <= 1.0) is is_met
 
 
 def judge_end(solved, resistance):

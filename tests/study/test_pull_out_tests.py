@@ -1,13 +1,11 @@
 """Pull-out tests of sheet Tests, from the workbook to the judged study."""
 
-import shutil
 from dataclasses import replace
 
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.checks.routes import find_proof_factor
-from netdesign.edge.given_files import find_resource
+from netdesign.checks.tested import find_proof_factor
 from netdesign.outcome import Verdict
 from netdesign.report.sections.row import show_tests
 from netdesign.report.words import Words
@@ -25,94 +23,59 @@ TESTS = [
     (340.0, "held", 340.0),
     (360.0, "pulled out", None),
 ]
-ROUTES = ("correlation", "scatter_known", "scatter_unknown")
 
 
-def take_profile(tmp_path, route):
-    mine = tmp_path / "own"
-    if not mine.exists():
-        shutil.copytree(find_resource("standards") / "eurocode", mine)
-    path = mine / "document.toml"
-    text = path.read_text("utf-8")
-    path.write_text(
-        text.replace('route = "correlation"', f'route = "{route}"'), "utf-8"
-    )
-    return mine
-
-
-def judge(tmp_path, route, tests=TESTS):
-    study = study_row(tmp_path, take_profile(tmp_path, route), tests=tests, **ROW)
+def judge(tmp_path, tests=TESTS):
+    study = study_row(tmp_path, "eurocode", tests=tests, **ROW)
     checks = {check.id: check for check in study.rows[0].checks}
     return study, checks["foot_anchor.pull_out"]
 
 
-@pytest.mark.parametrize("route", ROUTES)
-def test_the_way_of_the_profile_counts(tmp_path, route):
-    study, check = judge(tmp_path, route)
-    tests = check.tests
-    assert set(tests.routes) == set(ROUTES)
-    assert tests.route == study.profile.route == route
-    assert check.read("R_k") == pytest.approx(tests.routes[route], rel=1e-12)
-    assert tests.routes["correlation"] == pytest.approx(
-        min(1000.0 / 3 / 1.2, 300.0 / 1.05), rel=1e-12
-    )
-    assert tests.routes["scatter_unknown"] < tests.routes["scatter_known"]
+def test_mean_and_least_count_each_over_its_factor(tmp_path):
+    _, check = judge(tmp_path)
+    expected = min(1000.0 / 3 / 1.2, 300.0 / 1.05)
+    assert check.read("R_k") == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize("route", ROUTES)
-def test_a_result_left_out_never_helps(tmp_path, route):
-    _, known = judge(tmp_path, route)
+def test_a_result_left_out_never_helps(tmp_path):
+    _, known = judge(tmp_path)
     for left_out in range(len(TESTS)):
         tests = [
             (load, None if k == left_out else result, proof)
             for k, (load, result, proof) in enumerate(TESTS)
         ]
-        _, check = judge(tmp_path, route, tests)
-        found = check.read("R_k")
-        assert found is None or found <= known.read("R_k") * (1 + 1e-12)
-        if route == "scatter_unknown":
-            assert check.verdict is Verdict.NOT_PROVEN
-            assert "outcome of each test" in str(check.reason)
+        _, check = judge(tmp_path, tests)
+        assert check.read("R_k") <= known.read("R_k") * (1 + 1e-12)
 
 
-def test_held_tests_alone_give_lower_bounds_and_no_scatter(tmp_path):
+def test_held_tests_alone_give_lower_bounds(tmp_path):
     tests = [(300.0, "held", None)] * 3
-    study, check = judge(tmp_path, "correlation", tests)
-    assert check.tests.routes["scatter_unknown"] is None
-    assert check.tests.routes["correlation"] == pytest.approx(250.0)
-    routes, singles = show_tests(study.rows[0], Words("en"))
-    text = f"{routes.rows}"
-    assert "all 3 tests held: their loads are lower bounds" in text
+    study, check = judge(tmp_path, tests)
+    assert check.read("R_k") == pytest.approx(250.0)
+    table, singles = show_tests(study.rows[0], Words("en"))
+    assert "all 3 tests held: their loads are lower bounds" in f"{table.rows}"
     assert len(singles.rows) == 3
 
 
 def test_acceptance_follows_load_result_and_design_force(tmp_path):
-    study, check = judge(tmp_path, "correlation")
+    study, check = judge(tmp_path)
     wanted = 1.2 * 1.15 * check.read_band("E_d")[1]
     _, singles = show_tests(study.rows[0], Words("en"))
     assert wanted <= float(singles.rows[0][6].text) < wanted + 1.0
     assert [line[-1].text for line in singles.rows] == ["no", "yes", "no"]
     low = [(0.9 * wanted, "held", None), (1.1 * wanted, "held", 1.2 * wanted)]
     low.append((1.1 * wanted, None, None))
-    study, _ = judge(tmp_path, "correlation", low)
+    study, _ = judge(tmp_path, low)
     _, singles = show_tests(study.rows[0], Words("en"))
     assert [line[-1].text for line in singles.rows] == ["no", "no", "open"]
 
 
-def test_number_and_mean_alone_prove_by_correlation_only(tmp_path):
+def test_number_and_mean_alone_are_enough(tmp_path):
     numbers = {"number of tests": 3, "least tested resistance [kN]": 300}
     anchor = STEEL | numbers | {"mean tested resistance [kN]": 330}
-    row = ROW | {"anchor": anchor}
-    for route in ROUTES:
-        study = study_row(tmp_path, take_profile(tmp_path, route), **row)
-        check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
-        (tmp_path / "own" / "document.toml").unlink()
-        shutil.rmtree(tmp_path / "own")
-        if route == "correlation":
-            assert check.read("R_k") == pytest.approx(min(330 / 1.2, 300 / 1.05))
-        else:
-            assert check.verdict is Verdict.NOT_PROVEN
-            assert "the load of each test is wanted" in str(check.reason)
+    study = study_row(tmp_path, "eurocode", **(ROW | {"anchor": anchor}))
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
+    assert check.read("R_k") == pytest.approx(min(330 / 1.2, 300 / 1.05))
 
 
 BOND = {

@@ -207,35 +207,7 @@ def use_nearly(check, share):
     return check.read_band("E_d")[1] * check.read("γ_R") * 1e3 / share
 
 
-@pytest.mark.parametrize(
-    ("member", "share"), [("end_guy.rope", 0.93), ("post.compression", 0.96)]
-)
-def test_limits_of_end_members_are_where_they_turn(judged, member, share):
-    """Found in a few cases; the whole row with the value tells whether that is true."""
-    name = f"{member}.end"
-    value = use_nearly(checks_of(judged[1])[name], share)
-    if member.startswith("post"):
-        row = with_panel(
-            a_panel(), end=an_end(37.0), resistances=resist(post__compression=value)
-        )
-    else:
-        row = with_panel(a_panel(), end=an_end(37.0, value))
-    _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))
-    check = checks_of(study)[name]
-    assert check.verdict is (Verdict.PASS if share < 1.0 else Verdict.FAIL)
-    (limit,) = (one for one in check.holds if one.quantity == "upslope_length_m")
-    assert limit.least is None
-    assert limit.low < limit.most < limit.high
-    for length, verdict in (
-        (limit.most, Verdict.PASS),
-        (1.15 * limit.most, Verdict.FAIL),
-    ):
-        _, moved = judge(replace(row, upslope_length=length))
-        assert checks_of(moved)[name].verdict is verdict
-
-
-def test_changes_that_mend_an_end_member(judged):
-    """Less snow, or a stronger anchor; the row with that snow passes."""
+def test_change_that_mends_an_end_member(judged):
     name = "end_guy_anchor.tendon.end"
     value = use_nearly(checks_of(judged[1])[name], 1.11)
     row = with_panel(a_panel(), end=an_end(37.0, value))
@@ -245,8 +217,3 @@ def test_changes_that_mend_an_end_member(judged):
     changes = {one.quantity.key: one for one in check.changes}
     needed = changes["change.characteristic_resistance"].bound
     assert needed == pytest.approx(1.11e-3 * value, abs=0.1)
-    thickness = changes["change.snow_thickness"].bound
-    _, moved = judge(replace(row, snow_thickness=thickness))
-    moved = checks_of(moved)[name]  # the margin between samples moves a little, too
-    highest = moved.read_band("E_d")[1] / moved.resistance_kN
-    assert moved.utilisation < highest == pytest.approx(1.0, abs=0.01)

@@ -76,44 +76,25 @@ def changes(found):
     return {str(change.quantity): change for change in check(found).changes}
 
 
-def test_weak_anchor_fails_and_every_change_is_solved(found, changes):
+def test_weak_anchor_fails_and_every_change_is_told(found, changes):
     assert check(found).verdict is Verdict.FAIL
     assert set(changes) == {
         "characteristic resistance",
         "type strong of the workbook",
         "post spacing",
-        "snow density",
-        "snow thickness",
-        "friction angle",
     }
-    assert 0 < changes["snow density"].solves < 20
-    assert 0 < changes["snow thickness"].solves < 25
     others = [one for one in found.checks if one.id != "foot_anchor.tendon"]
     assert all(one.changes == [] for one in others)
 
 
-@pytest.mark.parametrize(
-    ("quantity", "beyond"),
-    [("post spacing", 0.03), ("snow thickness", 0.03), ("snow density", 4.0)],
-)
-def test_change_flips_the_check_and_a_little_more_does_not(changes, quantity, beyond):
-    bound = changes[quantity].bound
-
+def test_spacing_flips_the_check_and_a_little_more_does_not(changes):
     def verdict(value):
-        row, ranges = ROW, RANGES
-        if quantity == "post spacing":
-            row = replace(ROW, layout=replace(ROW.layout, post_spacing=value))
-        elif quantity == "snow thickness":
-            row = replace(ROW, snow_thickness=value)
-        else:
-            # the same three samples below, so that the envelope gap stays small
-            low = value - 65.0
-            density = Interval(low=low, high=value, count=3)
-            ranges = Ranges.of(**dict(RANGES.intervals) | {"density": density})
-        return check(study(row, ranges)).verdict
+        layout = replace(ROW.layout, post_spacing=value)
+        return check(study(replace(ROW, layout=layout))).verdict
 
+    bound = changes["post spacing"].bound
     assert verdict(bound) is Verdict.PASS
-    assert verdict(bound + beyond) is not Verdict.PASS
+    assert verdict(bound + 0.03) is not Verdict.PASS
 
 
 def test_resistance_that_is_told_is_enough_and_no_more(changes):
@@ -156,23 +137,9 @@ def test_guideline_stands_beside_the_solve(found):
     assert "Without slip" in str(record.sentence)
 
 
-def test_interval_names_every_other_creep_law(found):
-    spreads = {str(spread.source): spread for spread in check(found).spreads}
-    assert set(spreads) == {
-        "numerical error",
-        "between the cases",
-        "creep law zwinger-2007",
-        "creep law gagliardini-1997",
-    }
-    judged = [name for name, spread in spreads.items() if spread.in_verdict]
-    assert judged == ["numerical error", "between the cases"]
-    refused = spreads["creep law gagliardini-1997"]
-    assert refused.low is None
-    assert "use another set or denser snow" in str(refused.note)
-
-
-def test_without_a_probe_nothing_more_is_solved():
-    plain = check(study())
-    quantities = {str(change.quantity) for change in plain.changes}
-    assert "snow density" not in quantities
-    assert "characteristic resistance" in quantities
+def test_every_other_creep_law_is_beside(found):
+    laws = {one.creep_law: one for one in found.model_form.variants}
+    assert set(laws) == {"zwinger-2007", "gagliardini-1997"}
+    refused = laws["gagliardini-1997"]
+    assert refused.ratio is None
+    assert "use another set or denser snow" in str(refused.reason)

@@ -209,7 +209,7 @@ _SCOPE = ("avalanche", "structure", "ground", "product")
 _READING = (
     *("reading.checks", "caption.chains", "caption.arrows", "reading.pressure"),
     *("caption.maps", "panel_view.caption", "reading.search"),
-    *("reading.holds", "reading.directions"),
+    "reading.directions",
 )
 # Left empty, its factor is taken by the guideline's load.
 _ALTITUDE = say("column.Nets.altitude")

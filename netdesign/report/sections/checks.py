@@ -20,7 +20,6 @@ from netdesign.report.words import (
     MISSING,
     Words,
     append_unit,
-    name_heading,
     show_check,
     show_text,
     show_verdict,
@@ -28,11 +27,10 @@ from netdesign.report.words import (
 from netdesign.study.governing import (
     SEVERITY,
     find_governing,
-    find_shown,
     is_far_from_limit,
     rank_check,
 )
-from netdesign.study.records import ChangeRecord, CheckRecord, HoldRecord, RowStudy
+from netdesign.study.records import ChangeRecord, CheckRecord, RowStudy
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_mode
 
@@ -344,10 +342,10 @@ _SENSES = {
 
 
 def show_changes(row: RowStudy, words: Words) -> tuple[str, tuple[Block, ...]]:
-    """Heading and sentences of a row: what would make it pass, or the room left."""
+    """Heading and sentences of a row: what would make its checks pass."""
     passes = row.verdict in (Verdict.PASS, Verdict.DECLARED)
     heading = words("heading.room_left" if passes else "heading.would_pass_with")
-    told = [*_list_row_changes(row, words), *_list_room(row, words)]
+    told = list(_list_row_changes(row, words))
     if told:
         return heading, (Items(items=tuple(told)),)
     is_far = all(map(is_far_from_limit, row.checks))
@@ -364,14 +362,6 @@ def _list_row_changes(row: RowStudy, words: Words) -> Iterator[str]:
             told.setdefault(text, []).append(show_check(words, check))
     for text, names in told.items():
         yield words("show.label", label=words.join(names), text=text)
-
-
-def _list_room(row: RowStudy, words: Words) -> Iterator[str]:
-    """Limits of single values beyond which the check that is shown turns."""
-    check = find_shown(row.checks)
-    if check and (limits := list_limits(check, words)):
-        label = show_check(words, check)
-        yield words("show.label", label=label, text=words.join(limits))
 
 
 def list_flips(check: CheckRecord, words: Words) -> tuple[str, ...]:
@@ -421,15 +411,11 @@ def describe_change(change: ChangeRecord, words: Words) -> str:
     return words(_SENSES[change.sense], quantity=quantity, bound=bound)
 
 
-def explain_change(change: ChangeRecord, words: Words) -> str:
-    """One change with what it took, and what limits it."""
+def _explain_change(change: ChangeRecord, words: Words) -> str:
+    """One change with the condition that it has."""
     text = _compare_now(change, words)
     if change.bound is not None:
         text = words("show.passes_with", change=text)
-    if change.solves == 1:
-        text = words("show.after_one_solve", change=text)
-    elif change.solves:
-        text = words("show.after_solves", change=text, count=change.solves)
     return _add_note(text, change, words)
 
 
@@ -445,7 +431,7 @@ def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[
                     check=show_check(words, check),
                     verdict=words(f"verdict.{check.verdict}"),
                 ),
-                text=explain_change(change, words),
+                text=_explain_change(change, words),
             )
         )
         for row, check in rows
@@ -456,51 +442,3 @@ def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[
         return found
     is_far = all(is_far_from_limit(check) for _, check in rows)
     return [words("show.no_change" if is_far else "show.no_change_alone")]
-
-
-def list_limits(check: CheckRecord, words: Words) -> tuple[str, ...]:
-    """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``.
-
-    One sentence, or none.
-    """
-    limits = [
-        words(
-            "show.limit_now",
-            quantity=name_heading(words, hold.quantity),
-            limit=_show_limit(check, hold, words),
-            now=words.show_given(hold.now),
-        )
-        for hold in check.holds
-        if hold.least is not None or hold.most is not None
-    ]
-    key = _choose_sentence(check)
-    return (words(key, limits=words.join(limits)),) if limits else ()
-
-
-def _choose_sentence(check: CheckRecord) -> str:
-    """Sentence of limits: beyond one a check turns, or its force does.
-
-    A check that carries its force may still not pass: a case without a result, a creep
-    law out of its range, a declaration.
-    """
-    if not _carries(check):
-        return "show.turns"
-    return "show.holds" if check.verdict is Verdict.PASS else "show.within"
-
-
-def _carries(check: CheckRecord) -> bool:
-    """True where the largest force is within the resistance, as the record has it."""
-    _, used = check.utilisation_band
-    return used is not None and used <= 1.0
-
-
-def _show_limit(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
-    limits = [
-        f"{sign} {words.show_given(value)}"
-        for sign, value in (("≥", hold.least), ("≤", hold.most))
-        if value is not None
-    ]
-    if len(limits) == 1:
-        return limits[0]
-    key = "show.both" if _carries(check) else "show.either"
-    return words(key, one=limits[0], other=limits[1])

@@ -44,7 +44,6 @@ from netdesign.study.records import (
     CheckRecord,
     ModelFormRecord,
     RowStudy,
-    SpreadRecord,
     Study,
 )
 from netdesign.words.message import Message
@@ -279,9 +278,7 @@ def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
     if again is not None:
         by = words.show(again.reason)
         if again.reason is None:
-            method = words.show(name("method", again.method))
-            count = again.elements or 0
-            by = words("show.solved_again_by", method=method, count=count)
+            by = words("show.solved_again_by", count=again.elements or 0)
     difference = again.difference_percent if again else None
     case = words.join(words.show_number(*one) for one in bound.case.items())
     return (
@@ -329,7 +326,7 @@ def _show_driver(driver: DriverRecord, words: Words) -> str:
 
 def _build_spreads(study: Study, words: Words) -> Table:
     """Uncertainty of the check that is shown of each row, part by part."""
-    keys = ("net_row", "check", "in_the_verdict", "for_comparison")
+    keys = ("net_row", "check", "in_the_verdict")
     shown = [(row, check) for row in study.rows if (check := find_shown(row.checks))]
     return Table(
         caption=words("caption.spreads"),
@@ -338,7 +335,7 @@ def _build_spreads(study: Study, words: Words) -> Table:
             (
                 text_cell(row.id),
                 text_cell(show_check(words, check)),
-                *(_list_spreads(check, words, in_verdict=x) for x in (True, False)),
+                _list_spreads(check, words),
             )
             for row, check in shown
         ),
@@ -346,31 +343,24 @@ def _build_spreads(study: Study, words: Words) -> Table:
     )
 
 
-def _list_spreads(check: CheckRecord, words: Words, *, in_verdict: bool) -> Cell:
+def _list_spreads(check: CheckRecord, words: Words) -> Cell:
     told = []
     for one in check.spreads:
-        if one.in_verdict is in_verdict and not _is_refused(one):
-            band = words.show_band("utilisation", one.low, one.high)
-            text = band if band != MISSING else words.show(one.note)
-            label = words.show(one.source)
-            told.append(words("show.label", label=label, text=text))
+        band = words.show_band("utilisation", one.low, one.high)
+        text = band if band != MISSING else words.show(one.note)
+        label = words.show(one.source)
+        told.append(words("show.label", label=label, text=text))
     return text_cell(words.join(told) or MISSING)
 
 
-def _is_refused(spread: SpreadRecord) -> bool:
-    """True of another model that gives no force."""
-    return not spread.in_verdict and None in (spread.low, spread.high)
-
-
 def _list_refused(study: Study, words: Words) -> Iterator[Block]:
-    """Other models that give no force, each reason once, with its net rows."""
+    """Other creep laws that give no force, each reason once, with its net rows."""
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        check = find_shown(row.checks)
-        for one in check.spreads if check else ():
-            if _is_refused(one):
-                reason = words.show(one.note)
-                named = words.show(one.source)
+        for one in row.model_form.variants if row.model_form else ():
+            if one.ratio is None:
+                reason = words.show(one.reason)
+                named = words("spread.creep_law", law=one.creep_law)
                 told = reason if named in reason else f"{named}, {reason}"
                 rows.setdefault(told, []).append(row.id)
     yield from _list_by_rows(rows, study, words)

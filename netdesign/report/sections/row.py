@@ -64,7 +64,6 @@ from netdesign.study.records import (
     TestsRecord,
 )
 from netdesign.words.message import Message
-from netdesign.words.names import name
 
 _Tested = list[tuple[CheckRecord, TestsRecord, float | None]]
 
@@ -73,7 +72,7 @@ def show_tests(row: RowStudy, words: Words) -> Iterator[Table]:
     """Tables of the anchor types that were tested; none without tests."""
     tested = list(_list_types(row))
     if tested:
-        yield _tabulate_routes(tested, words)
+        yield _tabulate_tested(tested, words)
     if any(tests.singles for _, tests, _ in tested):
         yield _tabulate_singles(tested, words)
 
@@ -91,38 +90,25 @@ def _list_types(
             yield first, first.tests, find_largest([first, *others], "E_d")
 
 
-def _tabulate_routes(tested: _Tested, words: Words) -> Table:
-    routes = list(tested[0][1].routes)
-    names = [f"{words.show(name('route', one))}\nR_k [kN]" for one in routes]
-    headings = [words("heading.type"), words("tests.number"), *names]
+def _tabulate_tested(tested: _Tested, words: Words) -> Table:
+    heading = "R_k [kN]"
+    headings = [words("heading.type"), words("tests.number"), heading]
     rows: list[tuple[Cell, ...]] = []
     for check, tests, _ in tested:
-        numbers = (
-            number_cell(words, "resistance_kN", tests.routes[one]) for one in routes
-        )
         kind, count = text_cell(check.resistance_type), text_cell(f"{tests.count}")
-        rows.append((kind, count, *numbers))
-        remarks = words.join(_list_remarks(tests, words))
-        if remarks:
-            rows.append((Cell(content=(Piece(remarks, "small"),)),))
-    counting = words.show(name("route", tested[0][1].route))
+        resistance = number_cell(words, "resistance_kN", check.read("R_k"))
+        rows.append((kind, count, resistance))
+        held = sum(one.is_held is True for one in tests.singles)
+        if held:
+            key = "tests.all_held" if held == tests.count else "tests.some_held"
+            remark = words(key, held=held, count=tests.count)
+            rows.append((Cell(content=(Piece(remark, "small"),)),))
     return Table(
-        caption=words("tests.by_route", route=counting),
-        columns=name_columns(headings, numbers=names),
+        caption=words("tests.resistance"),
+        columns=name_columns(headings, numbers=(heading,)),
         rows=tuple(rows),
         symbols="headings",
     )
-
-
-def _list_remarks(tests: TestsRecord, words: Words) -> Iterator[str]:
-    """Lower bounds, and why a way gives no number."""
-    held = sum(one.is_held is True for one in tests.singles)
-    if held:
-        key = "tests.all_held" if held == tests.count else "tests.some_held"
-        yield words(key, held=held, count=tests.count)
-    for route, reason in tests.reasons.items():
-        label = words.show(name("route", route))
-        yield words("show.label", label=label, text=words.show(reason))
 
 
 def _tabulate_singles(tested: _Tested, words: Words) -> Table:
