@@ -46,12 +46,8 @@ FAMILIES: tuple[str, ...] = (
         "profile_text.",
         "profile_choice.",
         "profile_source.",
-        "solved_method.",
     ),
     *(
-        "solved_caption.",
-        "solved.foot",
-        "solved.head",
         "diff_value.",
         "diff_check.",
         "diff_project.",
