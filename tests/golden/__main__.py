@@ -14,7 +14,7 @@ from tests.golden.drawn import compare_drawn
 from tests.golden.example import compare_recalculated, compare_texts, store_texts
 from tests.golden.lists import compare_lists
 
-SHOWN = 60
+SHOWN = 400
 PARTS = (compare_drawn, compare_texts, compare_lists, compare_recalculated)
 
 
@@ -24,7 +24,7 @@ def compare(part):
     told = part()
     for line in told[:SHOWN]:
         write(f"   {line}")
-    write(f"   {len(told)} differences" if told else "   equal")
+    write(f"   {len(told)} lines" if told else "   equal")
     return not told or part is compare_texts
 
 

@@ -16,6 +16,7 @@ from tests.report.reading import read_workbook, recalculate
 
 CHECK = ("check", "--example", "--docx", "--no-cache", "--quiet", "--out")
 LIMIT = 1e-9
+SHOWN = 6  # lines of a place that are printed
 
 
 @cache
@@ -29,12 +30,17 @@ def check_example():
 
 def compare_texts():
     """G2: page, workbook and Word file of the example; accept changes by --write."""
-    return [
-        f"{name}: {line}"
-        for name, lines in check_example()[0].items()
-        for line in difflib.unified_diff(load_text(name), lines, n=0, lineterm="")
-        if not line.startswith(("---", "+++", "@@"))
-    ]
+    told = []
+    for name, lines in check_example()[0].items():
+        changes = difflib.unified_diff(load_text(name), lines, n=0, lineterm="")
+        by_place = {}
+        for line in changes:
+            if not line.startswith(("---", "+++", "@@")):
+                by_place.setdefault(line[1:].partition(":")[0], []).append(line)
+        for place, found in by_place.items():
+            told.append(f"{name}, {place}: {len(found)} lines differ")
+            told += [f"  {line}" for line in found[:SHOWN]]
+    return told
 
 
 def load_text(name):
