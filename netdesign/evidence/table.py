@@ -199,10 +199,6 @@ def _show_change(share: float | None) -> Cell:
     return number_cell(ENGLISH, "change_percent", percent)
 
 
-def _show_given(value: float) -> Cell:
-    return given_cell(ENGLISH, value)
-
-
 FORCES = Kind(
     show=lambda value: number_cell(ENGLISH, FORCE, kilo(value)), quantity=FORCE
 )
@@ -211,14 +207,15 @@ ERRORS = Kind(
     quantity="error_kN_per_m",
 )
 CHANGES = Kind(show=_show_change, quantity="change_percent")
-INCLINATIONS = Kind(show=_show_given, quantity="inclination_deg")
-GIVEN = Kind(show=_show_given)
+INCLINATIONS = Kind(
+    show=lambda value: given_cell(ENGLISH, value), quantity="inclination_deg"
+)
 TIMES = Kind(show=_show_time)
-TEXTS = Kind(show=lambda text: text_cell(text), is_number=False)
+TEXTS = Kind(show=text_cell, is_number=False)
 # The ends of a range.
 RANGES = Kind(
     show=lambda ends: text_cell(
         ENGLISH("show.band", low=f"{ends[0]:.0f}", high=f"{ends[1]:.0f}")
     )
 )
-NUMBER_TEXTS = Kind(show=lambda text: text_cell(text))  # set as numbers are
+NUMBER_TEXTS = Kind(show=text_cell)  # set as numbers are
