@@ -18,6 +18,7 @@ from typing import Any, NoReturn
 
 import click
 
+from netdesign import addon_table
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
 from netdesign.commands.usage import tell
 from netdesign.edge.causes import explain_system
@@ -42,24 +43,36 @@ class CommandTable(UserDict[str, Any]):
 
     def __getitem__(self, name: str) -> click.Command:
         """Return a command, imported when it is asked for."""
-        if isinstance(self.data[name], str):  # the place of the command
-            module, function = self.data[name].split(".")
-            found = import_module(f"netdesign.commands.{module}")
-            self.data[name] = getattr(found, function)
+        place = self.data[name]
+        if isinstance(place, str):
+            self.data[name] = _load_command(name, place)
         command: click.Command = self.data[name]
         return command
 
 
+def _load_command(name: str, place: str) -> click.Command:
+    """Command at a place; one that says what is missing, where its add-on is."""
+    if ":" not in place:
+        module, function = place.split(".")
+        found: click.Command = getattr(
+            import_module(f"netdesign.commands.{module}"), function
+        )
+    elif addon_table.is_there(place):
+        found = addon_table.load(name, place)
+    else:
+        found = click.Command(
+            name,
+            callback=lambda: addon_table.load(name, place),
+            context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
+            add_help_option=False,
+            hidden=True,
+        )
+    return found
+
+
 _OWN_MODULES = (
-    *(
-        "bench",
-        "check",
-        "completion",
-        "doctor",
-        "envelope",
-        "report",
-    ),
-    *("solve", "standards", "terrain", "winter"),
+    *("bench", "check", "completion", "doctor", "envelope", "report"),
+    *("solve", "standards", "winter"),
 )
 _COMMANDS = CommandTable(
     {
@@ -70,6 +83,7 @@ _COMMANDS = CommandTable(
         "init": "site_input.init",
         "map": "site_input.map_headings",
         "snowpack": "snow.snowpack",
+        **addon_table.COMMANDS,
     }
 )
 

@@ -178,6 +178,12 @@ class TerrainError(NetDesignError):
     exit_code = 3
 
 
+class AddonError(NetDesignError):
+    """An add-on is needed that the installation lacks."""
+
+    exit_code = 2
+
+
 class OutputError(NetDesignError):
     """An output cannot be written: it exists already, or the place is unfit."""
 

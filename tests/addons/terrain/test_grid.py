@@ -5,8 +5,8 @@ import contextlib
 import numpy as np
 import pytest
 
+from netdesign.addons.terrain.grid import read_grid
 from netdesign.outcome import TerrainError
-from netdesign.terrain.grid import read_grid
 from tests.each import each
 
 HEAD = b"ncols 3\nnrows 4\nxllcorner 700.5\nyllcorner 200.25\ncellsize 0.5\n"

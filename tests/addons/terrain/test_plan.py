@@ -6,8 +6,8 @@ import random
 
 import pytest
 
+from netdesign.addons.terrain.plan import read_plan
 from netdesign.outcome import TerrainError
-from netdesign.terrain.plan import read_plan
 
 
 def feature(points, shape="LineString", **properties):

@@ -1,6 +1,6 @@
 """Ground between the cells of a grid: a quadratic fitted around each point.
 
-Theory: terrain/THEORY.md, (T1) to (T3).
+Theory: addons/terrain/THEORY.md, (T1) to (T3).
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from netdesign.addons.terrain.grid import Grid
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.terrain.grid import Grid
 
 WINDOWS = (3, 5, 7)  # cells on a side
 _AT_ONCE = 8192  # points whose windows are held at once: a quarter of the time of all
@@ -111,7 +111,7 @@ def fit(grid: Grid, points: Floats, window: int) -> Ground:
 
     Verified by
     -----------
-    tests/terrain/test_measure.py
+    tests/addons/terrain/test_measure.py
     """
     place, middle, centre, relative = _cut_windows(grid, points, window)
     _, solve = _prepare(window)

@@ -6,12 +6,12 @@ import numpy as np
 import openpyxl
 import pytest
 
+from netdesign.addons.terrain.grid import read_grid
 from netdesign.site.template.workbook import write_site_workbook
-from netdesign.terrain.grid import read_grid
+from tests.addons.terrain.map_files import write_rows as write_layer
+from tests.addons.terrain.map_files import write_tif
 from tests.report.accessible import list_violations
 from tests.report.printing import PHONE_PX
-from tests.terrain.map_files import write_rows as write_layer
-from tests.terrain.map_files import write_tif
 
 LEFT_OUT = "not among the drawn rows, left out"
 EAST, NORTH = 2_700_300.0, 1_180_200.0
@@ -172,7 +172,7 @@ def test_json_is_printed_and_nothing_written(slope, tmp_path, call, monkeypatch)
     monkeypatch.chdir(tmp_path)
     ended = call("terrain", slope / "slope.asc", slope / "rows.json", "--json")
     told = json.loads(ended.out)
-    assert told["schema"] == "netdesign.terrain/1"
+    assert told["schema"] == "netdesign.addons.terrain/1"
     assert [one["id"] for one in told["rows"]] == ["A", "B", "C"]
     assert 0.0 < told["uncovered_m2"] < told["zone_m2"]
     assert 0.03 < told["noise_m"] < 0.05
@@ -310,7 +310,7 @@ def test_a_map_that_no_report_shows_is_refused(slope, call):
 
 
 def test_without_the_extra_it_is_said_what_to_install(slope, call, monkeypatch):
-    from netdesign.commands import terrain
+    from netdesign.addons.terrain import command as terrain
 
     monkeypatch.setattr(terrain, "find_spec", lambda _: None)
     ended = call("terrain", slope / "slope.asc", slope / "rows.json", "--json")

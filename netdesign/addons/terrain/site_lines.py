@@ -6,9 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from netdesign.site.as_typed import Lines
-from netdesign.site.template.workbook import list_starting_lines, render_workbook
-from netdesign.terrain.measure import (
+from netdesign.addons.terrain.measure import (
     CARED_ANGLE,
     CARED_LENGTH,
     LEAST_LENGTH,
@@ -16,7 +14,9 @@ from netdesign.terrain.measure import (
     MeasuredRow,
     describe_end,
 )
-from netdesign.terrain.neighbours import find_gap
+from netdesign.addons.terrain.neighbours import find_gap
+from netdesign.site.as_typed import Lines
+from netdesign.site.template.workbook import list_starting_lines, render_workbook
 from netdesign.words.catalogue import Language
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from netdesign.terrain.measure import MeasuredRow
+from netdesign.addons.terrain.measure import MeasuredRow
 
 _FARTHEST = 20.0  # from a row's end; beyond it the next work counts as none [m]
 
@@ -26,7 +26,7 @@ def find_gap(row: MeasuredRow, rows: Sequence[MeasuredRow]) -> float | None:
 
     Verified by
     -----------
-    tests/terrain/test_coverage.py
+    tests/addons/terrain/test_coverage.py
     """
     gaps = [_find_beside(row, rows, end) for end in (0, -1)]
     known = [one for one in gaps if one is not None]

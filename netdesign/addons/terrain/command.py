@@ -23,13 +23,13 @@ from netdesign.outcome import TerrainError
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from netdesign.addons.terrain.coverage import Coverage
+    from netdesign.addons.terrain.geojson import Feature
+    from netdesign.addons.terrain.grid import Grid
+    from netdesign.addons.terrain.measure import MeasuredRow
+    from netdesign.addons.terrain.plan import Plan
+    from netdesign.addons.terrain.surface import Surface
     from netdesign.site.as_typed import Lines
-    from netdesign.terrain.coverage import Coverage
-    from netdesign.terrain.geojson import Feature
-    from netdesign.terrain.grid import Grid
-    from netdesign.terrain.measure import MeasuredRow
-    from netdesign.terrain.plan import Plan
-    from netdesign.terrain.surface import Surface
 
 _SITE, _ROWS_FILE, _PAGE_FILE = "site.xlsx", "rows.geojson", "terrain.html"
 _LIBRARIES = ("rasterio", "pyogrio", "shapely", "contourpy", "ezdxf")
@@ -67,7 +67,7 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
         if grid is not None or folder is None:
             told = "--example has a grid and rows of its own, and writes files"
             raise UsageRefusal(told)
-        from netdesign.terrain.example import write_example
+        from netdesign.addons.terrain.example import write_example
 
         grid, rows, asked["types"] = write_example(folder, overwrite=asked["force"])
     if grid is None or rows is None:
@@ -79,9 +79,13 @@ def _map_study(
     study_file: Path, places_file: Path | None, asked: Mapping[str, Any]
 ) -> None:
     """Verdicts and anchors of a stored study on the map."""
+    from netdesign.addons.terrain.verdict_map import (
+        FORMATS,
+        map_verdicts,
+        write_verdicts,
+    )
     from netdesign.commands.stored_study import require_inputs
     from netdesign.files.rows_map import read_places
-    from netdesign.files.verdict_map import FORMATS, map_verdicts, write_verdicts
     from netdesign.study.document import load_study
 
     out, language = asked["out"], speak()
@@ -120,11 +124,11 @@ def _measure(
     asked: Mapping[str, Any],
 ) -> None:
     """Measure the rows, tell what was found, and write it."""
-    from netdesign.report.page.terrain_page import render_terrain
-    from netdesign.terrain.geojson import list_row_features, write_features
-    from netdesign.terrain.measure import measure_plan
-    from netdesign.terrain.plan import read_plan
-    from netdesign.terrain.site_lines import write_workbook
+    from netdesign.addons.terrain.geojson import list_row_features, write_features
+    from netdesign.addons.terrain.measure import measure_plan
+    from netdesign.addons.terrain.page import render_terrain
+    from netdesign.addons.terrain.plan import read_plan
+    from netdesign.addons.terrain.site_lines import write_workbook
 
     plan = read_plan(rows)
     ground = _read_ground(grid, plan)
@@ -151,8 +155,8 @@ def _measure(
 
 def _read_ground(grid: Path, plan: Plan) -> Grid:
     """Elevation grid of a plan; what was noted in reading either is told."""
-    from netdesign.terrain.crs import require_same
-    from netdesign.terrain.grid import read_grid
+    from netdesign.addons.terrain.crs import require_same
+    from netdesign.addons.terrain.grid import read_grid
 
     ground = read_grid(grid)
     require_same(ground.crs, plan.crs)
@@ -182,9 +186,9 @@ def _cover(
     surface: Surface, plan: Plan, rows: Sequence[MeasuredRow], standard: str
 ) -> Coverage:
     """Coverage of the zones by the profile's distance of rows."""
+    from netdesign.addons.terrain.coverage import find_coverage
     from netdesign.checks import load_standard
     from netdesign.checks.geometry import read_reach
-    from netdesign.terrain.coverage import find_coverage
 
     find_reach = read_reach(load_standard(standard))
     if find_reach is None:
@@ -200,7 +204,7 @@ def _describe(
     features: Sequence[Feature], coverage: Coverage, noise: float
 ) -> dict[str, Any]:
     return {
-        "schema": "netdesign.terrain/1",
+        "schema": "netdesign.addons.terrain/1",
         "noise_m": noise,
         "zone_m2": coverage.area,
         "uncovered_m2": coverage.uncovered,
@@ -213,7 +217,7 @@ def _describe(
 
 
 def _tell_rows(rows: Sequence[MeasuredRow], coverage: Coverage, noise: float) -> None:
-    from netdesign.terrain.measure import (
+    from netdesign.addons.terrain.measure import (
         LEAST_LENGTH,
         describe_end,
         describe_kinks,

@@ -9,11 +9,11 @@ import sys
 import numpy as np
 import pytest
 
+from netdesign.addons.terrain.crs import require_plane, require_same
+from netdesign.addons.terrain.plan import read_plan
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crs import require_plane, require_same
-from netdesign.terrain.plan import read_plan
+from tests.addons.terrain.map_files import GIVEN, SWISS, write_rows
 from tests.peak_memory import PEAK, needs_peak
-from tests.terrain.map_files import GIVEN, SWISS, write_rows
 
 DRAW = np.random.default_rng(4)
 GERMAN = {"Werkreihe": "Bödeli-1", "Netzhöhe [cm]": 350.0, "Stützenabstand [m]": 3.2}
@@ -201,7 +201,7 @@ def test_files_cut_or_with_other_bytes_are_rows_or_refused(tmp_path, capfd, end)
     [b"", b"<OGRVRTDataSource></OGRVRTDataSource>", b"SQLite format 3\0" + bytes(90)],
 )
 def test_what_is_no_such_file_is_one_refusal(tmp_path, call, end, content):
-    from netdesign.terrain.example import build_example, write_grid
+    from netdesign.addons.terrain.example import build_example, write_grid
 
     (tmp_path / "g.asc").write_bytes(write_grid(build_example()))
     for one in (".shp", ".shx", ".dbf", ".gpkg"):
@@ -217,7 +217,7 @@ WATCHED = f"""
 import sys
 from pathlib import Path
 from netdesign.outcome import TerrainError
-from netdesign.terrain.plan import read_plan
+from netdesign.addons.terrain.plan import read_plan
 for name in sys.argv[1:]:
     try:
         print(name, "read", len(read_plan(Path(name)).lines))

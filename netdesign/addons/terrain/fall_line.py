@@ -1,6 +1,6 @@
 """Lines of fall on a surface, followed up or down from many points at once.
 
-Theory: terrain/THEORY.md, (T4).
+Theory: addons/terrain/THEORY.md, (T4).
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from netdesign.addons.terrain.surface import Surface
 from netdesign.numerics.arrays import Floats
-from netdesign.terrain.surface import Surface
 
 LONGEST_BENCH = 6.0  # of level or opposite ground, across which a line goes on [m]
 _LEAST_RISE = (
@@ -73,7 +73,7 @@ def follow_fall(
 
     Verified by
     -----------
-    tests/terrain/test_measure.py
+    tests/addons/terrain/test_measure.py
     """
     step, sign = surface.step, 1.0 if is_up else -1.0
     ground = surface.at(starts)

@@ -1,6 +1,6 @@
 """Part of a starting zone whose snow no row holds.
 
-Theory: terrain/THEORY.md, (T9).
+Theory: addons/terrain/THEORY.md, (T9).
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
+from netdesign.addons.terrain.measure import LEAST_STEEP, MeasuredRow
+from netdesign.addons.terrain.plan import Plan
+from netdesign.addons.terrain.surface import Surface
 from netdesign.numerics.arrays import Floats
-from netdesign.terrain.measure import LEAST_STEEP, MeasuredRow
-from netdesign.terrain.plan import Plan
-from netdesign.terrain.surface import Surface
 
 _MOST_PLACES = 250_000  # looked at in a zone; a larger one is looked at more coarsely
 

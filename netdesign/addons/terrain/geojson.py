@@ -11,8 +11,8 @@ import shapely
 from shapely import LineString, Point, Polygon
 from shapely.geometry import mapping
 
-from netdesign.terrain.measure import MeasuredRow
-from netdesign.terrain.plan import ZONE
+from netdesign.addons.terrain.measure import MeasuredRow
+from netdesign.addons.terrain.plan import ZONE
 
 Feature = dict[str, Any]
 

@@ -11,14 +11,20 @@ import numpy as np
 import pytest
 from rasterio.transform import Affine
 
+from netdesign.addons.terrain.grid import Grid, read_grid
+from netdesign.addons.terrain.measure import measure_plan
+from netdesign.addons.terrain.reading import keep_quiet
 from netdesign.outcome import TerrainError
-from netdesign.terrain.grid import Grid, read_grid
-from netdesign.terrain.measure import measure_plan
-from netdesign.terrain.reading import keep_quiet
+from tests.addons.terrain.map_files import (
+    GIVEN,
+    find_north,
+    write_asc,
+    write_rows,
+    write_tif,
+)
+from tests.addons.terrain.surfaces import build_grid, draw_line, plan_of, plane
 from tests.each import each
 from tests.peak_memory import PEAK, needs_peak
-from tests.terrain.map_files import GIVEN, find_north, write_asc, write_rows, write_tif
-from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
 
 DRAW = np.random.default_rng(20_261_126)
 HEIGHTS = np.round(1500.0 + DRAW.normal(0.0, 30.0, (5, 7)), 3)
@@ -218,7 +224,7 @@ WATCHED = f"""
 import sys
 from pathlib import Path
 from netdesign.outcome import TerrainError
-from netdesign.terrain.grid import read_grid
+from netdesign.addons.terrain.grid import read_grid
 {PEAK}
 before = peak()
 for name in sys.argv[1:]:

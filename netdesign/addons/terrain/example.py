@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 from shapely import LineString, Polygon
 
+from netdesign.addons.terrain.geojson import Feature, make_feature, write_features
+from netdesign.addons.terrain.grid import Grid
+from netdesign.addons.terrain.plan import ZONE
+from netdesign.addons.terrain.surface import Surface
 from netdesign.edge.output import write_files
 from netdesign.numerics.arrays import Floats
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.template.workbook import load_example, render_workbook
-from netdesign.terrain.geojson import Feature, make_feature, write_features
-from netdesign.terrain.grid import Grid
-from netdesign.terrain.plan import ZONE
-from netdesign.terrain.surface import Surface
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
 TYPES_FILE = "types.xlsx"

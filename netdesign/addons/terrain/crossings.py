@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
+from netdesign.addons.terrain.fall_line import FallLines
 from netdesign.numerics.arrays import Floats
-from netdesign.terrain.fall_line import FallLines
 
 Rows = tuple[Sequence[str], Sequence[shapely.LineString]]
 
@@ -24,7 +24,7 @@ def find_first_crossings(
 
     Verified by
     -----------
-    tests/terrain/test_measure.py
+    tests/addons/terrain/test_measure.py
     """
     names, shapes = rows
     path, lengths = _trace(lines, line)
@@ -47,7 +47,7 @@ def find_exit(lines: FallLines, line: int, zones: shapely.Geometry) -> float | N
 
     Verified by
     -----------
-    tests/terrain/test_measure.py
+    tests/addons/terrain/test_measure.py
     """
     path, lengths = _trace(lines, line)
     if path is None:

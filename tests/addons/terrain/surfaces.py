@@ -5,8 +5,8 @@ import math
 import numpy as np
 import shapely
 
-from netdesign.terrain.grid import Grid
-from netdesign.terrain.plan import NetLine, Plan
+from netdesign.addons.terrain.grid import Grid
+from netdesign.addons.terrain.plan import NetLine, Plan
 
 SPACING = 3.0
 

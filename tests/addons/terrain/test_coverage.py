@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.terrain.coverage import find_coverage
-from netdesign.terrain.measure import measure_plan
-from netdesign.terrain.neighbours import find_gap
-from netdesign.terrain.site_lines import derive_cells
-from tests.terrain.surfaces import build_grid, draw_line, plan_of, plane
+from netdesign.addons.terrain.coverage import find_coverage
+from netdesign.addons.terrain.measure import measure_plan
+from netdesign.addons.terrain.neighbours import find_gap
+from netdesign.addons.terrain.site_lines import derive_cells
+from tests.addons.terrain.surfaces import build_grid, draw_line, plan_of, plane
 
 PSI = math.radians(38.3)
 
@@ -20,7 +20,7 @@ def ring(*corners):
 
 @pytest.mark.parametrize("turned", [0.0, 0.61])
 def test_a_row_holds_its_bays_up_to_its_reach(turned):
-    from tests.terrain.surfaces import turn
+    from tests.addons.terrain.surfaces import turn
 
     corners = ring((-30, -30), (30, -30), (30, 30), (-30, 30))
     zone = np.column_stack(turn(*corners.T, turned))

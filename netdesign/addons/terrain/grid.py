@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from netdesign.addons.terrain.crs import require_plane
+from netdesign.addons.terrain.reading import DAMAGE, keep_quiet, read_file
 from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crs import require_plane
-from netdesign.terrain.reading import DAMAGE, keep_quiet, read_file
 
 if TYPE_CHECKING:
     from rasterio.io import DatasetReader

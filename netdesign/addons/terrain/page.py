@@ -5,6 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
+from netdesign.addons.terrain.coverage import Coverage
+from netdesign.addons.terrain.drawing import (
+    draw_map,
+    draw_profile,
+    draw_slopes,
+    extract_ground,
+    name_profile,
+)
+from netdesign.addons.terrain.measure import (
+    MeasuredRow,
+    describe_end,
+    describe_kinks,
+    describe_steep_above,
+)
+from netdesign.addons.terrain.plan import Plan
+from netdesign.addons.terrain.surface import Surface
 from netdesign.report.blocks import (
     Column,
     Figure,
@@ -17,24 +33,8 @@ from netdesign.report.blocks import (
     section,
     text_cell,
 )
-from netdesign.report.drawing.terrain_map import (
-    draw_map,
-    draw_profile,
-    draw_slopes,
-    extract_ground,
-    name_profile,
-)
 from netdesign.report.page.render import render_page
 from netdesign.report.words import Words, show_text
-from netdesign.terrain.coverage import Coverage
-from netdesign.terrain.measure import (
-    MeasuredRow,
-    describe_end,
-    describe_kinks,
-    describe_steep_above,
-)
-from netdesign.terrain.plan import Plan
-from netdesign.terrain.surface import Surface
 
 _TITLE = "Net rows on the terrain"
 _MAP = (

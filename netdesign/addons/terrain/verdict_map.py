@@ -235,7 +235,7 @@ def turn_to_map(
 
     Verified by
     -----------
-    tests/files/test_verdict_map.py
+    tests/addons/terrain/test_verdict_map.py
     """
     down = (math.sin(place.aspect), math.cos(place.aspect))
     other = place.posts[number if number < len(place.posts) else number - 2]

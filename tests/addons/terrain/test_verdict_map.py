@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 import ezdxf
 import pytest
 
+from netdesign.addons.terrain.verdict_map import turn_to_map
 from netdesign.files.rows_map import MeasuredPlace
-from netdesign.files.verdict_map import turn_to_map
 from netdesign.structure.anchor_distance import Bore
 
 SLOPE = math.radians(37.0)

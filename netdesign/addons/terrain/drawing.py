@@ -11,6 +11,10 @@ import numpy as np
 import shapely
 from contourpy import contour_generator
 
+from netdesign.addons.terrain.coverage import Coverage
+from netdesign.addons.terrain.measure import MeasuredRow
+from netdesign.addons.terrain.plan import Plan
+from netdesign.addons.terrain.surface import Surface
 from netdesign.numerics.arrays import Floats
 from netdesign.report.drawing.label_board import LabelBoard, write_label
 from netdesign.report.drawing.plain_svg import (
@@ -22,10 +26,6 @@ from netdesign.report.drawing.plain_svg import (
     Frame,
     show_place,
 )
-from netdesign.terrain.coverage import Coverage
-from netdesign.terrain.measure import MeasuredRow
-from netdesign.terrain.plan import Plan
-from netdesign.terrain.surface import Surface
 
 SLOPE_CLASSES = (25, 30, 35, 40, 45, 50)  # lower ends of the classes [deg]
 _TILES = 130  # on the longer side of a map

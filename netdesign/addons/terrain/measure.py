@@ -1,6 +1,6 @@
 """Terrain of one net row: slope, aspect, altitude, bends, upslope length, posts.
 
-Theory: terrain/THEORY.md, (T4) to (T8).
+Theory: addons/terrain/THEORY.md, (T4) to (T8).
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
+from netdesign.addons.terrain.crossings import Rows, find_exit, find_first_crossings
+from netdesign.addons.terrain.fall_line import LONGEST_BENCH, FallLines, follow_fall
+from netdesign.addons.terrain.grid import Grid
+from netdesign.addons.terrain.plan import NetLine, Plan
+from netdesign.addons.terrain.surface import Surface, choose_window
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.terrain.crossings import Rows, find_exit, find_first_crossings
-from netdesign.terrain.fall_line import LONGEST_BENCH, FallLines, follow_fall
-from netdesign.terrain.grid import Grid
-from netdesign.terrain.plan import NetLine, Plan
-from netdesign.terrain.surface import Surface, choose_window
 
 LEAST_STEEP = math.radians(25.0)  # below it the snow holds itself
 KINK, BROKEN = math.radians(5.0), math.radians(15.0)  # bends of a row at a post
@@ -154,7 +154,7 @@ def measure_rows(
 
     Verified by
     -----------
-    tests/terrain/test_measure.py
+    tests/addons/terrain/test_measure.py
     """
     found = []
     for drawn in _draw_rows(surface, plan, most):

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import shapely
 
+from netdesign.addons.terrain.crs import require_plane, require_same
+from netdesign.addons.terrain.reading import DAMAGE, keep_quiet, read_file
 from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 from netdesign.site.as_typed import read_typed_cells
-from netdesign.terrain.crs import require_plane, require_same
-from netdesign.terrain.reading import DAMAGE, keep_quiet, read_file
 
 ZONE = "starting zone"
 _MOST_BYTES = 20_000_000

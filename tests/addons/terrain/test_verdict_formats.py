@@ -8,7 +8,7 @@ import numpy as np
 import pyogrio.raw
 import pytest
 
-from netdesign.files.verdict_map import write_verdicts
+from netdesign.addons.terrain.verdict_map import write_verdicts
 
 VERDICTS = ("pass", "fail", "not_proven", "declared")
 EVIL = "A|1;\n0\nSECTION %%u <>/"

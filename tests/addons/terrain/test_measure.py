@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from netdesign.addons.terrain.measure import describe_steep_above, measure_rows
+from netdesign.addons.terrain.site_lines import derive_cells
+from netdesign.addons.terrain.surface import choose_window
 from netdesign.outcome import TerrainError
-from netdesign.terrain.measure import describe_steep_above, measure_rows
-from netdesign.terrain.site_lines import derive_cells
-from netdesign.terrain.surface import choose_window
+from tests.addons.terrain.surfaces import SPACING, build_grid, draw_line, plan_of, plane
 from tests.each import each
-from tests.terrain.surfaces import SPACING, build_grid, draw_line, plan_of, plane
 
 PSI = math.radians(38.3)
 CELLS = (0.5, 1.0, 2.0, 5.0)
