@@ -221,7 +221,7 @@ def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
     write_short_example(tmp_path / "site.xlsx", ["R5"])
     site = read_site(tmp_path / "site.xlsx")
     part = cut_site(site, site.rows[0])
-    decides = [part, STANDARDS, RUN.settings, RUN.method, RUN.creep_law]
+    decides = [part, STANDARDS, RUN.settings, RUN.creep_law]
     ways = [way for way in list_leaves(decides) if way[:2] != (0, "project")]
     ways = [way for way in ways if way[:2] not in {(0, "file_name"), (0, "sha256")}]
     ways = [way for way in ways if way[-1:] != ("id",) or way[0] != 0]
@@ -230,8 +230,8 @@ def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
     drawn = random.Random(1117).sample(ways, 60)
 
     def name(values):
-        site, standards, settings, method, law = values
-        run = replace(RUN, settings=settings, method=method, creep_law=law)
+        site, standards, settings, law = values
+        run = replace(RUN, settings=settings, creep_law=law)
         return name_rows(site, standards, run)["R5"]
 
     names = {name(decides)} | {name(alter(decides, way)) for way in drawn}
