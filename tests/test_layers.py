@@ -86,7 +86,7 @@ THIRD_PARTY = {
         "commands.doctor",
     ),
     "scipy": (
-        "numerics.newton",
+        "numerics.optimise",
         "snow.*",
         "reliability.*",
         "winter.maxima",

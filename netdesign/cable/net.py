@@ -1,4 +1,9 @@
-"""The net: an elastic cable per metre of width."""
+"""The net: an elastic cable per metre of width; its tension through given nodes.
+
+Closed forms are starts for the solver and references for its tests. Snow prescribes the
+nodes, foot to head; n nodes lie between the two ends, and n + 1 segments join them.
+Theory: cable/THEORY.md, eqs (C6) to (C12).
+"""
 
 from __future__ import annotations
 
@@ -8,7 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import require_positive, require_within
+from netdesign.outcome import (
+    ModelError,
+    name_quantity,
+    require_positive,
+    require_within,
+)
+from netdesign.words.message import say
 
 LARGEST_INCLINATION = math.radians(80.0)
 LARGEST_SLACK = 0.5
@@ -73,3 +84,286 @@ class Net:
     def friction(self) -> float:
         """Tan phi [-]; the one place where it is formed."""
         return math.tan(self.friction_angle)
+
+
+def compute_parabola_sag(
+    load: float, chord: float, stiffness: float, slack: float
+) -> float:
+    """Sag of a shallow elastic cable under a uniform load normal to its chord.
+
+    Solves (8/3) (f/c)^2 = slack + q c^2 / (8 f ES), eq. (C6); for slack 0 this is
+    f^3 = 3 q c^4 / (64 ES).
+
+    Parameters
+    ----------
+    load : float
+        q, per length of chord [N/m2 or any unit].
+    chord : float
+        c [m].
+    stiffness : float
+        ES, unit of q c.
+    slack : float
+        Unstressed length over chord, less 1 [-].
+
+    Returns
+    -------
+    float
+        f [m].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
+    """
+    require_positive("load", load)
+    require_positive("chord", chord)
+    require_positive("stiffness", stiffness)
+    require_within("slack", slack, 0.0, 1.0)
+    # increasing and convex in f above the taut sag: Newton from above is monotone
+    taut = math.cbrt(3.0 * load * chord**4 / (64.0 * stiffness))
+    sag: float = taut + chord * math.sqrt(3.0 * slack / 8.0)
+    for _ in range(60):
+        value = 8.0 / 3.0 * (sag / chord) ** 2 - slack
+        value -= load * chord**2 / (8.0 * sag * stiffness)
+        slope = 16.0 / 3.0 * sag / chord**2
+        slope += load * chord**2 / (8.0 * sag**2 * stiffness)
+        lower = sag - value / slope
+        if lower >= sag:
+            break
+        sag = lower
+    return sag
+
+
+def compute_capstan_ratio(wrap_angle: float, friction_angle: float) -> float:
+    """Largest ratio of tensions over a smooth contact, Euler-Eytelwein (C8).
+
+    Parameters
+    ----------
+    wrap_angle : float
+        Turning of the cable over the contact [rad].
+    friction_angle : float
+        phi [rad].
+
+    Returns
+    -------
+    float
+        exp(tan(phi) * angle) [-].
+    """
+    return math.exp(math.tan(friction_angle) * wrap_angle)
+
+
+_LARGEST_FRICTION = np.tan(np.radians(89.0))
+
+
+def compute_end_directions(points: Floats) -> tuple[Floats, Floats]:
+    """Unit vectors in which the net leaves its foot and its head.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m]; segments are parabolas through two ends and a node
+        between.
+
+    Returns
+    -------
+    tuple of ndarray, shape (2,)
+        At the foot, at the head [-].
+    """
+    directions = []
+    for first, second, third in (points[:, :3].T, points[:, :-4:-1].T):
+        along = 4.0 * second - 3.0 * first - third
+        directions.append(along / np.hypot(*along))
+    foot, head = directions
+    return foot, head
+
+
+def join_points(nodes: Floats, head: Floats) -> Floats:
+    """Points of a net: its foot at the origin, its nodes, its head.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (2, n)
+        Foot and head left out [m, or any unit].
+    head : ndarray, shape (2,)
+        In that unit.
+
+    Returns
+    -------
+    ndarray, shape (2, n + 2)
+        In that unit.
+    """
+    points = np.zeros((2, nodes.shape[1] + 2))
+    points[:, 1:-1], points[:, -1] = nodes, head
+    return points
+
+
+def compute_segment_lengths(points: Floats) -> Floats:
+    """Final lengths of the segments.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        l_i [m].
+
+    Raises
+    ------
+    ModelError
+        If two neighbours coincide or a coordinate is not finite.
+    """
+    lengths: Floats = np.hypot(*np.diff(points))
+    require_lengths("segment length", lengths)
+    return lengths
+
+
+def compute_turning_angles(points: Floats) -> Floats:
+    """Angles by which the net turns around the snow at its nodes.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head; X downslope, snow on the side of negative X [m].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        beta_i, from -pi to pi, positive where the net is convex to the valley [rad].
+
+    Examples
+    --------
+    >>> bulge = np.array([[0.0, 1.0, 0.0], [0.0, 1.0, 2.0]])
+    >>> np.degrees(compute_turning_angles(bulge))
+    array([90.])
+    """
+    x, y = np.diff(points)
+    cross = x[:-1] * y[1:] - y[:-1] * x[1:]
+    dot = x[:-1] * x[1:] + y[:-1] * y[1:]
+    angles: Floats = np.arctan2(cross, dot)
+    return angles
+
+
+def compute_tensions(
+    final_lengths: Floats, unstressed_lengths: Floats, stiffness: float
+) -> Floats:
+    """Tensions of elastic segments, eq. (C10); a slack segment has none.
+
+    Parameters
+    ----------
+    final_lengths, unstressed_lengths : ndarray, shape (n + 1,)
+        l_i and lo_i [m].
+    stiffness : float
+        ES, force per width at unit strain [N/m].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        T_i, at least 0 [N/m].
+
+    Raises
+    ------
+    ModelError
+        If a length or the stiffness is not above 0.
+    """
+    require_lengths("unstressed length", unstressed_lengths)
+    require_positive("net stiffness", stiffness, "N/m")
+    strains = (final_lengths - unstressed_lengths) / unstressed_lengths
+    tensions: Floats = stiffness * np.maximum(strains, 0.0)
+    return tensions
+
+
+def compute_node_forces(points: Floats, tensions: Floats) -> tuple[Floats, Floats]:
+    """Components of the net's forces on the snow at its nodes, eq. (C11).
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+    tensions : ndarray, shape (n + 1,)
+        T_i [N/m].
+
+    Returns
+    -------
+    tuple of ndarray, shape (n,)
+        R_n along the bisector of the node, positive where the net presses, and R_t
+        across it, positive towards the head [N/m].
+
+    Source
+    ------
+    The paper's Eq. 11, whose angle theta_{i-1} - theta_i is beta_i here.
+    """
+    half = compute_turning_angles(points) / 2.0
+    normal = (tensions[1:] + tensions[:-1]) * np.sin(half)
+    return normal, (tensions[1:] - tensions[:-1]) * np.cos(half)
+
+
+def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
+    """Logarithms of the largest tension ratios that friction holds, eq. (C12).
+
+    Exact for a node; their sum tends to tan(phi) times the wrap angle as nodes are
+    refined, see ``compute_capstan_ratio``.
+
+    Parameters
+    ----------
+    turning_angles : ndarray, shape (n,)
+        beta_i, positive where the net presses [rad].
+    friction : float
+        Tan phi of snow on net [-].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        kappa_i [-]. 0 where the net does not press: neither friction nor adhesion.
+        Infinite where beta / 2 + phi reaches a right angle: no ratio slides there.
+
+    Raises
+    ------
+    ModelError
+        If the friction is out of its range.
+
+    Validity
+    --------
+    One bound per node: nodes must carry comparable shares of the pressure. Corner
+    nodes of quadratic elements do, midpoints (1 : 2) do not.
+
+    Verified by
+    -----------
+    tests/verification/test_sliding_cable.py
+    """
+    require_within("friction", friction, 0.0, float(_LARGEST_FRICTION))
+    half = np.maximum(turning_angles, 0.0) / 2.0
+    hold = np.minimum(friction * np.tan(half), 1.0)
+    with np.errstate(divide="ignore"):
+        bounds: Floats = 2.0 * np.arctanh(hold)
+    return bounds
+
+
+def require_lengths(name: str, lengths: Floats) -> None:
+    """Refuse an array unless all its entries are finite and above zero.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    lengths : ndarray
+        Any shape [m].
+
+    Raises
+    ------
+    ModelError
+        With the first entry that is not.
+    """
+    sound = np.isfinite(lengths) & (lengths > 0.0)
+    if not sound.all():
+        first = int(np.argmin(sound))
+        raise ModelError(
+            say(
+                "guard.positive_entry",
+                name=name_quantity(name),
+                place=first,
+                value=float(lengths[first]),
+            )
+        )

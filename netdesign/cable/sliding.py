@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from netdesign.cable.tension import compute_tensions, require_lengths
+from netdesign.cable.net import compute_tensions, require_lengths
 from netdesign.numerics.arrays import Floats, Signs
 from netdesign.outcome import ModelError, Outcome
 from netdesign.words.message import say

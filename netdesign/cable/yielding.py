@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from netdesign.cable.net import join_points
 from netdesign.cable.response import (
     LARGEST_BEND,
     NetResponse,
@@ -26,7 +27,6 @@ from netdesign.cable.response import (
     respond,
 )
 from netdesign.cable.sliding import SlidingStep
-from netdesign.cable.tension import join_points
 from netdesign.core.arguments import YieldingArgument, locate_all, to_floats
 from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats, Mask, Signs, freeze

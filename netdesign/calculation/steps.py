@@ -1,18 +1,208 @@
-"""A calculation as the list of its named quantities, each after those it is made of.
+"""A calculation as text: formulas of quantities, and the list of its steps.
 
-The list is what a file holds, and what a reader follows.
+``b_e / b * (g * E_s + A)`` is the text of a file. It is read by Python's own grammar,
+of which nothing counts but names, numbers and the operations of a quantity. The list,
+each quantity after those it is made of, is what a file holds and a reader follows.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar
+import ast
+import math
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import ClassVar, cast
 
-from netdesign.calculation.formula import require_formula, write_formula
-from netdesign.calculation.quantity import Kind, Quantity
+from netdesign.calculation.quantity import OPERATIONS, Kind, Quantity
 from netdesign.outcome import ContentError
 from netdesign.words.message import say
+
+_RANK = {"+": 1, "-": 1, "*": 2, "/": 2}
+_OPERATORS = {"+": ast.Add(), "-": ast.Sub(), "*": ast.Mult(), "/": ast.Div()}
+_SIGNS = {type(operator): sign for sign, operator in _OPERATORS.items()}
+_MOST_SIGNS = 500  # of a formula that is read
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Notation:
+    """Signs and names of one way to write a formula."""
+
+    signs: Mapping[str, str]
+    functions: Mapping[str, str] = field(default_factory=dict)
+    templates: Mapping[str, str] = field(default_factory=dict)
+    comma: str = ", "
+    number: Callable[[float], str] = repr
+
+
+PLAIN = Notation(signs={sign: f" {sign} " for sign in _RANK})
+PRINTED = Notation(
+    signs={"+": " + ", "-": " − ", "*": " · ", "/": " / "},
+    templates={"at_value": "{}", "sqrt": "√({})"},
+    comma="; ",
+    number=lambda value: f"{value:.12g}",
+)
+SPREADSHEET = Notation(
+    signs={sign: sign for sign in _RANK},
+    functions={"max": "MAX", "min": "MIN", "sqrt": "SQRT"},
+    templates={
+        **{name: f"{name.upper()}(RADIANS({{}}))" for name in ("sin", "cos", "tan")},
+        "at_value": "{}",
+    },
+    comma=",",
+)
+
+
+# Text of a formula, or a symbol in it with the end that is wanted of its quantity.
+_Part = str | tuple[str, int]
+
+
+def write_formula(quantity: Quantity) -> str:
+    """Right side of the equation that makes a quantity, of symbols; "" of a leaf."""
+    if not quantity.operation:
+        return ""
+    parts = _list_parts(_build_tree(quantity, is_whole=True), PLAIN, 0, 0)
+    return "".join(part if isinstance(part, str) else part[0] for part in parts)
+
+
+def translate(
+    formula: str,
+    notation: Notation,
+    leaf: Callable[[str, int], str] = lambda symbol, _: symbol,
+    end: int = 0,
+) -> str:
+    """Formula in another notation.
+
+    Parameters
+    ----------
+    formula : str
+        As `write_formula` writes it.
+    notation : Notation
+        How signs and functions are written.
+    leaf : callable
+        Text of a symbol, and of the end that is wanted of its quantity.
+    end : int
+        Of the result: -1 for its low end, 0 for its value, 1 for its high end.
+
+    Raises
+    ------
+    SyntaxError
+        If it is no formula.
+    """
+    return "".join(
+        part if isinstance(part, str) else leaf(*part)
+        for part in _split(formula, notation, end)
+    )
+
+
+def list_operands(formula: str, end: int) -> list[tuple[str, int]]:
+    """Symbols that an end of the result is made of, with the end of each.
+
+    Raises
+    ------
+    SyntaxError
+        If it is no formula.
+    """
+    parts = _split(formula, PLAIN, end)
+    return [part for part in parts if not isinstance(part, str)]
+
+
+@lru_cache(maxsize=4096)
+def _split(formula: str, notation: Notation, end: int) -> tuple[_Part, ...]:
+    """Parts of a formula: a study has a few hundred, each many times."""
+    return tuple(_list_parts(_parse(formula), notation, end, 0))
+
+
+def _list_parts(
+    tree: ast.expr, notation: Notation, end: int, rank: int
+) -> Iterator[_Part]:
+    """Parts of an operand that stands within an operation of some rank."""
+    if isinstance(tree, ast.Name):
+        yield tree.id, end
+        return
+    if isinstance(tree, ast.Constant):
+        number = cast("float", tree.value)
+        if type(number) not in (int, float) or not math.isfinite(number):
+            raise SyntaxError
+        yield notation.number(number)
+        return
+    name, of = _read_operation(tree)
+    way = OPERATIONS[name].way
+    if notation.templates.get(name) == "{}":  # nothing is to be seen
+        yield from _list_parts(of[0], notation, end * way(0), rank)
+        return
+    own = _RANK.get(name, 0)
+    before, between, after = _find_signs(name, notation, is_set_apart=0 < own < rank)
+    yield before
+    for place, one in enumerate(of):
+        if place:
+            yield between
+        inner = own + (place and name in "-/")
+        yield from _list_parts(one, notation, end * way(place), inner)
+    yield after
+
+
+def _find_signs(
+    name: str, notation: Notation, *, is_set_apart: bool
+) -> tuple[str, str, str]:
+    """Signs before, between and after the operands of an operation."""
+    if name in _RANK:
+        opened, closed = ("(", ")") if is_set_apart else ("", "")
+        return opened, notation.signs[name], closed
+    function = notation.functions.get(name, name)
+    before, after = notation.templates.get(name, f"{function}({{}})").split("{}")
+    return before, notation.comma, after
+
+
+def _build_tree(quantity: Quantity, *, is_whole: bool = False) -> ast.expr:
+    """Tree of what makes a quantity; of a part under a symbol the symbol alone."""
+    if quantity.symbol and not is_whole:
+        return ast.Name(id=quantity.symbol)
+    if not quantity.operation:
+        return ast.Constant(value=quantity.value or 0.0)
+    of = [_build_tree(one) for one in quantity.of]
+    if quantity.operation == "=":
+        return of[0]
+    if quantity.operation in _RANK:
+        operator = _OPERATORS[quantity.operation]
+        return ast.BinOp(left=of[0], op=operator, right=of[1])
+    return ast.Call(func=ast.Name(id=quantity.operation), args=of, keywords=[])
+
+
+def require_formula(text: str, known: Container[str]) -> None:
+    """Refuse the formula of a document that is none of quantities known before it.
+
+    Raises
+    ------
+    ContentError
+        With the text.
+    """
+    try:
+        if len(text) > _MOST_SIGNS:
+            raise SyntaxError
+        if all(symbol in known for symbol, _ in list_operands(text, 0)):
+            return
+    except (SyntaxError, ValueError, OverflowError, MemoryError, RecursionError):
+        pass
+    raise ContentError(say("calculation.no_formula", text=text[:80]))
+
+
+@lru_cache(maxsize=1024)
+def _parse(text: str) -> ast.expr:
+    """Tree of a formula."""
+    return ast.parse(text, mode="eval").body
+
+
+def _read_operation(tree: ast.expr) -> tuple[str, Sequence[ast.expr]]:
+    """Key of ``OPERATIONS`` and its operands."""
+    match tree:
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _SIGNS:
+            return _SIGNS[type(op)], (left, right)
+        case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if (
+            name in OPERATIONS and args and OPERATIONS[name].arity in (0, len(args))
+        ):
+            return name, args
+    raise SyntaxError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

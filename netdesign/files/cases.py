@@ -20,8 +20,7 @@ from netdesign.envelope.ranges import build_case
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.support_tables import GivenSupport
-from netdesign.panel.row_forces import EndForces, compute_end_forces
-from netdesign.panel.solution import RopeForces
+from netdesign.panel.solution import EndForces, RopeForces, compute_end_forces
 from netdesign.search.maxima import Addition
 from netdesign.solving.runner import Counts
 from netdesign.solving.solve import Settings

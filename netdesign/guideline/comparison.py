@@ -8,11 +8,12 @@ from typing import Generic
 
 from netdesign.guideline.load_model import (
     LoadModel,
+    NetPull,
     SnowLoad,
     compute_altitude_factor,
+    compute_net_pull,
     compute_snow_load,
 )
-from netdesign.guideline.net_pull import NetPull, compute_net_pull
 from netdesign.numerics.arrays import Number
 from netdesign.numerics.either import (
     find_cosine,

@@ -19,10 +19,9 @@ from netdesign.guideline.comparison import (
     place_head,
     solve_load_case,
 )
-from netdesign.guideline.load_model import LoadModel, SnowLoad
-from netdesign.guideline.net_pull import NetPull
+from netdesign.guideline.load_model import LoadModel, NetPull, SnowLoad
 from netdesign.numerics.arrays import Floats
-from netdesign.numerics.climb import find_largest
+from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
 from netdesign.structure.anchors import (
     AnchorForces,

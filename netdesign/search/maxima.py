@@ -16,7 +16,6 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError, require_count, require_within
-from netdesign.search.questions import Question, choose_questions, list_first_design
 from netdesign.search.surrogate import (
     Point,
     Prediction,
@@ -28,8 +27,11 @@ from netdesign.search.upper_bound import (
     NOISE,
     Bounds,
     Inflation,
+    Question,
     bound_quantities,
     build_lattice,
+    choose_questions,
+    list_first_design,
 )
 from netdesign.words.message import say
 

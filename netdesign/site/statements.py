@@ -11,8 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
-from netdesign.panel.assumed import Ends, find_stiffness, list_panels
-from netdesign.panel.inputs import CUTS, Panel
+from netdesign.panel.inputs import CUTS, Ends, Panel, find_stiffness, list_panels
 from netdesign.resistance.connection import Link
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES

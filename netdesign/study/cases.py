@@ -14,7 +14,7 @@ from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import search_rows
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
-from netdesign.search.questions import list_first_design
+from netdesign.search.upper_bound import list_first_design
 from netdesign.site.model import CONNECTED, NetRow, Site
 from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.solving.runner import Runner

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from netdesign.cable.tension import (
+from netdesign.cable.net import (
     compute_end_directions,
     compute_ratio_bounds,
     compute_turning_angles,

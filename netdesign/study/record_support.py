@@ -14,7 +14,7 @@ from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Rope
 from netdesign.panel.solution import FailedPanel
-from netdesign.panel.stations import ROPE_POINTS
+from netdesign.panel.strips import ROPE_POINTS
 from netdesign.site.model import NetRow, Resistance
 from netdesign.solving.state import SolvedState
 from netdesign.structure.anchors import AnchorForces

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.cable.closed_form import compute_capstan_ratio, compute_parabola_sag
+from netdesign.cable.net import compute_capstan_ratio, compute_parabola_sag
 from netdesign.outcome import ModelError
 from tests.each import each
 

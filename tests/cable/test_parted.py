@@ -5,8 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from netdesign.cable.funicular import solve_funicular
-from netdesign.cable.parted import CableParts, find_part_lengths
+from netdesign.cable.funicular import CableParts, find_part_lengths, solve_funicular
 from tests.each import each
 
 STIFFNESS, SLACK = 400.0, 0.06

@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from netdesign.cable import sliding
-from netdesign.cable.sliding import SlidingStep, solve_sliding
-from netdesign.cable.tension import (
+from netdesign.cable.net import (
     compute_ratio_bounds,
     compute_segment_lengths,
     compute_tensions,
     compute_turning_angles,
 )
+from netdesign.cable.sliding import SlidingStep, solve_sliding
 from netdesign.outcome import ModelError, Outcome
 from tests.each import each
 

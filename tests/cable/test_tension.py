@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.cable.response import keep_lengths, pull_nodes
-from netdesign.cable.tension import (
+from netdesign.cable.net import (
     compute_end_directions,
     compute_node_forces,
     compute_ratio_bounds,
@@ -14,6 +13,7 @@ from netdesign.cable.tension import (
     compute_tensions,
     compute_turning_angles,
 )
+from netdesign.cable.response import keep_lengths, pull_nodes
 from netdesign.outcome import ModelError
 from tests.each import each
 

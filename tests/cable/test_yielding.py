@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import brentq
 
 from netdesign.cable import yielding
+from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.cable.response import measure_arcs, respond
-from netdesign.cable.tension import compute_ratio_bounds, compute_turning_angles
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.outcome import Outcome, SolveError
 from tests.each import each

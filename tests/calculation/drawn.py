@@ -7,12 +7,12 @@ from netdesign.calculation.quantity import (
     above_zero,
     apply,
     at_value,
+    find_dimension,
     given,
     largest,
     smallest,
 )
 from netdesign.calculation.steps import list_named
-from netdesign.calculation.units import find_dimension
 
 ANGLE = find_dimension("deg")
 LEAVES = ("kN", "kN", "m", "m", "-", "-", "deg")

@@ -9,15 +9,15 @@ from hypothesis import given as draws
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from netdesign.calculation.formula import (
+from netdesign.calculation.quantity import at_value, cos, given, largest
+from netdesign.calculation.steps import (
     PRINTED,
     SPREADSHEET,
+    list_named,
     require_formula,
     translate,
     write_formula,
 )
-from netdesign.calculation.quantity import at_value, cos, given, largest
-from netdesign.calculation.steps import list_named
 from netdesign.outcome import ContentError
 from tests.calculation.drawn import draw_calculation, find_size
 from tests.calculation.evaluate import read_formula

@@ -1,6 +1,6 @@
 """Units of a calculation: products, roots, names."""
 
-from netdesign.calculation.units import PURE, find_dimension, name_dimension
+from netdesign.calculation.quantity import PURE, find_dimension, name_dimension
 from tests.each import each
 
 KN, M = find_dimension("kN"), find_dimension("m")

@@ -12,7 +12,6 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.core import library
-from netdesign.core.plan import build_plan
 from netdesign.coupling.history.instant import advance
 from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.history.state import build_problem as build_history
@@ -28,6 +27,7 @@ from netdesign.panel.equations import build_problem, guess_point
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solve import _solve_compiled, solve_panel
 from netdesign.panel.strips import take_strip
+from netdesign.snow.compiled import build_plan
 from netdesign.snow.linear import SingularError
 from netdesign.snow.shared_mesh import share_template
 

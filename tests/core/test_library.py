@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from netdesign.core import library, plan, sources
-from netdesign.core.plan import build_plan
+from netdesign.core import library, sources
+from netdesign.snow import compiled
+from netdesign.snow.compiled import build_plan
 
 ROOT = Path(library.__file__).resolve().parents[2]
 
@@ -143,7 +144,7 @@ def test_numbers_out_of_range_are_refused(triangles, net):
 
 @needs_core
 def test_a_template_whose_factor_is_too_large_has_no_plan(monkeypatch):
-    monkeypatch.setattr(plan, "_MOST_NUMBERS", 12)
+    monkeypatch.setattr(compiled, "_MOST_NUMBERS", 12)
     found = build_plan(library.find_core(), TRIANGLES, NODES, NET)
     assert found is None
 

@@ -11,7 +11,7 @@ from netdesign.files.cases import resolve_support, write_support
 from netdesign.files.solution import write_solution_document
 from netdesign.files.support_tables import GivenSupport
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.row_forces import compute_end_forces
+from netdesign.panel.solution import compute_end_forces
 from netdesign.panel.solve import solve_panel
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from netdesign.cable.closed_form import compute_parabola_sag
-from netdesign.guideline.net_pull import compute_net_pull
+from netdesign.cable.net import compute_parabola_sag
+from netdesign.guideline.load_model import compute_net_pull
 from netdesign.outcome import ModelError
 from tests.each import each
 

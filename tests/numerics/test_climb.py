@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from netdesign.numerics.climb import find_largest
+from netdesign.numerics.optimise import find_largest
 
 
 def grid(*spans, parts=8):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.numerics.newton import minimise_convex
+from netdesign.numerics.optimise import minimise_convex
 from netdesign.outcome import Outcome
 
 

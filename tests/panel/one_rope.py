@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from netdesign.panel.ropes import compute_excess_length, measure_lengths
+from netdesign.panel.equations import compute_excess_length, measure_lengths
 
 
 def find_force_along(shear, rope):

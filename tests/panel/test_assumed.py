@@ -11,9 +11,16 @@ from netdesign.coupling.scene import Scene
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
-from netdesign.panel import assumed
-from netdesign.panel.assumed import SAGS, STIFFNESSES, find_stiffness, list_panels
-from netdesign.panel.inputs import CUTS, Panel, Rope
+from netdesign.panel import inputs
+from netdesign.panel.inputs import (
+    CUTS,
+    SAGS,
+    STIFFNESSES,
+    Panel,
+    Rope,
+    find_stiffness,
+    list_panels,
+)
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
@@ -103,8 +110,8 @@ def test_no_panel_as_it_may_be_built_loads_a_member_more(seed):
 
 
 def test_both_ropes_alike_would_not_be_enough(monkeypatch):
-    alike = tuple(one for one in assumed._WORST if one[3] == one[4])
-    monkeypatch.setattr(assumed, "_WORST", alike)
+    alike = tuple(one for one in inputs._WORST if one[3] == one[4])
+    monkeypatch.setattr(inputs, "_WORST", alike)
     assert max(max(find_excess(seed).values()) for seed in SEEDS) > 1.01
 
 

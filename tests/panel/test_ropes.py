@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from netdesign.panel.inputs import Rope
-from netdesign.panel.ropes import (
+from netdesign.panel.equations import (
     compute_excess_length,
     estimate_force_along,
     measure_lengths,
 )
-from netdesign.panel.stations import ROPE_POINTS
+from netdesign.panel.inputs import Rope
+from netdesign.panel.strips import ROPE_POINTS
 from tests.each import each
 from tests.panel.one_rope import find_force_along
 

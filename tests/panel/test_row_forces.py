@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.row_forces import compute_end_forces
+from netdesign.panel.solution import compute_end_forces
 from netdesign.panel.solve import solve_panel
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport

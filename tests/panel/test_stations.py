@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from netdesign.panel.stations import ROPE_POINTS, build_stations
+from netdesign.panel.strips import ROPE_POINTS, build_stations
 from tests.each import each
 
 COUNTS = [1, 2, 4, 6]

@@ -13,8 +13,8 @@ from netdesign.coupling.solution import EndPull
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.stations import build_stations
 from netdesign.panel.strips import (
+    build_stations,
     build_strip_at_end,
     cut_lengths,
     draw_strips,

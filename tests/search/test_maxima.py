@@ -12,8 +12,7 @@ from netdesign.search.maxima import (
     SearchSettings,
     Watched,
 )
-from netdesign.search.questions import list_first_design
-from netdesign.search.upper_bound import Bounds
+from netdesign.search.upper_bound import Bounds, list_first_design
 from tests.each import each
 from tests.search.synthetic import (
     answer,

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.search.questions import choose_questions, list_first_design
-from netdesign.search.upper_bound import Bounds
+from netdesign.search.upper_bound import Bounds, choose_questions, list_first_design
 
 # Of two watched quantities, in percent of a tolerance above what is allowed.
 OPEN = Bounds(

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import solve_funicular
+from netdesign.cable.net import compute_parabola_sag
 from netdesign.outcome import Outcome
 from tests.each import each
 

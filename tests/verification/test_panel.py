@@ -17,13 +17,11 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.verification.panels import solve_net_in_space
+from netdesign.panel.equations import estimate_force_along
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.ropes import estimate_force_along
-from netdesign.panel.row_forces import compute_end_forces
-from netdesign.panel.solution import PanelSolution
+from netdesign.panel.solution import PanelSolution, compute_end_forces
 from netdesign.panel.solve import STATIONS, solve_panel
-from netdesign.panel.stations import ROPE_POINTS, build_stations
-from netdesign.panel.strips import take_strip
+from netdesign.panel.strips import ROPE_POINTS, build_stations, take_strip
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.anchors import compute_anchor_forces

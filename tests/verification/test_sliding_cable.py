@@ -10,14 +10,14 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.cable.closed_form import compute_capstan_ratio
-from netdesign.cable.sliding import SlidingStep, solve_sliding
-from netdesign.cable.tension import (
+from netdesign.cable.net import (
+    compute_capstan_ratio,
     compute_node_forces,
     compute_ratio_bounds,
     compute_segment_lengths,
     compute_turning_angles,
 )
+from netdesign.cable.sliding import SlidingStep, solve_sliding
 from netdesign.outcome import Outcome
 from tests.each import each
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from netdesign.cable.net import join_points
 from netdesign.cable.response import NetResponse, hold_net
-from netdesign.cable.tension import join_points
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.coupling.history.snow import SnowIterate
 from netdesign.coupling.history.state import (

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.cable.tension import compute_node_forces
+from netdesign.cable.net import compute_node_forces
 from netdesign.coupling.balance import check_balance, negative_share
 from netdesign.coupling.history.instant import Instant
 from netdesign.coupling.history.settings import Start

@@ -17,13 +17,13 @@ from netdesign.cable.incremental import (
     advance_increment,
     build_cable_state,
 )
+from netdesign.cable.net import compute_turning_angles, join_points
 from netdesign.cable.response import (
     NetResponse,
     keep_lengths,
     measure_arcs,
     pull_nodes,
 )
-from netdesign.cable.tension import compute_turning_angles, join_points
 from netdesign.coupling.history.instant import Instant, advance_under
 from netdesign.coupling.history.net_start import build_start, find_start
 from netdesign.coupling.history.run import (

@@ -13,13 +13,14 @@ from functools import partial
 
 import numpy as np
 
-from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import (
+    CableParts,
     Funicular,
+    find_part_lengths,
     share_uniform_load,
     solve_funicular,
 )
-from netdesign.cable.parted import CableParts, find_part_lengths
+from netdesign.cable.net import compute_parabola_sag
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.law import FlowProblem

@@ -6,19 +6,20 @@ import math
 
 import numpy as np
 
-from netdesign.cable.closed_form import compute_capstan_ratio, compute_parabola_sag
 from netdesign.cable.funicular import (
     Funicular,
     share_uniform_load,
     solve_funicular,
 )
 from netdesign.cable.incremental import advance_increment, build_cable_state
-from netdesign.cable.sliding import solve_sliding
-from netdesign.cable.tension import (
+from netdesign.cable.net import (
+    compute_capstan_ratio,
+    compute_parabola_sag,
     compute_ratio_bounds,
     compute_segment_lengths,
     compute_turning_angles,
 )
+from netdesign.cable.sliding import solve_sliding
 from netdesign.evidence.verification.case import (
     Found,
     VerificationCase,

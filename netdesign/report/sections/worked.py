@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from netdesign.calculation.formula import PRINTED, translate
-from netdesign.calculation.steps import Step
+from netdesign.calculation.steps import PRINTED, Step, translate
 from netdesign.report.blocks import (
     Cell,
     Items,

@@ -9,14 +9,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from netdesign.calculation.formula import (
+from netdesign.calculation.quantity import Kind
+from netdesign.calculation.steps import (
     PRINTED,
     SPREADSHEET,
+    Step,
     list_operands,
     translate,
 )
-from netdesign.calculation.quantity import Kind
-from netdesign.calculation.steps import Step
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Column
 from netdesign.report.sections.checks import describe_resistance, name_case

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from netdesign.cable.net import compute_node_forces
 from netdesign.cable.response import hold_net, respond
-from netdesign.cable.tension import compute_node_forces
 from netdesign.coupling.history import instant as instant_module
 from netdesign.coupling.history.instant import advance, advance_under
 from netdesign.coupling.history.net_start import build_start

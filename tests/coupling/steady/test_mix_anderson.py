@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.numerics.fixed_point import mix_anderson
+from netdesign.coupling.steady.rounds import mix_anderson
 
 SHIFT = np.array([1.0, -2.0, 0.5])
 
