@@ -103,25 +103,6 @@ def test_history_without_plateau_says_so_and_ends_with_4(tmp_path, monkeypatch, 
     capsys.readouterr()
 
 
-def test_existing_outputs_are_refused_before_solving(tmp_path, monkeypatch, capsys):
-    out = tmp_path / "out"
-    out.mkdir()
-    (out / "solution.json").write_text("mine", encoding="utf-8")
-    scene = write_scene(tmp_path)
-    assert run(monkeypatch, "solve", scene, "--out", out) == 2
-    assert "exists already" in capsys.readouterr().err
-    assert names(out) == {"solution.json"}
-    assert run(monkeypatch, "solve", scene, "--out", out, "--force") == 0
-    assert (out / "solution.json").read_text(encoding="utf-8") != "mine"
-
-
-def test_json_stays_alone_on_stdout(tmp_path, monkeypatch, capsys):
-    out = tmp_path / "out"
-    run(monkeypatch, "solve", write_scene(tmp_path), "--json", "--out", out)
-    printed = json.loads(capsys.readouterr().out)
-    assert printed == json.loads((out / "solution.json").read_text(encoding="utf-8"))
-
-
 def test_history_table_has_a_column_for_each_node():
     moment = {"time_d": 1.0, "foot_kN_per_m": 2.0, "node_forces": [[3.0, 4.0], [5, 6]]}
     (row,) = csv.DictReader(io.StringIO(write_history([moment]).decode()))

@@ -10,7 +10,6 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from netdesign.words.catalogue import load_texts
 from tests.each import each
 from tests.short_example import write_short_example
 
@@ -18,14 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 USAGE = (ROOT / "netdesign" / "USAGE.md").read_text(encoding="utf-8")
 TUTORIAL = (ROOT / "netdesign" / "TUTORIAL.md").read_text(encoding="utf-8")
-SHORT_SENTENCES = [
-    ROOT / "README.md",
-    ROOT / "netdesign" / "USAGE.md",
-    ROOT / "netdesign" / "examples" / "README.md",
-]
-MOST_WORDS = 25  # of a sentence
 FLAGS = re.DOTALL | re.MULTILINE
-MOST_LINES = 140  # of the README: it is read before anything is installed
 NETDESIGN = Path(sys.executable).with_name("netdesign")
 
 # Pages for users, and those that they lead to.
@@ -74,41 +66,6 @@ def fill(path: Path, cells: dict[str, object]) -> None:
         sheet, cell = place.split("!")
         workbook[sheet][cell] = value
     workbook.save(path)
-
-
-def test_first_screen_holds_both_set_up_commands():
-    first_screen = README.splitlines()[:40]
-    commands = [line for line in first_screen if line.startswith("python3 -m venv")]
-    assert len(commands) == 2
-    assert commands[0].endswith("&& netdesign check --example")
-    assert commands[1].endswith("&& python -m pytest -n 2")
-    # CI runs these two lines as printed: the first two of the file
-    assert re.findall(r"^python3 -m venv.*", README, re.MULTILINE)[:2] == commands
-    assert "grep '^python3 -m venv' README.md" in (ROOT / ".ci/run").read_text()
-
-
-def test_readme_is_short():
-    assert len(README.splitlines()) <= MOST_LINES
-
-
-@pytest.mark.parametrize("page", SHORT_SENTENCES, ids=lambda page: page.name)
-def test_sentences_are_short(page):
-    """Tables and lists of the columns apart."""
-    text = page.read_text(encoding="utf-8")
-    text = re.sub(r"```.*?```|<img.*?>|\]\([^)]*\)|^\|.*?$", "", text, flags=FLAGS)
-    for part in re.split(r"\n\n|\n(?=- )", text):
-        for sentence in re.split(r"(?<=[.!?]) (?=[A-Z`\[*])", " ".join(part.split())):
-            words = [word for word in sentence.split() if re.search(r"\w", word)]
-            assert len(words) <= MOST_WORDS, sentence
-
-
-def test_both_installs_make_the_same_environment():
-    """The lines for one system each; only those for this one can be tried here."""
-    (posix,) = [block for block in blocks("sh") if "pip install" in block]
-    (windows,) = [b for b in blocks("powershell", USAGE) if "pip install" in b]
-    assert posix.splitlines()[0] == "python3 -m venv .venv"
-    assert windows.splitlines()[0] == "py -3.13 -m venv .venv"
-    assert posix.splitlines()[-1] == windows.splitlines()[-1] == "pip install ."
 
 
 def test_two_commands_run_as_printed(tmp_path):
@@ -241,14 +198,6 @@ def test_profile_of_ones_own_is_used_as_printed(tmp_path):
         assert "7 net rows" in read.stdout
 
 
-def test_every_command_is_named():
-    listed = run("netdesign --help", ROOT).stdout.split("Commands:\n")[1]
-    names = re.findall(r"^  ([a-z]+) ", listed.split("\n\n")[0], re.MULTILINE)
-    assert len(names) > 10
-    for name in names:
-        assert f"`netdesign {name}" in USAGE, name
-
-
 LINKS = [
     (page, link)
     for page in PAGES
@@ -261,20 +210,3 @@ LINKS = [
 @each("page, link", [(page, a or b) for page, (a, b) in LINKS])
 def test_links_lead_somewhere(page, link):
     assert (page.parent / link).exists()
-
-
-def test_picture_is_small():
-    picture = ROOT / "netdesign" / "report" / "example-report.png"
-    assert f'src="{picture.relative_to(ROOT).as_posix()}"' in README
-    shown = re.findall(r'<img src="([^"]+)"', TUTORIAL)
-    pictures = sorted((ROOT / "netdesign" / "tutorial").iterdir())
-    assert [f"tutorial/{one.name}" for one in pictures] == sorted(shown)
-    assert all(one.stat().st_size < 150_000 for one in (picture, *pictures))
-
-
-def test_what_is_not_treated_is_that_of_the_reports():
-    told = {k: v for k, v in load_texts("en").items() if k.startswith("scope.")}
-    readme = " ".join(README.split())
-    for key in ("avalanche", "structure", "ground", "product"):
-        part, by = told[f"scope.{key}"], told[f"scope.{key}_by"]
-        assert f"| {part} | {by} |" in readme

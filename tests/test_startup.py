@@ -73,10 +73,6 @@ def test_help_imports_nothing_heavy(tmp_path, arguments):
     assert not modules & set(HEAVY)
 
 
-def test_the_probe_sees_what_is_imported(tmp_path):
-    assert "pydantic" in imported("standards", "list", cwd=tmp_path)
-
-
 def test_a_plain_steady_scene_needs_little_beside_its_solver(tmp_path):
     """Each of these takes longer to import than the scene to solve."""
     scene = tmp_path / "scene.toml"
@@ -99,11 +95,6 @@ def test_a_faulty_site_is_refused_without_a_solver(tmp_path):
     modules = imported("check", "site.csv", cwd=tmp_path, whole=True, code=3)
     assert "netdesign.site.reader" in modules
     assert not modules & {"scipy", "netdesign.study.cases", "netdesign.snow.flow_step"}
-
-
-def test_profiles_are_listed_without_a_solver(tmp_path):
-    modules = imported("standards", "list", cwd=tmp_path)
-    assert not modules & {"numpy", "scipy", "skfem", "pandas", "matplotlib"}
 
 
 def test_the_module_is_the_program(tmp_path):

@@ -1,6 +1,5 @@
 """What Windows lacks is not asked for: tested by taking it away, not on Windows."""
 
-import ast
 import errno
 import fcntl
 import subprocess
@@ -17,39 +16,12 @@ from netdesign.outcome import OutputError, SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.each import each
-from tests.sources import parse_package
 from tests.tiny_site import write_site
 
 POSIX = {
     *("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "posix"),
     *("syslog", "readline", "curses"),
 }
-POSIX_NAMES = {
-    *("fork", "getuid", "geteuid", "uname", "killpg", "setsid", "mkfifo", "chown"),
-    *("SIGKILL", "SIGPIPE", "SIGHUP", "SIGALRM", "SIGUSR1", "alarm"),
-}
-
-
-def list_imports(tree):
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            yield node.module or ""
-
-
-def test_no_module_needs_what_only_posix_has():
-    found = {}
-    for module, tree in parse_package().items():
-        names = POSIX.intersection(list_imports(tree))
-        names |= {
-            node.attr
-            for node in ast.walk(tree)
-            if isinstance(node, ast.Attribute) and node.attr in POSIX_NAMES
-        }
-        if names:
-            found[module] = names
-    assert found == {}
 
 
 def test_commands_and_benchmarks_start_without_the_modules_of_posix(tmp_path):

@@ -5,7 +5,6 @@ import math
 import pytest
 
 from netdesign.cable.net import compute_capstan_ratio, compute_parabola_sag
-from netdesign.outcome import ModelError
 from tests.each import each
 
 
@@ -31,37 +30,7 @@ def test_sag_satisfies_its_equation(load, slack):
     assert 8 / 3 * (sag / chord) ** 2 == pytest.approx(slack + stretch, rel=1e-12)
 
 
-@each(
-    "arguments, name",
-    [
-        ((0.0, 1.0, 1.0, 0.0), "load"),
-        ((math.nan, 1.0, 1.0, 0.0), "load"),
-        ((1.0, 0.0, 1.0, 0.0), "chord"),
-        ((1.0, math.inf, 1.0, 0.0), "chord"),
-        ((1.0, 1.0, 0.0, 0.0), "stiffness"),
-        ((1.0, 1.0, math.inf, 0.0), "stiffness"),
-        ((1.0, 1.0, 1.0, -1e-12), "slack"),
-        ((1.0, 1.0, 1.0, 1.0 + 1e-12), "slack"),
-        ((1.0, 1.0, 1.0, math.nan), "slack"),
-    ],
-)
-def test_sag_refuses(arguments, name):
-    with pytest.raises(ModelError, match=f"{name} = "):
-        compute_parabola_sag(*arguments)
-
-
 def test_capstan_ratio():
     """Half a turn with a coefficient of 0.5: exp(pi / 2), the textbook case."""
     ratio = compute_capstan_ratio(math.pi, math.atan(0.5))
     assert ratio == pytest.approx(math.exp(math.pi / 2), rel=1e-14)
-
-
-@pytest.mark.parametrize(("wrap", "friction"), [(0.0, 0.7), (1.0, 0.0)])
-def test_capstan_ratio_without_contact_or_friction(wrap, friction):
-    assert compute_capstan_ratio(wrap, friction) == 1.0
-
-
-def test_capstan_ratios_multiply():
-    whole = compute_capstan_ratio(0.9, 0.4)
-    parts = compute_capstan_ratio(0.3, 0.4) * compute_capstan_ratio(0.6, 0.4)
-    assert whole == pytest.approx(parts, rel=1e-14)

@@ -11,8 +11,6 @@ from netdesign.cable.net import (
     LARGEST_SLACK,
     Net,
 )
-from netdesign.outcome import ModelError
-from tests.each import each
 
 SOUND = {
     "height_normal": 3.0,
@@ -41,28 +39,6 @@ def test_head_leans_downslope():
     assert a_net(inclination=0.0).head[0] == 0.0
 
 
-def test_friction_is_the_tangent():
-    assert a_net(friction_angle=math.pi / 4).friction == pytest.approx(1.0, rel=1e-15)
-    assert a_net(friction_angle=0.0).friction == 0.0
-
-
-ACCEPTED = [
-    ("height_normal", 1e-9),
-    ("inclination", 0.0),
-    ("inclination", LARGEST_INCLINATION),
-    ("stiffness_per_m", 1e5),
-    ("slack", 0.0),
-    ("slack", LARGEST_SLACK),
-    ("friction_angle", 0.0),
-    ("friction_angle", LARGEST_FRICTION_ANGLE),
-]
-
-
-@each("field, value", ACCEPTED)
-def test_bounds_are_accepted(field, value):
-    assert getattr(a_net(**{field: value}), field) == value
-
-
 REFUSED = [
     ("height_normal", 0.0, "net height"),
     ("height_normal", -1.0, "net height"),
@@ -75,16 +51,3 @@ REFUSED = [
     ("friction_angle", math.nextafter(LARGEST_FRICTION_ANGLE, 2.0), "friction angle"),
     ("friction_angle", 30.0, "friction angle"),  # degrees taken for radians
 ]
-
-
-@each("field, value, name", REFUSED)
-def test_beyond_the_bounds_is_refused(field, value, name):
-    with pytest.raises(ModelError, match=rf"{name} = .*: must"):
-        a_net(**{field: value})
-
-
-@each("field", SOUND)
-@each("value", [math.nan, math.inf, -math.inf])
-def test_nonfinite_is_refused(field, value):
-    with pytest.raises(ModelError, match=str(value)):
-        a_net(**{field: value})

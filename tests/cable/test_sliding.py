@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from netdesign.cable import sliding
 from netdesign.cable.net import (
     compute_ratio_bounds,
     compute_segment_lengths,
@@ -18,7 +17,7 @@ from netdesign.cable.net import (
     compute_turning_angles,
 )
 from netdesign.cable.sliding import SlidingStep, solve_sliding
-from netdesign.outcome import ModelError, Outcome
+from netdesign.outcome import Outcome
 from tests.each import each
 
 STIFFNESS = 2e7
@@ -158,13 +157,6 @@ def test_infinite_bounds_part_the_net():
     assert whole.slide_signs[[3, 8]].tolist() == [0, 0]
 
 
-def test_second_solve_moves_nothing():
-    case = random_case(21)
-    first = case.solve()
-    again = Case(final=case.final, old=first.lengths, bounds=case.bounds).solve()
-    np.testing.assert_allclose(again.tensions, first.tensions, rtol=1e-8)
-
-
 def test_mirrored_net_slides_the_other_way():
     case = random_case(30)
     mirrored = Case(
@@ -173,16 +165,6 @@ def test_mirrored_net_slides_the_other_way():
     here, there = case.solve(), mirrored.solve()
     np.testing.assert_array_equal(there.slide_signs[::-1], -here.slide_signs)
     np.testing.assert_allclose(there.tensions[::-1], here.tensions, rtol=1e-8)
-
-
-def test_scale_of_lengths_and_stiffness():
-    case = random_case(31)
-    step = case.solve()
-    scaled = solve_sliding(
-        4.0 * case.final, 4.0 * case.old, case.bounds, stiffness=2.0 * STIFFNESS
-    )
-    np.testing.assert_array_equal(scaled.lengths, 4.0 * step.lengths)
-    np.testing.assert_array_equal(scaled.tensions, 2.0 * step.tensions)
 
 
 SLACK_SURPLUS = [1.0, 1.0 + 1e-12, 1.05]
@@ -217,15 +199,6 @@ def test_slack_segment_beside_tight_ones_is_drawn_tight():
     assert step.tensions[1] == pytest.approx(step.tensions[0] / math.exp(0.2), rel=1e-8)
 
 
-def test_slack_part_behind_a_node_that_cannot_slide():
-    final = np.array([1.0, 1.0, 1.02, 1.0])
-    old = np.array([1.03, 0.98, 1.0, 1.0])
-    bounds = np.array([0.2, math.inf, 0.2])
-    step = solve_sliding(final, old, bounds, stiffness=STIFFNESS)
-    np.testing.assert_array_equal(step.tensions[:2], 0.0)
-    assert (step.tensions[2:] > 0.0).all()
-
-
 @pytest.mark.parametrize("n", [10, 20, 40, 80, 160])
 def test_no_stall_at_any_friction_angle(n):
     """Where others stalled: phi of 2 to 10 deg, fine meshes. At most 6 steps seen."""
@@ -243,34 +216,6 @@ def test_no_stall_at_any_friction_angle(n):
     assert {0} < set(step.slide_signs)  # at 45 deg, where most nodes stick
 
 
-STEPS_HALVED = [848, 1334, 1531]
-
-
-@each("seed", [*range(100), *STEPS_HALVED])
-def test_far_beyond_any_net(seed):
-    """Grading 1e-6, strains of tens, ratios to exp(37): still solved."""
-    rng = np.random.default_rng(seed)
-    n = int(rng.integers(1, 200))
-    final = 10.0 ** rng.uniform(-6.0, 0.0, n + 1)
-    old = final * np.exp(rng.normal(0.0, 3.0, n + 1))
-    old *= final.sum() / old.sum() / (1.0 + 10.0 ** rng.uniform(-8.0, 1.0))
-    bounds = np.minimum(np.exp(rng.normal(-1.0, 3.0, n)), 37.0)
-    step = solve_sliding(final, old, bounds, stiffness=1.0)
-    assert step.outcome is Outcome.CONVERGED
-    assert step.tensions.min() >= 0.0
-
-
-def test_iteration_limit_is_an_outcome():
-    step = random_case(4).solve(max_iterations=1)
-    assert step.outcome is Outcome.MAX_ITERATIONS
-    assert step.tensions.min() >= 0.0
-
-
-def test_no_descent_is_an_outcome(monkeypatch):
-    monkeypatch.setattr(sliding, "_SHORTEST_STEP", 2.0)
-    assert random_case(4).solve().outcome is Outcome.DIVERGED
-
-
 REFUSED = [
     ("final length 1", {"final": [1.0, 0.0]}),
     ("final length 0", {"final": [math.nan, 1.0]}),
@@ -280,11 +225,3 @@ REFUSED = [
     ("at least 0", {"bounds": [-0.1]}),
     ("at least 0", {"bounds": [math.nan]}),
 ]
-
-
-@each("message, change", REFUSED)
-def test_impossible_input_is_refused(message, change):
-    sound = {"final": [1.1, 1.0], "old": [1.0, 1.0], "bounds": [0.1]} | change
-    case = Case(**{name: np.array(values) for name, values in sound.items()})
-    with pytest.raises(ModelError, match=message):
-        case.solve()

@@ -8,8 +8,7 @@ from click.testing import CliRunner
 from netdesign.commands.bench import bench
 from netdesign.evidence.benchmark import attempts, precision
 from netdesign.evidence.benchmark.attempts import Attempt
-from netdesign.outcome import ModelError, OutputError
-from tests.each import each
+from netdesign.outcome import OutputError
 
 
 def run(*arguments):
@@ -28,10 +27,6 @@ def test_rows_and_plot(monkeypatch, tmp_path):
     assert isinstance(again.exception, OutputError)
 
 
-def test_unknown_scene():
-    assert isinstance(run("--scenes", "no-such").exception, ModelError)
-
-
 @pytest.mark.parametrize(
     ("kind", "exit_code"), [("converged", 0), ("refused before", 0), ("failed", 1)]
 )
@@ -45,25 +40,3 @@ def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
     assert result.exit_code == exit_code
     assert json.loads(result.stdout)["schema"] == "netdesign.stress/1"
     assert run("--stress", "1").exit_code == exit_code
-
-
-def test_errors_of_one_scene():
-    result = run("--errors", "1", "--seed", "1", "--accuracy", "0.05", "--json")
-    document = json.loads(result.stdout)
-    assert document["compared"] == 1
-    assert result.exit_code == (0 if document["pass"] else 1)
-
-
-@each(
-    "arguments",
-    [
-        ["--stress", "1", "--errors", "1"],
-        ["--stress", "1", "--quick"],
-        ["--against", ".", "--stress", "1"],
-        ["--errors", "1", "--plot", "x.svg"],
-        ["--stress", "0"],
-        ["--jobs", "0"],
-    ],
-)
-def test_usage(arguments):
-    assert run(*arguments).exit_code == 2

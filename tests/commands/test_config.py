@@ -31,11 +31,6 @@ def test_an_option_overrules_the_file(jobs, tmp_path):
     assert jobs("--jobs", "5") == 5
 
 
-def test_a_file_elsewhere_is_not_read(jobs, tmp_path):
-    write(tmp_path / "netdesign.toml", "[check]\njobs = 200\n")  # the working folder
-    assert jobs() != 200
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -65,27 +60,3 @@ def test_faults_of_the_file_end_with_2_and_their_place(call, tmp_path, text, mes
     assert ended.code == 2
     assert "netdesign.toml: " in ended.err.replace("\n", " ")
     assert message in " ".join(ended.err.split())
-
-
-def test_lists_and_flags_may_stand_in_the_file(call, tmp_path):
-    text = "[check]\nstandard = ['nonsense']\njson = true\n"
-    write(tmp_path / "netdesign.toml", text)
-    assert call("init", "site.xlsx", "--example").code == 0
-    ended = call("check", "site.xlsx", "--dry-run")
-    assert ended.code == 3
-    assert "nonsense" in ended.err
-    again = call(
-        *("check", "site.xlsx", "--dry-run"),
-        *("--standard", "nf-p-95-304-style"),
-    )
-    assert json.loads(again.out)["schema"] == "netdesign.plan/1"
-
-
-def test_all_faults_of_a_file_are_told_at_once(call, tmp_path):
-    (tmp_path / "netdesign.toml").write_text(
-        '[check]\njob = 1\nstandrd = "x"\naccuracy = 7.3\n[chekc]\n'
-    )
-    ended = call("check", "site.xlsx", "--dry-run")
-    assert ended.code == 2
-    told = ("[chekc]", "[check] job", "[check] standrd", "[check] accuracy")
-    assert [one for one in told if one in ended.err] == list(told)

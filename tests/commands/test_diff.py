@@ -1,4 +1,3 @@
-import json
 import sys
 from dataclasses import replace
 
@@ -45,20 +44,6 @@ def test_changes_are_shown_by_area(call, files):
     ended = call("diff", files / "old.json", files / "new.json")
     assert ended.code == 0
     assert ended.out.splitlines() == [NOT_VERIFIED, "project", "  revision: A -> B"]
-
-
-def test_json_is_one_document(call, files):
-    ended = call("diff", files / "old.json", files / "new.json", "--json")
-    told = json.loads(ended.out)
-    (change,) = told["changes"]
-    assert told["is_verified"] is False
-    assert (change["old"], change["new"]) == ("A", "B")
-
-
-def test_equal_studies_say_so(call, files):
-    ended = call("diff", files / "old.json", files / "old.json")
-    same = "the two studies are the same but for their time"
-    assert ended.out.splitlines() == [NOT_VERIFIED, same]
 
 
 @pytest.mark.parametrize("content", ["{}", None])

@@ -49,20 +49,3 @@ def test_a_library_that_is_missing_is_a_fault(call, monkeypatch):
     ended = call("doctor")
     assert ended.code == 5
     assert "is missing" in ended.out
-
-
-def test_a_switch_of_the_core_that_is_none_is_told(call, monkeypatch):
-    monkeypatch.setenv("NETDESIGN_CORE", "fortran")
-    ended = call("doctor")
-    assert ended.code == 5
-    assert (
-        "NETDESIGN_CORE=fortran is not known: it may be numpy or not set" in ended.out
-    )
-
-
-def test_without_the_compiled_core_the_doctor_says_why(call, monkeypatch, tmp_path):
-    monkeypatch.setenv("NETDESIGN_CORE", "numpy")
-    assert "switched off by NETDESIGN_CORE" in call("doctor").out
-    monkeypatch.delenv("NETDESIGN_CORE")
-    monkeypatch.setattr("netdesign.core.library.LIBRARY", tmp_path / "none.so")
-    assert "for want of a compiled core" in call("doctor").out

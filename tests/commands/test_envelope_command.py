@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -79,13 +78,6 @@ def test_the_document_is_that_of_the_interface(scene, store):
     assert len(found["log"]) == found["cases"]["asked"]
 
 
-def test_denser_snow_governs_and_is_the_driver(scene, store):
-    foot = document(scene, *RANGES, "--accuracy", "0.02", store=store)["extremes"][0]
-    assert foot["case"]["density_kg_m3"] == 450.0
-    density, friction = foot["sensitivity"]["drivers"]
-    assert density["total"] > 0.9 > 0.1 > friction["total"]
-
-
 def test_a_second_run_solves_nothing_and_says_the_same(scene, tmp_path):
     store = tmp_path / "cases.sqlite"
     first = document(scene, *RANGES, store=store)
@@ -96,30 +88,6 @@ def test_a_second_run_solves_nothing_and_says_the_same(scene, tmp_path):
         second["cases"]["reused"] == first["cases"]["solved"] + first["cases"]["reused"]
     )
     assert without_run(second) == without_run(first)
-
-
-def test_no_cache_neither_reads_nor_writes_the_store(scene, tmp_path):
-    store = tmp_path / "cases.sqlite"
-    found = document(scene, "--density", "250:450", "--no-cache", store=store)
-    assert found["cases"]["reused"] <= 3  # equal cases of the same run
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_damaged_store_is_set_aside_said_so_and_costs_nothing(scene, tmp_path):
-    store = tmp_path / "cases.sqlite"
-    store.write_bytes(b"spoilt" * 999)
-    result = run("envelope", scene, "--density", "250:450", store=store)
-    assert result.code == 0
-    assert "set aside as cases.sqlite.aside-1" in result.err
-    assert "nowhere above" in result.out
-
-
-def test_a_place_without_a_store_is_said_and_costs_nothing(scene, tmp_path):
-    (tmp_path / "file").write_text("")
-    store = tmp_path / "file" / "cases.sqlite"
-    result = run("envelope", scene, "--density", "250:450", store=store)
-    assert result.code == 0
-    assert "going on without it" in result.err
 
 
 def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
@@ -149,17 +117,6 @@ def test_outputs_are_written_whole_and_never_over_others(scene, store, tmp_path)
     again = run(*arguments, store=store)
     assert again.code == 2
     assert "exists already" in again.err
-
-
-def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
-    result = run("envelope", scene, *RANGES, store=tmp_path / "cases.sqlite")
-    lines = result.err.splitlines()
-    assert re.fullmatch(
-        r"search: \d+ solved, about \d+ to go; "
-        r"gap [\d.e+-]+ %, 1 row open; about \d+ s left",
-        lines[-2],
-    )
-    assert re.fullmatch(r"outputs: \d+ solved; about 0 s left", lines[-1])
 
 
 @pytest.mark.parametrize(
@@ -196,26 +153,6 @@ def test_bad_input_is_refused_by_name_and_nothing_is_written(
     assert told in result.err
     assert result.out == ""
     assert not (tmp_path / "o").exists()
-
-
-def test_an_unreachable_cluster_is_named_and_ends_with_2(scene, tmp_path):
-    result = run(
-        "envelope", scene, *RANGES, "--executor", "dask://127.0.0.1:9",
-        store=tmp_path / "s",
-    )  # fmt: skip
-    assert result.code == 2
-    assert "dask://127.0.0.1:9: no Dask scheduler answers there" in result.err
-
-
-def test_a_rigid_wall_is_refused(tmp_path, store):
-    walled = tmp_path / "wall.toml"
-    rigid = SMALL_SCENE.replace(
-        "stiffness_kN_per_m = 8000\nslack = 0.05\n", 'kind = "rigid"\n'
-    )
-    walled.write_text(rigid)
-    result = run("envelope", walled, "--density", "250:450", store=store)
-    assert result.code == 3
-    assert "rigid wall" in result.err
 
 
 # --- kills and interrupts ------------------------------------------------------------
@@ -279,12 +216,3 @@ def test_ctrl_c_stops_within_two_seconds_and_tells_how_to_continue(scene, tmp_pa
     again = run("envelope", scene, *RANGES, "--inclination", "25:35", "--json",
                 "--quiet", store=store)  # fmt: skip
     assert json.loads(again.out)["cases"]["reused"] >= 9
-
-
-def test_a_support_that_is_not_used_is_told(tmp_path, store):
-    path = tmp_path / "scene.toml"
-    path.write_text(SMALL_SCENE + "\n[support]\npost_spacing_m = 3.37\n")
-    options = ("--density", "250:310", "--accuracy", "0.05")
-    result = run("envelope", path, *options, store=store)
-    assert result.code == 0, result.err
-    assert "[support]" in result.err

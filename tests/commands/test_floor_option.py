@@ -73,12 +73,3 @@ def test_the_guideline_may_be_asked_of_a_profile_without_it(site, call):
     profile = read_profile(site / "a")
     assert (profile["floor"], profile["is_floor_overruled"]) == ("guideline", True)
     assert "swiss-guideline-2007" in own.out
-
-
-def test_the_profile_s_own_floor_is_nothing_to_tell(site, call):
-    ended = call(
-        "check", "site.xlsx", *QUICK, "--floor", "guideline", "--out", "a", "--no-excel"
-    )
-    assert read_profile(site / "a")["is_floor_overruled"] is False
-    assert "Minimum load" not in ended.out
-    assert "--floor" not in ended.out

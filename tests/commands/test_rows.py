@@ -68,10 +68,3 @@ def test_rows_are_those_of_the_whole_study(site, call):
     whole = read_study(site / "whole" / "study.json")
     one = read_study(site / "one" / "part-study.json")
     assert one["rows"] == [row for row in whole["rows"] if row["id"] == "R6"]
-
-
-def test_a_row_that_is_not_there_is_named_with_those_that_are(site, call):
-    refused = call("check", "site.xlsx", "--row", "R7", "--row", "R1")
-    assert refused.code == 2
-    assert "R7: no net row of the site; its net rows: R1, R6" in refused.err
-    assert not (site / "netdesign-out").exists()

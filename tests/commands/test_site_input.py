@@ -1,7 +1,5 @@
 """Options of reading, and the annotated copy, from the command line."""
 
-import json
-
 import openpyxl
 import pytest
 
@@ -39,27 +37,6 @@ def test_a_refused_site_is_given_back_with_its_findings(call, site, tmp_path):
     assert "38.500 or 38500" in marked["Nets"]["B2"].comment.text
 
 
-def test_a_sound_site_is_given_back_with_its_notes(call, site, tmp_path):
-    ended = call(
-        *("check", site, "--decimal-mark", "comma", "--dry-run", "--json"),
-        *("--annotate", "marked.xlsx"),
-    )
-    assert ended.code == 0
-    assert json.loads(ended.out)["net_rows"] == 1
-    listed = openpyxl.load_workbook(tmp_path / "marked.xlsx").worksheets[0]
-    assert listed["A2"].value == "note"
-    assert "delimiter semicolon" in listed["F2"].value
-
-
-def test_an_existing_copy_is_kept_unless_told(call, site, tmp_path):
-    (tmp_path / "marked.xlsx").write_text("mine")
-    arguments = ("check", site, "--annotate", "marked.xlsx", "--dry-run")
-    assert call(*arguments).code == 2
-    assert (tmp_path / "marked.xlsx").read_text() == "mine"
-    assert call(*arguments, "--force").code == 3
-    assert (tmp_path / "marked.xlsx").read_bytes().startswith(b"PK")
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -75,31 +52,6 @@ def test_wrong_options_of_reading_end_with_2(call, tmp_path, options, message):
     ended = call("check", "site.xlsx", *options)
     assert ended.code == 2
     assert message in ended.err
-
-
-def test_a_file_that_cannot_be_read_has_no_copy(call, tmp_path):
-    ended = call("check", "none.xlsx", "--annotate", "marked.xlsx")
-    assert ended.code == 3
-    assert "no annotated copy: none.xlsx: the file does not exist" in ended.err
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_mistyped_command_is_guessed(call):
-    ended = call("chek")
-    assert ended.code == 2
-    assert "Did you mean 'check'?" in ended.err
-
-
-@pytest.mark.parametrize("language", ["fr", "de"])
-def test_init_writes_in_a_language(call, tmp_path, language):
-    ended = call("init", "site.xlsx", "--language", language, "--example")
-    assert ended.code == 0
-    name = {"fr": "Filets", "de": "Netze"}[language]
-    assert name in openpyxl.load_workbook(tmp_path / "site.xlsx").sheetnames
-    counted = call("check", "site.xlsx", "--dry-run")
-    assert counted.code == 0
-    assert "7 net rows" in counted.out
-    assert "note" not in counted.out
 
 
 def test_a_profile_other_than_the_site_names_is_told(call, tmp_path):

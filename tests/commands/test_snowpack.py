@@ -24,22 +24,8 @@ def test_document_has_the_days_of_the_model(call, tmp_path, model):
     assert total == pytest.approx(document["days"][8]["height_m"], rel=1e-12)
 
 
-def test_lines_without_json(call, tmp_path):
-    ended = call("snowpack", write_heights(tmp_path / "station.csv", [0, 20]))
-    assert ended.out.splitlines()[1].split()[:2] == ["2003-02-02", "0.20"]
-
-
 def test_faults_are_told_and_nothing_is_printed(call, tmp_path):
     path = write_heights(tmp_path / "station.csv", [0, -20])
     ended = call("snowpack", path)
     assert (ended.code, ended.out) == (3, "")
     assert "B3" in ended.err
-
-
-def test_a_series_without_a_height_is_a_finding_of_its_own(call, tmp_path):
-    path = tmp_path / "heights.csv"
-    path.write_text("date,snow height [cm]\n", encoding="utf-8")
-    ended = call("snowpack", path)
-    assert ended.code == 3
-    assert "one snow height a day" in ended.err
-    assert "1 finding; nothing was checked" in ended.err

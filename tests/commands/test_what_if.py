@@ -61,23 +61,6 @@ def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
     assert not (site / "b").exists()
 
 
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (("--what-if", "P2=A40"), "accepted is CELL=TEXT"),
-        (("--what-if", "Nets.P2=A28", "--what-if", "Nets!p2=x"), "given twice"),
-        (("--what-if", "Nets.ZZ2=1"), "Nets!ZZ2: nothing that is read of the site"),
-        (("--what-if", "Nets.P2=A28-computed", "--size"), "looks for the cells itself"),
-        (("--size", "--json"), "give --out"),
-        (("--size", "--dry-run"), "leave --dry-run out"),
-    ],
-)
-def test_options_that_say_nothing_are_refused(site, call, options, said):
-    ended = call("check", "site.xlsx", *options)
-    assert ended.code == 2
-    assert said in " ".join(ended.err.split())
-
-
 def test_cells_that_need_each_other_are_read_together(site, call):
     """A pull-out resistance and its basis: neither is accepted alone."""
     cells = ("Anchors.C6=313.7", "Anchors.D6=tested")

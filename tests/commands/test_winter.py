@@ -1,18 +1,10 @@
 """The command ``winter``: document, page, refusals, exit codes."""
 
 import json
-from html import escape
 
 import openpyxl
 import pytest
 
-from netdesign.commands.winter import _list_statistics
-from netdesign.files.winter import _write_statistics
-from netdesign.winter.statistics import Gumbel
-from netdesign.words.catalogue import render
-from tests.digits import write_force
-from tests.report.accessible import list_violations
-from tests.report.printing import PAPER_PX, PHONE_PX, list_too_wide
 from tests.short_example import write_short_example
 
 HEIGHTS = [0, 30, 60, 55, 90, 130, 125, 150, 160, 150, 140, 120, 90, 60, 20, 0]
@@ -69,52 +61,6 @@ def test_document_is_that_of_the_interface(call, site, heights):
     assert document["station"]["height_factor_given"] is False
 
 
-def test_terminal_has_each_return_value_with_its_ends_and_winters():
-    fit = Gumbel(count=23, mean=17.3e3, deviation=5.2e3)
-    statistics = _write_statistics(fit, None)
-    row = {
-        "id": "R1",
-        "statistics": statistics,
-        "statistics_notes": ["Two are left out."],
-        "trend": {"why": "Flat."},
-    }
-    told = [render(one, "en") for one in _list_statistics(row)]
-    ends = [
-        tuple(f"{one[f'{end}_kN_per_m']:.1f}" for end in ("foot", "low", "high"))
-        for one in statistics["return_values"]
-    ]
-    assert [one[0] for one in ends] == ["28.7", "33.6"]
-    assert told == [
-        f"R1: foot's pull once in {period} years {foot} kN/m, between {low} and {high}"
-        " kN/m (5 and 95 %), from 23 winters"
-        for period, (foot, low, high) in zip((30, 100), ends, strict=True)
-    ] + ["R1: Two are left out.", "R1: Flat."]
-    alone = [render(one, "en") for one in _list_statistics(row | {"statistics": None})]
-    assert alone == told[2:]
-
-
-def test_page_shows_the_document(call, site, heights, tmp_path):
-    folder = tmp_path / "out"
-    ended = call(
-        "winter", site, "--heights", heights, "--out", folder, *QUICK,
-    )  # fmt: skip
-    assert ended.code == 0
-    page = (folder / "winter.html").read_text(encoding="utf-8")
-    document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
-    (winter,) = document["rows"][0]["winters"]
-    assert f">{write_force(winter['foot_peak_kN_per_m'])}<" in page
-    assert page.count("<svg") == 1
-    assert winter["why"].split(":")[0] in page
-    trend = document["rows"][0]["trend"]["why"]
-    assert escape(trend, quote=False) in page.replace("&#39;", "'")
-    assert trend in ended.out
-    assert "<script" not in page
-    wide = list_too_wide(page, PHONE_PX, tmp_path, media="screen")
-    assert {one.split()[1] for one in wide} <= {"table"}  # in what can be scrolled
-    assert list_too_wide(page, PAPER_PX, tmp_path) == []
-    assert list_violations(page, tmp_path, PHONE_PX) == []
-
-
 def test_governing_day_solved_as_uniform_snow_says_so(call, site, tmp_path):
     """Snow too thin for layers governs although less high: not ripened, uniform."""
     thin = [0, 30, 70, 95, 104, 103, 99, 90, 60, 0]
@@ -158,39 +104,6 @@ def test_snow_above_the_net_is_not_proven(call, site, tmp_path):
     (winter,) = json.loads(ended.out)["rows"][0]["winters"]
     assert ended.code == 4
     assert (winter["outcome"], winter["is_proven"]) == ("overtopped", False)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "told", "code"),
-    [
-        ((), "no snow heights", 3),
-        (("--heights", "thin"), "Were metres taken for centimetres", 3),
-        (
-            ("--heights", "good", "--row", "R77"),
-            "R77: no net row of the site",
-            2,
-        ),
-    ],
-)
-def test_refusals(call, site, heights, tmp_path, arguments, told, code):
-    thin = write_heights(tmp_path / "thin.csv", [0, 1, 3, 2])
-    paths = {"thin": thin, "good": heights}
-    given = [paths.get(one, one) for one in arguments]
-    ended = call("winter", site, *given, "--json", *QUICK)
-    assert ended.code == code
-    assert told in ended.err
-
-
-def test_medians_are_taken_where_asked_for(call, site, tmp_path):
-    path = write_heights(tmp_path / "noisy.csv", [0, 50, 100, 190, 100, 100, 100])
-    plain, smoothed = (
-        json.loads(call("winter", site, "--heights", path, "--json", *more, *QUICK).out)
-        for more in ((), ("--median",))
-    )
-    assert smoothed["station"]["is_smoothed"]
-    (winter,) = smoothed["rows"][0]["winters"]
-    assert winter["height_max_m"] == 1.0
-    assert plain["rows"][0]["winters"][0]["height_max_m"] == 1.9
 
 
 def write_monitoring(path, lines):

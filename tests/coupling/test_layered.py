@@ -12,12 +12,10 @@ import pytest
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import correction, round
+from netdesign.coupling.steady import round
 from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.compiled import CompiledRounds
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.benchmark.scenes import build_tables
-from netdesign.evidence.benchmark.scenes import draw_scene as draw_any_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.ground import GroundLaw
@@ -151,65 +149,8 @@ def test_of_hundreds_of_practical_layers_less_than_one_in_a_hundred_is_refused(
 WEAK = ((0.81, 190.4), (0.30, 256.1), (0.57, 172.3), (0.47, 435.2))
 
 
-def weak_scene(friction_deg):
-    return layered_scene(
-        WEAK,
-        slope_deg=42.0,
-        upslope=17.3,
-        ground=GroundLaw(kind="sliding", slip_length=2.3),
-        inclination_deg=18.0,
-        stiffness=2.3e7,
-        slack=0.097,
-        friction_deg=friction_deg,
-    )
-
-
-@pytest.mark.parametrize("friction_deg", [9.7, 14.2, 31.3])
-def test_what_is_not_found_is_given_up_soon(work, friction_deg):
-    """Solved or refused: no scene takes more than so much."""
-    solution = solve_steady(weak_scene(friction_deg))
-    if isinstance(solution, FailedSolution):
-        assert solution.reason
-    assert 0 < sum(work) <= MOST_WORK
-
-
-@pytest.mark.parametrize(
-    ("number", "cause"),
-    [(847, "steady.much_slack"), (478, "steady.layers_contrast")],
-)
-def test_a_net_that_does_not_come_to_rest_has_its_cause_told(number, cause):
-    """Scenes of ``netdesign bench --stress 2000 --seed 1``."""
-    failed = solve_steady(build_tables(draw_any_scene(1, number)))
-    assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert cause in [one.key for one in failed.reason.arguments["causes"]]
-
-
 # A hard layer between softer ones.
 HARD_MIDDLE = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
-
-
-def test_rounds_end_when_pulls_are_found():
-    """The net moved by 1e-4 of the thickness, the foot's pull by 1 %."""
-    scene = layered_scene(
-        HARD_MIDDLE,
-        slope_deg=42.0,
-        upslope=20.0,
-        ground=GroundLaw(kind="sliding", slip_length=1.3),
-        inclination_deg=35.0,
-        stiffness=2e7,
-        slack=0.03,
-        friction_deg=15.0,
-    )
-    levels = MESH_LEVELS[:3]
-    rough, tight = (
-        solve_steady(
-            scene, SolverSettings(accuracy=accuracy, levels=levels), on_failure="raise"
-        )
-        for accuracy in (0.005, 0.0005)
-    )
-    assert rough.cost.elements == tight.cost.elements
-    assert rough.foot.size == pytest.approx(tight.foot.size, rel=1e-3)
-    assert rough.head.size == pytest.approx(tight.head.size, rel=1e-3)
 
 
 def stiff_over_soft():
@@ -241,24 +182,6 @@ def test_a_net_lets_go_of_snow_that_would_pull_on_it():
     ]
     assert any("lets go of it (one-sided)" in flag for flag in flags[0])
     assert not any("lets go" in flag for flag in flags[1])
-
-
-@pytest.mark.parametrize("friction_deg", [0.0, 1.37])
-def test_near_the_limit_errors_reach_to_the_net_that_holds_on(friction_deg):
-    """From one contact to the other pulls would jump by more than their errors."""
-    tables = draw_any_scene(3, 203)
-    tables["net"]["friction_deg"] = friction_deg
-    scene = build_tables(tables)
-    rough = SolverSettings(accuracy=0.02)
-    solution = solve_steady(scene, rough, on_failure="raise")
-    asked = solve_steady(
-        replace(scene, net_contact="one-sided"), rough, on_failure="raise"
-    )
-    assert solution.is_released
-    for end in ("foot", "head"):
-        own, alone = getattr(solution, end), getattr(asked, end)
-        assert (own.x, own.y) == (alone.x, alone.y)
-        assert own.error > alone.error + 1e-4 * alone.size
 
 
 def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
@@ -367,19 +290,3 @@ def test_pulls_are_those_of_rounds_without_end_to_a_tenth_of_their_error(build):
         own, other = getattr(quick, end), getattr(tight, end)
         apart = math.hypot(own.x - other.x, own.y - other.y)
         assert apart <= 0.1 * own.error
-
-
-def test_a_derivative_is_found_on_coarse_meshes_alone_where_pulls_follow_calmly(
-    monkeypatch,
-):
-    sizes = []
-    linearise = correction.linearise_round
-
-    def note(problem, taken):
-        sizes.append(problem.template.triangles.shape[1])
-        return linearise(problem, taken)
-
-    monkeypatch.setattr(correction, "linearise_round", note)
-    found = solve_steady(stiff_scene(), SolverSettings(accuracy=0.005))
-    assert sizes
-    assert max(sizes) < found.cost.elements / 2

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
-from netdesign.coupling.history.staggered import solve_staggered
+from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.history.transient import solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
@@ -60,9 +59,3 @@ def test_a_mesh_too_fine_is_an_outcome(a_scene, name, levels):
     assert "allow a larger error, or join thin layers" in str(failed.reason)
     with pytest.raises(SolveError, match="too fine"):
         solve(scene, chosen, on_failure="raise")
-
-
-def test_so_it_is_for_the_source_paper_s_exchange(a_scene):
-    settings = StaggeredSettings(size=TOO_FINE)
-    failed = solve_staggered(a_scene(), settings)
-    assert failed.outcome is Outcome.OUT_OF_VALIDITY

@@ -8,20 +8,15 @@ import pytest
 
 from netdesign.coupling.scene import (
     MESH_LEVELS,
-    MIXED_BULK_RATIO,
     Scene,
     SolverSettings,
 )
-from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import compute_fluidity, compute_shear_factor
 from netdesign.snow.law import linearise_sliding
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
-from netdesign.snow.wall import Wall
-from netdesign.solving.solve import solve_scene
 from tests.each import each
 
 SETTINGS = SolverSettings(
@@ -143,15 +138,6 @@ def test_temperature_of_one_layer_changes_no_force(a_scene, ground, slip):
     assert warm.head.size == pytest.approx(plain.head.size, rel=1e-7)
 
 
-@pytest.mark.parametrize("temperature", [252.0, 270.7])
-def test_temperature_of_one_layer_changes_no_force_on_a_wall(a_scene, temperature):
-    scene = a_scene(ground="sliding", slip_length_m=2.3)
-    wall = replace(scene, net=Wall(height_normal=4.0, inclination=0.3))
-    part = Layer(thickness=4.0, density=scene.snowpack.density, temperature=temperature)
-    plain, warm = (solve_rigid(one, SETTINGS) for one in (wall, layered(wall, part)))
-    assert warm.force.size == pytest.approx(plain.force.size, rel=1e-7)
-
-
 @pytest.mark.parametrize("densities", [(487.3, 262.1), (213.9, 377.7)])
 def test_slip_is_that_of_the_snow_on_the_ground(a_scene, densities):
     """A slip length over the creep rate of the lowest layer: FACTS.md, section 5.
@@ -248,42 +234,7 @@ def test_one_dense_layer_takes_the_mixed_element(a_scene):
     sound(scene)
 
 
-def test_layers_scale_with_the_mean_density(a_scene):
-    """Densities over the mean; their mean over the thickness is 1."""
-    scene = layered(
-        a_scene(),
-        Layer(thickness=1.0, density=450.0),
-        Layer(thickness=3.0, density=250.0),
-    )
-    below, above = scene.flow_problem.layers
-    assert (below.top, above.top) == (0.25, 1.0)
-    assert 0.25 * below.density + 0.75 * above.density == pytest.approx(1.0, rel=1e-14)
-    assert below.density / above.density == pytest.approx(450 / 250, rel=1e-14)
-    # (N3): a = exp(c0 - c1 D), n = 3; the denser layer creeps more slowly
-    ratio = math.exp(-2.0 * 19.25 * (450 - 250) / 917)
-    assert below.fluidity_ratio / above.fluidity_ratio == pytest.approx(
-        ratio, rel=1e-12
-    )
-
-
 # --- contacts ----------------------------------------------------------------
-
-
-def test_one_sided_ground_does_not_pull(a_scene):
-    scene = a_scene(inclination_deg=30.0, friction_deg=15.0)
-    two, one = sound(scene), sound(replace(scene, ground_contact="one-sided"))
-    assert 0.1 < two.balance.ground_tension_share < 0.2  # FACTS.md, section 11
-    assert one.balance.ground_tension_share < 1e-12
-    assert one.foot.size == pytest.approx(
-        1.022 * two.foot.size, rel=3e-3
-    )  # FACTS.md, section 11
-
-
-def test_one_sided_net_is_not_pulled(a_scene):
-    scene = a_scene(inclination_deg=30.0, friction_deg=2.0)
-    assert sound(scene).balance.suction_share > 0.0
-    one = sound(replace(scene, net_contact="one-sided"))
-    assert one.balance.suction_share < 1e-9
 
 
 @pytest.mark.parametrize("friction_deg", [0.0, 2.0])
@@ -307,13 +258,6 @@ def test_one_sided_where_nothing_pulls_is_two_sided(a_scene):
 # --- elements ----------------------------------------------------------------
 
 
-def test_element_is_chosen_by_the_scene(a_scene):
-    light, dense = a_scene(), a_scene(relative_density=0.985)
-    assert light.flow_problem.element == "velocity"
-    assert dense.flow_problem.element == "mixed"
-    assert dense.flow_problem.layers[0].bulk_ratio > MIXED_BULK_RATIO
-
-
 @pytest.mark.parametrize(
     "given",
     [
@@ -333,22 +277,3 @@ def test_both_elements_agree_within_their_errors(a_scene, monkeypatch, given):
         first, second = getattr(plain, end), getattr(mixed, end)
         apart = math.hypot(first.x - second.x, first.y - second.y)
         assert apart <= min(first.error, second.error)
-
-
-def test_nearly_incompressible_snow_is_solved(a_scene):
-    solution = sound(a_scene(relative_density=0.985, inclination_deg=30.0))
-    pulled = solution.foot.x + solution.head.x
-    assert pulled == pytest.approx(solution.balance.weight_along_slope, rel=1e-8)
-
-
-def test_steady_refuses_a_wall(a_scene):
-    scene = replace(a_scene(), net=Wall(height_normal=4.0))
-    with pytest.raises(ModelError, match="a Wall goes to solve_rigid"):
-        solve_steady(scene, SETTINGS)
-
-
-def test_entry_takes_nets_and_walls(a_scene):
-    scene = a_scene(ground="no-slip")
-    assert solve_scene(scene, SETTINGS).foot.x > 0.0
-    wall = replace(scene, net=Wall(height_normal=4.0))
-    assert solve_scene(wall, SETTINGS).force.x > 0.0

@@ -1,19 +1,14 @@
 import os
-import re
 import sys
 import threading
 from contextlib import ExitStack
 from pathlib import Path
 
-import click
 import pytest
 
-from netdesign import cli
 from netdesign.edge.locks import LOCK_FILE, lock_folder
 from netdesign.edge.output import require_free, write_files
 from netdesign.outcome import OutputError
-from tests.small_scene import SMALL_SCENE
-from tests.tiny_site import write_site
 
 
 def listing(folder):
@@ -28,11 +23,6 @@ def test_files_are_written_with_their_folders(tmp_path):
     write_files(contents, overwrite=True)
     assert {path: path.read_bytes() for path in contents} == contents
     assert listing(tmp_path) == ["a.json", "b.html"]
-
-
-def test_written_files_are_as_readable_as_others(tmp_path):
-    write_files({tmp_path / "a": b""}, overwrite=True)
-    assert (tmp_path / "a").stat().st_mode & 0o777 == 0o644
 
 
 def test_existing_files_are_replaced_whole(tmp_path):
@@ -80,19 +70,6 @@ def test_nothing_is_put_in_place_before_all_is_written(tmp_path, monkeypatch):
     assert listing(tmp_path) == []
 
 
-def test_a_file_in_the_place_of_a_folder_is_told(tmp_path):
-    (tmp_path / "out").write_bytes(b"")
-    with pytest.raises(OutputError, match="cannot write"):
-        write_files({tmp_path / "out" / "a": b"1"}, overwrite=True)
-    assert listing(tmp_path) == ["out"]
-
-
-def test_free_places_are_accepted(tmp_path):
-    require_free([tmp_path / "new" / "deep" / "a"], overwrite=False)
-    require_free([], overwrite=False)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_every_taken_place_is_named(tmp_path):
     taken = [tmp_path / "a", tmp_path / "c"]
     for path in taken:
@@ -103,20 +80,6 @@ def test_every_taken_place_is_named(tmp_path):
     assert f"{taken[0]}, {taken[1]};" in message
     assert str(tmp_path / "b") not in message
     assert "--force" in message
-
-
-def test_taken_places_are_accepted_if_asked(tmp_path):
-    path = tmp_path / "a"
-    path.write_bytes(b"kept")
-    require_free([path], overwrite=True)
-    assert path.read_bytes() == b"kept"
-
-
-@pytest.mark.parametrize("overwrite", [True, False])
-def test_a_file_in_the_way_is_refused_before_any_work(tmp_path, overwrite):
-    (tmp_path / "out").write_bytes(b"")
-    with pytest.raises(OutputError, match="out is not a folder"):
-        require_free([tmp_path / "out" / "deep" / "a"], overwrite=overwrite)
 
 
 def test_a_place_without_leave_to_write_is_refused(tmp_path, monkeypatch):
@@ -148,67 +111,6 @@ def test_what_is_no_file_is_never_replaced(tmp_path, kind, overwrite):
 
 def write_given(paths, *, overwrite):
     write_files(dict.fromkeys(paths, b"1"), overwrite=overwrite)
-
-
-def list_commands(group=cli.cli, prefix=()):
-    for name, command in group.commands.items():
-        if isinstance(command, click.Group):
-            yield from list_commands(command, (*prefix, name))
-        else:
-            yield (*prefix, name), command
-
-
-# What makes each command write to a place that is taken; {} is that place.
-WRITING = {
-    ("init",): "init {}/site.xlsx",
-    ("map",): "map {}/site.xlsx",
-    ("check",): "check --example --out {}",
-    ("check", "annotate"): "check {}/site.xlsx --annotate {}/copy.xlsx",
-    ("solve",): "solve {}/scene.toml --out {}",
-    ("envelope",): "envelope {}/scene.toml --density 250:300 --friction 20:30 "
-    "--inclination 25:30 --out {}",
-    ("bench",): "bench --quick --plot {}/plot.svg",
-    ("paper",): "paper --out {}",
-    ("winter",): "winter --example --out {}",
-    ("validate",): "validate --out {}",
-    ("standards", "copy"): "standards copy eurocode {}/mine",
-    ("terrain",): "terrain --example --out {}/ground.xlsx",
-}
-
-
-TAKEN = (
-    "site.map.toml",
-    *("study.json", "copy.xlsx", "solution.json", "envelope.json", "plot.svg"),
-    *("paper.html", "index.html", "mine/document.toml"),
-    *("winter.json", "validation.html", "form.xlsx", "rows.geojson"),
-)
-
-
-@pytest.mark.parametrize("name", list(WRITING), ids="-".join)
-def test_no_option_is_advised_that_a_command_lacks(name, call, tmp_path):
-    """`init` advised --out, which it never had; `standards copy` had no --force."""
-    place = tmp_path / "taken"
-    (place / "mine").mkdir(parents=True)
-    for file in TAKEN:
-        (place / file).write_bytes(b"kept")
-    write_site(place / "site.xlsx")
-    (place / "scene.toml").write_text(SMALL_SCENE)
-    ended = call(*WRITING[name].format(place, place).split())
-    assert ended.code == 2, ended.err
-    assert "exists already" in ended.err
-    command = dict(list_commands())[tuple(part for part in name if part != "annotate")]
-    options = {opt for param in command.params for opt in param.opts}
-    assert set(re.findall(r"--[a-z-]+", ended.err)) <= options
-
-
-def test_every_command_that_writes_is_asked_above():
-    places = {"out", "force", "plot", "annotate"}
-    writing = {
-        name
-        for name, command in list_commands()
-        if places & {param.name for param in command.params}
-    }
-    assert writing - set(WRITING) <= {("report",)}  # which writes as check does
 
 
 # --- two runs, and runs that were killed ---------------------------------------------

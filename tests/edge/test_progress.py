@@ -1,18 +1,14 @@
 """Progress of a run: nothing is silent, nothing is promised too early."""
 
 import math
-import os
 import re
-import subprocess
-import sys
 from functools import lru_cache
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.edge import progress as progress_module
-from netdesign.edge.progress import Phase, RunProgress, Wave, show_phases
+from netdesign.edge.progress import Phase, RunProgress, Wave
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
 from tests.short_example import write_short_example
@@ -95,32 +91,6 @@ def test_the_time_left_counts_the_phases_to_come(cases, later, cost):
     assert all(now + seconds == pytest.approx(end) for seconds, now in known)
 
 
-def test_there_is_no_way_back_to_an_earlier_phase():
-    shown = []
-    phases = [Phase(key=key, words=key, cases=5) for key in "abc"]
-    progress = RunProgress(phases, shown.append)
-    for key in ("c", "a", "b", "c", "nowhere"):
-        progress.enter(key)
-    assert [one.stage for one in shown] == ["c"]
-
-
-def test_a_wave_gives_gap_and_rows_and_corrects_the_count():
-    shown = []
-    phases = [
-        Phase(key="a", words="search", cases=110),
-        Phase(key="b", words="", cases=40),
-    ]
-    progress = RunProgress(phases, shown.append, Clock())
-    progress.report_wave(Wave(rows_open=2, cases_waiting=9, gap=math.inf))
-    assert "no bound yet, 2 rows open" in str(shown[-1].line)
-    progress.report_wave(Wave(rows_open=1, cases_waiting=3, gap=0.0234))
-    assert (
-        str(shown[-1].line) == "search: 0 solved, about 49 to go; gap 2.3 %, 1 row open"
-    )
-    progress.report_wave(Wave(rows_open=0, cases_waiting=0, gap=0.0))
-    assert str(shown[-1].line) == "search: 0 solved, about 40 to go"
-
-
 # --- the program ---------------------------------------------------------------------
 
 
@@ -138,39 +108,6 @@ def solves(monkeypatch):
 
 
 QUICK = ("--accuracy", "0.1", "--jobs", "1", "--no-cache")
-LINE = re.compile(r"(.+?): (\d+) solved(?:, about (\d+) to go)?(?:; .*)?")
-
-
-def read_lines(text):
-    """Phase, solves done and solves to go of every line."""
-    lines = [LINE.fullmatch(line) for line in text.splitlines() if "wrote" not in line]
-    assert all(lines), text
-    return [(one[1], int(one[2]), int(one[3] or 0)) for one in lines]
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
-def test_every_solve_of_a_check_is_counted_in_its_phase(
-    call, tmp_path, monkeypatch, solves, is_grid
-):
-    write_short_example(tmp_path / "site.xlsx", ["R1", "R7"], is_grid=is_grid)
-    monkeypatch.setattr(progress_module, "_SILENCE_S", 0.0)  # a line for each case
-    ended = call("check", "site.xlsx", *QUICK, "--json")
-    lines = read_lines(ended.err)
-    phases = list(dict.fromkeys(phase for phase, _, _ in lines))
-    expected = [
-        "cases of the grid" if is_grid else "largest forces and their confirmation",
-        "other creep laws",
-        "reports",
-    ]
-    assert phases == expected
-    assert [number for _, number, _ in lines][-1] == len(solves)
-    assert {number for _, number, _ in lines} == set(range(len(solves) + 1))
-    for phase, _, left in lines:
-        assert (left == 0) == (phase == "reports")
-    for what in expected[1:-1]:
-        numbers = {number for phase, number, _ in lines if phase == what}
-        assert max(numbers) > min(numbers)
 
 
 def test_a_quiet_run_says_nothing(call, tmp_path, solves):
@@ -178,65 +115,3 @@ def test_a_quiet_run_says_nothing(call, tmp_path, solves):
     ended = call("check", "site.xlsx", *QUICK, "--json", "--quiet")
     assert (ended.code, ended.err) == (1, "")
     assert solves
-
-
-def test_plain_lines_are_few(call, tmp_path, solves):
-    write_short_example(tmp_path / "site.xlsx", ["R1", "R7"])
-    ended = call("check", "site.xlsx", *QUICK, "--json")
-    assert len(read_lines(ended.err)) < len(solves) / 4
-
-
-def test_what_is_known_already_is_counted_too(call, tmp_path, monkeypatch):
-    monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "cases.sqlite"))
-    write_short_example(tmp_path / "site.xlsx", ["R7"])
-    options = ("check", "site.xlsx", "--accuracy", "0.1", "--jobs", "1", "--json")
-    first = read_lines(call(*options).err)
-    assert first[-1] == ("reports", first[-1][1], 0)
-    again = read_lines(call(*options, "--explain").err)
-    assert again == []  # the net row is known: nothing is solved
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="a pseudo-terminal")
-def test_a_terminal_shows_one_line_that_ends(tmp_path):
-    """As a user sees it: the phases one after the other, and nothing left of them."""
-    write_short_example(tmp_path / "site.xlsx", ["R1", "R7"])
-    ours, theirs = os.openpty()
-    program = "from netdesign.cli import main; main()"
-    command = [sys.executable, "-c", program, "check", "site.xlsx", "--json", *QUICK]
-    with subprocess.Popen(
-        command,
-        cwd=tmp_path,
-        stdout=subprocess.DEVNULL,
-        stderr=theirs,
-        env=os.environ | {"TERM": "xterm", "COLUMNS": "80"},
-    ) as process:
-        os.close(theirs)
-        shown = read_all(ours)
-    assert process.returncode == 1
-    text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
-    places = [text.index(words) for words in ("cases of the", "other", "reports")]
-    assert places == sorted(places)
-    lines = re.split(r"[\r\n]+", text)
-    assert all(len(line) <= 80 for line in lines)
-    assert any(re.search(r"\d+ to go; about \d+ s left", line) for line in lines)
-    assert "0 to go" not in re.findall(r"\b\d+ to go", text)
-    assert shown.endswith("\x1b[2K")  # the line is gone
-
-
-def read_all(handle):
-    parts = []
-    try:
-        while part := os.read(handle, 65536):
-            parts.append(part)
-    except OSError:  # how Linux tells the end of a terminal
-        pass
-    os.close(handle)
-    return b"".join(parts).decode()
-
-
-def test_nothing_is_shown_quietly(capsys):
-    with show_phases(
-        [Phase(key="a", words="a", cases=3)], quiet=True, language="en"
-    ) as progress:
-        progress.count_case()
-    assert capsys.readouterr() == ("", "")

@@ -1,7 +1,6 @@
 import pytest
 
 from netdesign.edge.given_files import find_resource
-from netdesign.outcome import NetDesignError
 
 
 @pytest.mark.parametrize(
@@ -24,20 +23,9 @@ def package(tmp_path):
     return place
 
 
-def test_a_checkout_has_them_beside_the_package(package):
-    (package.parent / "standards").mkdir()
-    assert find_resource("standards", package) == package.parent / "standards"
-
-
 def test_a_wheel_has_them_inside_and_inside_wins(package):
     """Beside an installed package lies site-packages, where anything may lie."""
     (package.parent / "standards").mkdir()
     (package / "_data" / "standards").mkdir(parents=True)
     inside = package / "_data" / "standards"
     assert find_resource("standards", package) == inside
-
-
-def test_an_incomplete_installation_says_so(package):
-    (package.parent / "standards").write_text("a file, no folder")
-    with pytest.raises(NetDesignError, match="lacks its folder 'standards': install"):
-        find_resource("standards", package)

@@ -3,20 +3,18 @@
 import io
 import json
 import os
-import string
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from netdesign.edge.streams import _SPELLED, _Lasting, guard_streams
-from netdesign.words.catalogue import LANGUAGES, load_texts
+from netdesign.edge.streams import _Lasting
+from netdesign.words.catalogue import load_texts
 from tests.each import each
 from tests.program import QUICK, start_program
 from tests.tiny_site import write_site
 
-CODE_PAGES = ("cp437", "cp850", "ascii", "latin-1", "cp1252", "cp932")
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="POSIX pipes and devices")
 FULL = Path("/dev/full")
 
@@ -82,17 +80,6 @@ def test_a_full_disk_behind_standard_output_is_the_user_s(tmp_path, arguments):
 
 
 @pytest.mark.skipif(not FULL.exists(), reason="no device that is always full")
-def test_so_is_one_behind_a_verdict_whose_files_are_written(sites, tmp_path):
-    with FULL.open("w") as full:
-        result = start_program(
-            "check", sites / "1.xlsx", *QUICK, "--out", "o", cwd=tmp_path, stdout=full
-        )
-    assert result.code == 2
-    study = json.loads((tmp_path / "o" / "study.json").read_text("utf-8"))
-    assert study["verdict"] == "fail"
-
-
-@pytest.mark.skipif(not FULL.exists(), reason="no device that is always full")
 def test_a_standard_error_that_nobody_can_write_to_changes_nothing(sites, tmp_path):
     with FULL.open("w") as full:
         ended = subprocess.run(
@@ -137,46 +124,6 @@ def test_a_document_is_utf_8_whatever_the_code_page(tmp_path):
         env={**os.environ, "PYTHONIOENCODING": "cp437"},
     )  # fmt: skip
     assert json.loads(result.stdout.decode())["rows"][0]["id"] == "Rangée φ 1"
-
-
-class _Replaced:
-    """Streams of this process, put back afterwards."""
-
-    def __init__(self, monkeypatch, encoding):
-        self.raw = io.BytesIO()
-        stream = io.TextIOWrapper(self.raw, encoding=encoding)
-        for name in ("stdout", "__stdout__"):
-            monkeypatch.setattr(sys, name, stream)
-        guard_streams()
-
-    def show(self, text):
-        sys.stdout.write(text)
-        sys.stdout.flush()
-        return self.raw.getvalue()
-
-
-@pytest.mark.parametrize("encoding", CODE_PAGES)
-def test_every_sign_of_every_language_can_be_shown(monkeypatch, encoding):
-    texts = "".join(
-        text for language in LANGUAGES for text in load_texts(language).values()
-    )
-    signs = "".join(sorted({*texts, *_SPELLED}))
-    shown = _Replaced(monkeypatch, encoding).show(signs).decode(encoding)
-    lost = [sign for sign in signs if sign != "?" and not _is_shown(sign, encoding)]
-    assert lost == []
-    assert shown
-
-
-def _is_shown(sign, encoding):
-    """Whether a sign, or a spelling of it, is left in an encoding."""
-    return sign.encode(encoding, "netdesign.plain") != b"?"
-
-
-def test_what_ascii_lacks_is_spelt(monkeypatch):
-    text = "φ ≤ 45°, Kräfte: 3·10² N – größer\u4e00"
-    shown = _Replaced(monkeypatch, "ascii").show(text)
-    assert shown == b"phi <= 45 deg, Krafte: 3*102 N - grosser?"
-    assert set("".join(_SPELLED.values())) <= set(string.printable)
 
 
 class _Failing(io.RawIOBase):

@@ -111,14 +111,6 @@ def test_the_bound_holds_for_cases_that_are_all_solved_accurately(found):
             assert force <= found.maxima.upper_bound[place] * (1.0 + 1e-9)
 
 
-def test_a_search_on_two_meshes_solves_nothing_twice():
-    task = replace(TASK, settings=replace(SETTINGS, levels=MESH_LEVELS[:2]))
-    workers = Recording()
-    (found,) = search_rows([task], Runner(workers=workers))
-    assert len(workers.jobs) == len(found.results) - found.skipped
-    assert set(found.maxima.doubts) == {None}
-
-
 def test_what_fails_roughly_is_solved_again():
     """Also where its force would not matter; the search never sees the failure."""
 
@@ -131,14 +123,6 @@ def test_what_fails_roughly_is_solved_again():
     (found,) = search_rows([TASK], Runner(workers=Spoiling(spoil)))
     assert found.gap is None
     assert all(result.case.density > 260.0 for _, result in list_rough(found))
-
-
-def test_without_any_result_every_case_is_near():
-    task = build_point_task(TASK, (0.5, 0.5))
-    failed = replace(
-        solve_case(task), outcome=Outcome.DIVERGED, member_forces={}, solution=None
-    )
-    assert ResultReader(layout=LAYOUT).find_near([failed, failed]) == {0, 1}
 
 
 def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():

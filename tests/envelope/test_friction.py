@@ -53,15 +53,6 @@ def after_two_tests(end, **second):
     return skip
 
 
-def test_nothing_is_skipped_before_two_tests(end):
-    skip = after_two_tests(end)
-    assert skip.tested == 2
-    skip.learn(LOW, sticking(end))
-    assert not needs_solve(skip, HIGH)
-    assert skip.recall(HIGH).sticks
-    assert skip.skipped == 1
-
-
 def test_a_test_that_disagrees_ends_the_skipping(end):
     skip = after_two_tests(end, foot=1e5 * (1.0 + 1e-5))
     skip.learn(LOW, sticking(end))
@@ -89,12 +80,6 @@ def test_another_line_and_a_failed_case_answer_for_nothing(end):
     assert needs_solve(skip, HIGH)
 
 
-def test_lines_go_up_in_friction():
-    skip = FrictionSkip(AXES)
-    lines = skip.list_lines([HIGH, LOW, (0.7, 0.5), MIDDLE])
-    assert lines == [[LOW, MIDDLE, HIGH], [(0.7, 0.5)]]
-
-
 def test_two_chances_are_solved_one_by_one_and_apart(end):
     skip = FrictionSkip(AXES)
     for line in (0.1, 0.2, 0.3, 0.4):
@@ -109,13 +94,6 @@ def test_two_chances_are_solved_one_by_one_and_apart(end):
 def test_after_a_disagreement_no_line_ends_early(end):
     skip = after_two_tests(end, foot=1e5 * (1.0 + 1e-5))
     assert skip.list_lines([LOW, HIGH]) == [[LOW], [HIGH]]
-
-
-def test_without_a_range_of_friction_all_is_solved(end):
-    skip = FrictionSkip(("density",))
-    skip.learn((0.1,), sticking(end))
-    assert needs_solve(skip, (0.1,))
-    assert skip.list_lines([(0.5,), (0.1,)]) == [[(0.1,)], [(0.5,)]]
 
 
 def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):

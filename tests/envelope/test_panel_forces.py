@@ -100,12 +100,6 @@ def test_a_case_has_both_sets_and_the_panel_carries_the_same_load(mid):
     assert forces["panel_foot_anchor"].value == pytest.approx(feet, rel=1e-12)
 
 
-def test_without_a_panel_nothing_is_added():
-    result = solve(draw_case(np.random.default_rng(6)), None)
-    assert result.panel is None
-    assert set(result.member_forces) == {*CARRYING_MEMBERS, NetPart.MESH}
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_bands_hold_the_forces_on_finer_meshes(seed):
     """The error of the section's pulls covers that of panel, ropes and mesh."""

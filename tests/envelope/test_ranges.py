@@ -1,10 +1,6 @@
-import math
-
 import pytest
 
 from netdesign.envelope.ranges import Case, Interval, Ranges, build_cases
-from netdesign.outcome import ModelError
-from tests.each import each
 
 
 def test_samples_are_equally_spaced_and_hold_both_ends_exactly():
@@ -16,34 +12,6 @@ def test_samples_are_equally_spaced_and_hold_both_ends_exactly():
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_a_single_value_is_sampled_once_whatever_the_count(count):
     assert Interval(low=0.5, high=0.5, count=count).samples == (0.5,)
-
-
-def test_a_range_needs_two_samples():
-    assert Interval(low=0.0, high=1.0, count=2).samples == (0.0, 1.0)
-    with pytest.raises(ModelError, match="at least 2 are needed"):
-        Interval(low=0.0, high=1.0, count=1)
-
-
-@pytest.mark.parametrize("count", [0, -1])
-def test_no_sample_at_all_is_refused(count):
-    with pytest.raises(ModelError, match=f"with {count} samples"):
-        Interval(low=0.5, high=0.5, count=count)
-
-
-@each(
-    "low, high",
-    [
-        (1.0, math.nextafter(1.0, 0.0)),
-        (math.nan, 1.0),
-        (0.0, math.nan),
-        (0.0, math.inf),
-        (-math.inf, 0.0),
-        (math.inf, math.inf),
-    ],
-)
-def test_reversed_and_endless_ranges_are_refused(low, high):
-    with pytest.raises(ModelError, match=r"from a finite low end to a finite high"):
-        Interval(low=low, high=high, count=3)
 
 
 def test_cases_are_the_full_grid_with_the_inclination_fastest():

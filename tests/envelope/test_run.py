@@ -1,6 +1,4 @@
 import math
-import pickle
-from dataclasses import fields
 from itertools import product
 
 import numpy as np
@@ -10,7 +8,6 @@ from netdesign.coupling.scene import Scene
 from netdesign.envelope.run import run_cases
 from netdesign.outcome import SENTENCE, Outcome
 from netdesign.solving import workers
-from netdesign.solving.runner import Runner
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
 from tests.solving.small_scene import solve_case
@@ -110,15 +107,6 @@ def test_bands_hold_where_foot_and_guy_share_an_anchor(task):
     assert_bands_hold_moved_pulls(task(300.0, layout=layout))
 
 
-def test_results_come_in_the_order_of_the_tasks(task):
-    wanted = [400.0, 250.0, 325.0]
-    seen = []
-    tasks = [task(density) for density in wanted]
-    results = run_cases(tasks, Runner(on_done=seen.append))
-    assert densities(results) == wanted
-    assert seen == [result.solution for result in results]
-
-
 def test_a_refused_scene_is_a_named_failure_not_a_gap(task):
     """Ice has no creep law of snow: the scene cannot even be built."""
     refused = task(917.0)
@@ -167,18 +155,3 @@ def test_an_interrupt_is_no_failed_case(task, monkeypatch):
     monkeypatch.setattr(workers, "solve_scene", interrupted)
     with pytest.raises(KeyboardInterrupt):
         run_cases([task(250.0)])
-
-
-def test_no_task_gives_no_result():
-    assert run_cases([]) == []
-
-
-def test_tasks_and_results_survive_the_way_to_a_worker_and_back(task):
-    one = task(300.0)
-    copy = pickle.loads(pickle.dumps(one))
-    assert copy == one
-    result = solve_case(one)
-    back = pickle.loads(pickle.dumps(result))
-    assert back.member_forces == result.member_forces
-    assert {f.name for f in fields(back)} == {f.name for f in fields(result)}
-    assert np.array_equal(back.solution.net_curve, result.solution.net_curve)

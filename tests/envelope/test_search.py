@@ -201,11 +201,6 @@ def test_a_failed_case_leaves_a_gap_by_name():
     assert all(found.extremes[m].governing.is_converged for m in found.members)
 
 
-def test_an_open_gap_is_told(found):
-    opened = replace(found, maxima=replace(found.maxima, is_closed=False))
-    assert "could still exceed the largest one" in str(opened.gap)
-
-
 def test_no_gap_is_closed_beyond_the_accuracy_of_the_cases():
     """Asked for 0.01 % of cases that are good to some per cent: few are solved."""
     closest = replace(TASK, search=SearchSettings(gap=1e-4))
@@ -227,14 +222,6 @@ def test_without_a_layout_the_nets_tensions_are_followed_per_metre():
     assert governing.solution.foot.size == foot
 
 
-def test_progress_is_told_after_each_wave():
-    waves = []
-    search_rows([TASK], Runner(), waves.append)
-    assert waves[-1].rows_open == 0
-    assert [wave.rows_open for wave in waves[:-1]] == [1] * (len(waves) - 1)
-    assert any(math.isfinite(wave.gap) for wave in waves)
-
-
 @pytest.fixture
 def refuses(monkeypatch):
     """The model refuses every scene."""
@@ -243,13 +230,6 @@ def refuses(monkeypatch):
         raise ModelError("refused")
 
     monkeypatch.setattr(rows, "place_scene", refuse)
-
-
-@pytest.mark.usefixtures("refuses")
-def test_a_grid_of_refused_cases_says_why():
-    results = run_grid(TASK, {"density": 2, "friction_angle": 2}, Runner()).results
-    assert [result.outcome for result in results] == 4 * [Outcome.OUT_OF_VALIDITY]
-    assert {str(result.reason) for result in results} == {"refused"}
 
 
 @pytest.mark.usefixtures("refuses")

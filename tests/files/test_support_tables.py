@@ -57,14 +57,6 @@ def test_a_scene_without_a_support_has_none(tmp_path):
     assert read_scene(path) == (given.scene, given.settings)
 
 
-def test_what_is_left_out_of_a_support_follows_as_in_the_workbook():
-    layout = build(SCENE.format(net=CABLE) + SUPPORT).layout
-    assert layout.post_spacing == 3.7
-    assert layout.post_tilt == pytest.approx(math.radians(15.0))
-    assert layout.uphill_anchor_distance == layout.downhill_anchor_distance == 3.1
-    assert layout.post_base_distance is None
-
-
 def test_given_values_become_si():
     text = (
         SCENE.format(net=CABLE)
@@ -87,16 +79,6 @@ def test_given_values_become_si():
         True,
     )
     assert support.end_guy_angle == pytest.approx(math.radians(33.0))
-
-
-def test_each_rope_may_have_its_own_values():
-    own = (
-        "lower_rope_stiffness_kN = 21000\nupper_rope_stiffness_kN = 13000\n"
-        'lower_rope_sag = 0\nupper_rope_sag = 0.07\ncut = "fitted"\n'
-    )
-    panel = build(SCENE.format(net=CABLE) + SUPPORT + "[panel]\n" + own).panel
-    assert panel.lower == Rope(stiffness=21e6, sag=0.0)
-    assert panel.upper == Rope(stiffness=13e6, sag=0.07)
 
 
 @pytest.mark.parametrize(
@@ -127,12 +109,3 @@ def test_each_fault_is_one_finding(read, line, instead, key):
     told = [one for one in str(caught.value).splitlines() if "scene.toml" in one]
     assert len(told) == 1
     assert key in str(caught.value)
-
-
-def test_faults_that_a_table_alone_does_not_show_are_told_together(read):
-    text = SCENE.format(net='kind = "rigid"') + '[panel]\ncut = "uniform"\n'
-    with pytest.raises(SceneFileError) as caught:
-        read(text)
-    told = str(caught.value).splitlines()
-    assert len(told) == 4
-    assert all("scene.toml" in one for one in told)

@@ -9,10 +9,8 @@ from netdesign.guideline.load_model import (
     compute_altitude_factor,
     compute_creep_factor,
     compute_snow_load,
-    read_end_effect,
     read_load_model,
 )
-from netdesign.outcome import ModelError, StandardError
 from tests.each import each
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
@@ -97,26 +95,3 @@ def test_parts_of_the_load():
     assert load.resultant[1] == pytest.approx(
         -load.normal - prism * math.cos(STEEP), rel=1e-14
     )
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [("density", 0.27), ("slope_angle", 0.0), ("glide_factor", 0.9)],
-)
-def test_impossible_input_is_named(name, value):
-    with pytest.raises(ModelError, match=name.replace("_", " ")):
-        a_load(**{name: value})
-
-
-def test_profile_without_load_model_is_refused():
-    with pytest.raises(StandardError, match=r"eurocode: has no value snow\.gravity"):
-        read_load_model(load_standard("eurocode"))
-
-
-@pytest.mark.parametrize(
-    "name",
-    ["nf-p-95-304-style", "swiss-guideline-2007", "eurocode", "onr-24805-style"],
-)
-def test_every_profile_has_an_end_effect(name):
-    rule = read_end_effect(load_standard(name))
-    assert (rule.constant, rule.per_glide, rule.isolated_gap) == (0.92, 0.65, 2.0)

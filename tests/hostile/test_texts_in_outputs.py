@@ -16,7 +16,6 @@ import openpyxl
 import pytest
 from rich.console import Console
 
-from netdesign.report.difference import compare_studies
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_summary
@@ -144,12 +143,6 @@ def test_a_terminal_is_not_steered(text):
     console = Console(file=shown, width=200, color_system=None, force_terminal=True)
     print_summary(spoilt_study(text), console, explain=True)
     assert all(sign.isprintable() or sign == "\n" for sign in shown.getvalue())
-
-
-def test_changes_between_studies_are_shown_without_control_signs(text):
-    changes = compare_studies(build_study(), spoilt_study(text))
-    assert changes
-    assert all(str(change).isprintable() for change in changes)
 
 
 def test_json_keeps_every_text_and_shows_no_control_sign(text):

@@ -97,9 +97,3 @@ def test_nothing_on_the_grid_is_larger_and_nothing_lies_outside():
         for axis, places in zip(axes, found, strict=True):
             assert axis[0] <= places.min()
             assert places.max() <= axis[-1]
-
-
-def test_one_point_is_its_own_largest():
-    found, values = find_largest(lambda p: np.array([p[0], -p[0]]), grid((0.3, 0.3)))
-    assert found.tolist() == [[0.3, 0.3]]
-    assert values.tolist() == [0.3, -0.3]

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.outcome import ModelError, Outcome
+from netdesign.outcome import Outcome
 from netdesign.panel import solve as solving
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solution import FailedPanel, PanelSolution
@@ -116,18 +116,6 @@ def test_soft_ropes_that_pass_each_other_on_the_way(solved):
     soft = solve_panel(low, panel)
     assert isinstance(soft, PanelSolution)
     assert soft.balance.largest < 1e-8
-
-
-@pytest.mark.parametrize("stations", [0, 11])
-def test_number_of_stations_is_guarded(section, stations):
-    with pytest.raises(ModelError, match="stations"):
-        solve_panel(section, PANEL, stations=stations)
-
-
-@pytest.mark.parametrize("stations", [1, 10])
-def test_number_of_stations_at_its_bounds(section, stations):
-    solved = solve_panel(section, PANEL, stations=stations)
-    assert solved.stations.shape == (stations + 1,)
 
 
 def test_steps_that_do_not_end_are_a_reason(section, monkeypatch):

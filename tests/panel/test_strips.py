@@ -11,7 +11,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import EndPull
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.outcome import ModelError, Outcome, SolveError
+from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.strips import (
     build_stations,
@@ -88,12 +88,6 @@ def test_strips_between_moved_ropes_are_in_balance(solved):
         pairs = ((start, foot), (start + end, strip.load - foot))
         held = sum(x * pull[1] - y * pull[0] for (x, y), pull in pairs)
         assert turned.sum() == pytest.approx(held, abs=1e-9 * np.hypot(*strip.load))
-
-
-def test_only_a_net_at_rest_has_strips(solved):
-    history = replace(solved(inclination_deg=30.0), method="transient")
-    with pytest.raises(ModelError, match="steady state of a net, not on a history"):
-        take_strip(history)
 
 
 @each("mid", [False, True])

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.outcome import ModelError
 from netdesign.search.maxima import (
     RESOLVED_SHARE,
     MaximaSearch,
@@ -15,7 +14,6 @@ from netdesign.search.maxima import (
 from netdesign.search.upper_bound import Bounds, list_first_design
 from tests.each import each
 from tests.search.synthetic import (
-    answer,
     drive,
     drive_roughly,
     peak,
@@ -45,11 +43,6 @@ def test_bound_holds_and_is_closed(family, seed):
     assert_covers(found, true_maxima(response, 3))
     gaps = np.array(found.upper_bound) - np.array(found.maximum)
     assert np.all(gaps <= 0.005 * np.array(found.maximum) * (1 + 1e-6))
-
-
-@each("seed", FEW)
-def test_smooth_responses_take_few_cases(seed):
-    assert len(drive(smooth(seed), 3).points) <= 80
 
 
 @pytest.mark.parametrize("seed", FEW)
@@ -132,21 +125,6 @@ def test_what_is_negative_everywhere_is_no_force():
     assert found.upper_bound[1] == 0.0
 
 
-def test_only_what_is_watched_decides():
-    """The second quantity has a ridge; nobody asked for it, so it costs nothing."""
-
-    def search(watched):
-        open_search = MaximaSearch(3, SearchSettings())
-        while points := open_search.ask():
-            values = [(10.0 + p[0], 10.0 + min(p[1], 2.0 - 3.0 * p[1])) for p in points]
-            open_search.tell(values, watched)
-        return open_search.result
-
-    alone, both = search({0: Watched()}), search(None)
-    assert len(alone.points) < len(both.points)
-    assert alone.is_closed
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_what_does_not_decide_is_bounded_and_costs_no_case(seed):
     """Its bound, close or not, holds for every case and is the model's."""
@@ -173,31 +151,6 @@ def test_what_does_not_decide_is_bounded_and_costs_no_case(seed):
     assert both.maximum[1] < both.upper_bound[1] < 2.0 * both.maximum[1]
 
 
-def test_same_answers_give_the_same_search():
-    one, other = drive(ridge(3), 3), drive(ridge(3), 3)
-    assert one.points == other.points
-    assert one.upper_bound == other.upper_bound
-    assert [a.reason for a in one.log] == [a.reason for a in other.log]
-
-
-def test_the_log_says_why_each_case_was_solved_and_what_was_expected():
-    found = drive(valley(1), 3)
-    assert [one.point for one in found.log] == list(found.points)
-    first = list_first_design(3)
-    for place, one in enumerate(found.log):
-        value = found.values[place][one.quantity]
-        assert one.found == value
-        if place < len(first):
-            assert str(one.reason) == "first design"
-            assert math.isnan(one.predicted)
-        else:
-            assert str(one.reason) in ("could exceed", "test")
-            assert one.standard_error >= 0.0
-    rounds = [one.round for one in found.log]
-    assert rounds == sorted(rounds)
-    assert str(found.log[-1].reason) == "test"
-
-
 def test_failed_cases_are_kept_apart_and_never_govern():
     def response(u):
         value = smooth(2)(u)
@@ -208,13 +161,6 @@ def test_failed_cases_are_kept_apart_and_never_govern():
     assert failed
     assert not set(failed) & set(found.governing)
     assert all(math.isnan(found.log[k].found) for k in failed)
-
-
-def test_nothing_solved_gives_nothing():
-    found = drive(lambda _: np.array([math.nan]), 3)
-    assert (found.maximum, found.upper_bound, found.governing) == ((), (), ())
-    assert not found.is_closed
-    assert found.surrogate is None
 
 
 def test_too_few_answers_leave_the_search_open():
@@ -240,46 +186,6 @@ def test_bounds_without_their_tests_are_not_closed():
         for count in range(36, before_last + 1)
     ]
     assert not any(ends)
-
-
-@pytest.mark.parametrize("dimension", [0, 7])
-def test_other_numbers_of_parameters_are_refused(dimension):
-    with pytest.raises(ModelError, match="takes 1 to 6"):
-        MaximaSearch(dimension, SearchSettings())
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [{"gap": 0.0}, {"gap": math.nan}, {"certainty": 0.5}, {"tests": 0}, {"batch": 0}],
-)
-def test_settings_that_would_certify_anything_are_refused(wrong):
-    with pytest.raises(ModelError, match=next(iter(wrong))):
-        SearchSettings(**wrong)
-
-
-def test_a_question_stands_until_it_is_answered():
-    search = MaximaSearch(3, SearchSettings())
-    asked = []
-    while points := search.ask():
-        assert search.ask() == points
-        assert search.result is None
-        asked += points
-        search.tell([answer(valley(5), point) for point in points])
-        assert search.points == tuple(asked)
-    assert search.result.points == tuple(asked)
-    assert search.gap <= SearchSettings().gap * (1.0 + 1e-9)
-
-
-def test_answers_that_are_not_as_many_as_questions_are_refused():
-    search = MaximaSearch(1, SearchSettings())
-    with pytest.raises(ModelError, match="4 values for the 5 points asked for"):
-        search.tell([(1.25,)] * 4)
-    assert search.points == ()
-    search.tell([(1.25,)] * 5)
-    while points := search.ask():
-        search.tell([(1.25,)] * len(points))
-    with pytest.raises(ModelError, match="1 values for the 0 points"):
-        search.tell([(1.25,)])
 
 
 @pytest.mark.long

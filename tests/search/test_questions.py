@@ -1,10 +1,8 @@
 """Points of the first design, and the choice of the next ones."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from netdesign.search.upper_bound import Bounds, choose_questions, list_first_design
 
@@ -44,11 +42,6 @@ def test_where_a_quantity_could_exceed_is_asked_first_and_apart():
     assert chosen == [((0.25, 0.25), 0), ((0.75, 0.5), 0)]
 
 
-@pytest.mark.parametrize("most", [{"batch": 1, "room": 90}, {"batch": 6, "room": 1}])
-def test_neither_the_batch_nor_the_room_is_exceeded(most):
-    assert choose_questions(OPEN, [(0.0, 0.0)], **most) == [((0.25, 0.25), 0)]
-
-
 def test_where_all_that_could_exceed_is_known_the_like_of_it_is_asked():
     known = [(0.25, 0.25), (0.3125, 0.25), (0.75, 0.5)]
     negative = replace(OPEN, wanted=(*OPEN.wanted, (-0.6, (0.75, 0.9375), 0)))
@@ -65,12 +58,3 @@ def test_closed_bounds_are_tested_beside_their_maxima_inside_the_box():
         ((0.5, 0.9375), 1),
     ]
     assert choose_questions(CLOSED, [(0.0, 0.5)], batch=2, room=3) == chosen[:3]
-
-
-def test_tests_beside_maxima_that_are_known_are_asked_elsewhere():
-    """At least an eighth of a range from every known case."""
-    beside = [one.point for one in choose_questions(CLOSED, [], batch=6, room=90)]
-    known = [*beside, (0.28125, 0.25)]
-    chosen = choose_questions(CLOSED, known, batch=6, room=90)
-    assert chosen == [((0.75, 0.5), 0), ((0.75, 1.0), 1)]
-    assert all(math.dist(one.point, k) >= 0.125 for one in chosen for k in known)

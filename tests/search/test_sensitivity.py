@@ -44,22 +44,8 @@ def test_the_tornado_goes_through_the_governing_case(found):
     assert (y.low, y.high) == pytest.approx((14.75, 16.75))
 
 
-def test_a_force_that_does_not_vary_has_no_drivers(found):
-    assert all(
-        (one.first_order, one.total) == (0.0, 0.0)
-        for one in measure_sensitivity(found, 1)[0]
-    )
-    assert measure_unexplained(found, 1) == pytest.approx(0.0, abs=1e-9)
-
-
 def test_what_the_model_cannot_see_is_its_error():
     smooth = drive(lambda u: np.array([5.0 + u[0] ** 2]), 1)
     rough = drive(lambda u: np.array([5.0 + math.sin(40.0 * u[0])]), 1, max_cases=9)
     assert measure_unexplained(smooth, 0) == pytest.approx(0.0, abs=1e-9)
     assert measure_unexplained(rough, 0) > 0.3
-
-
-def test_without_a_model_there_is_nothing_to_tell():
-    nothing = drive(lambda _: np.array([math.nan]), 2)
-    assert measure_sensitivity(nothing, 0, 1) == ((), ())
-    assert measure_unexplained(nothing, 0) is None

@@ -54,10 +54,6 @@ def test_a_kink_widens_the_claims_beside_it_most():
     assert claim[0, 0] > 1.5 * claim[1, 0]
 
 
-def test_terms_of_the_trend_are_counted():
-    assert [count_trend_terms(n) for n in (1, 2, 3, 6)] == [3, 6, 10, 28]
-
-
 def test_a_score_counts_far_away_by_the_distance_of_its_neighbour():
     """Beyond three parameters: (M5a), with a neighbour at a fifth of the reach."""
     places = np.vstack([RNG.uniform(0.0, 1.0, (40, 4)), np.full((2, 4), 0.5)])
@@ -68,11 +64,6 @@ def test_a_score_counts_far_away_by_the_distance_of_its_neighbour():
     nearest = np.minimum(1.0, apart.min(axis=1) / REACH)
     assert model.far_shares == pytest.approx(FAR_SHARE * nearest**1.5, rel=1e-6)
     assert model.far_shares[-1] == pytest.approx(FAR_SHARE * 0.2**1.5, rel=1e-6)
-
-
-def test_up_to_three_parameters_every_score_counts_far_away_alike():
-    model = fit_surrogate(PLACES, KINKED)
-    assert np.all(model.far_shares == FAR_SHARE)
 
 
 def test_the_sway_is_the_sum_of_what_each_doubt_does_to_the_mean():
@@ -89,12 +80,6 @@ def test_the_sway_is_the_sum_of_what_each_doubt_does_to_the_mean():
         moved += np.abs(fit_surrogate(PLACES, values).predict(elsewhere).mean - mean)
     assert moved.max() > 0.05
     assert model.find_sway(elsewhere, (1, 0)) == pytest.approx(moved[:, ::-1])
-
-
-def test_values_without_doubts_have_no_sway():
-    model = fit_surrogate(PLACES, KINKED)
-    assert not model.find_sway(PLACES, (0, 1)).any()
-    assert model.find_sway(PLACES, (1,)).shape == (24, 1)
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3, 5])

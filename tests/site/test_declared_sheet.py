@@ -1,14 +1,12 @@
 """Sheet Declared: checks by their names in any language, every fault with its cell."""
 
 from dataclasses import replace
-from datetime import datetime
 
 import pytest
 
 from netdesign.checks import Declaration, Proof
 from netdesign.outcome import SiteDataError
-from netdesign.site.columns.fields import normalise
-from netdesign.site.declared_sheet import DECLARABLE, list_check_names
+from netdesign.site.declared_sheet import DECLARABLE
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
@@ -32,10 +30,6 @@ def the_finding(path):
     return finding
 
 
-def test_without_the_sheet_nothing_is_declared(sheets, save):
-    assert read_site(save(sheets)).declared == ()
-
-
 def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(sheets, save):
     site = read_site(save(with_lines(sheets, SOUND_LINE)))
     (found,) = site.declared
@@ -56,12 +50,6 @@ def test_a_line_may_be_of_all_rows(sheets, save, word):
     for row in site.rows:
         found = site.find_declaration(row, "post_base", "bearing")
         assert (found.proof.document, found.proof.date) == ("Report G-17", "")
-
-
-def test_a_date_of_the_spreadsheet_program_is_one(sheets, save):
-    line = [*SOUND_LINE[:4], datetime(2025, 11, 3)]
-    (found,) = read_site(save(with_lines(sheets, line))).declared
-    assert found.proof.date == "2025-11-03"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -101,15 +89,6 @@ def test_a_check_of_the_end_is_known_by_its_name_and_is_of_the_end(
             assert found.position == expected
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("subject", [("net", "spacing"), ("post", "lateral")])
-def test_what_stands_on_no_support_has_no_end(sheets, save, language, subject):
-    check = render(name_check(*subject, "edge"), language)
-    finding = the_finding(save(with_lines(sheets, ["R1", check, *SOUND_LINE[2:]])))
-    assert str(finding.rule) == "is no check that may be declared"
-    assert "..., end of the row" in str(finding.accepted)
-
-
 @each("member, mode", [*MEMBER_MODES, *DEPENDENT_MODES])
 @each("other", [None, "other"])
 def test_a_declaration_holds_at_the_end_for_the_same_type_only(member, mode, other):
@@ -143,45 +122,6 @@ def test_a_declaration_holds_at_the_end_for_the_same_type_only(member, mode, oth
 
 
 @pytest.mark.parametrize(
-    ("name", "headings", "check"),
-    [
-        (
-            "Déclarées",
-            ["Rangée", "Vérification", "Document", "Auteur", "Date"],
-            "Ancrage de pied, arrachement",
-        ),
-        (
-            "Erklärte",
-            ["Werkreihe", "Nachweis", "Dokument", "Verfasser", "Datum"],
-            "Fußanker, Ausziehen",
-        ),
-        (
-            "Erklärte",
-            ["Werkreihe", "Nachweis", "Dokument", "Verfasser", "Datum"],
-            "Fußanker, Herausziehen",  # as earlier versions had it
-        ),
-    ],
-)
-def test_french_and_german_sheets(sheets, save, name, headings, check):
-    sheets[name] = [headings, ["R1", check, "Note 4", "C. D.", "2026-01-30"]]
-    (found,) = read_site(save(sheets)).declared
-    assert (found.member, found.mode) == ("foot_anchor", "pull_out")
-
-
-@pytest.mark.parametrize(
-    ("name", "mode"),
-    [
-        ("Foot anchor, bending beside the axis", "bending"),
-        ("Foot anchor, ground around the bond", "wedge"),
-        ("Fußanker, Biegung neben der Achse", "bending"),
-        ("Fußanker, Boden um den Verbund", "wedge"),
-    ],
-)
-def test_a_check_is_known_by_the_name_it_had(name, mode):
-    assert list_check_names()[normalise(name)] == ("foot_anchor", mode, "")
-
-
-@pytest.mark.parametrize(
     ("column", "value", "rule"),
     [
         ("A", "R7", "is no id of sheet Nets"),
@@ -210,11 +150,6 @@ def test_a_check_declared_twice_is_a_finding_that_names_the_first(sheets, save, 
     finding = the_finding(save(with_lines(sheets, SOUND_LINE, again)))
     assert finding.cell == "B3"
     assert str(finding.rule) == "is declared twice: also in Declared!B2"
-
-
-def test_the_same_check_of_another_row_is_no_second(sheets, save):
-    lines = [SOUND_LINE, ["R2", *SOUND_LINE[1:]]]
-    assert len(read_site(save(with_lines(sheets, *lines))).declared) == 2
 
 
 @pytest.mark.parametrize("law", ["boutillier-2004", "zwinger-2007"])

@@ -44,25 +44,11 @@ def test_named_types_are_those_of_the_end_and_of_blank_ones_nothing_is_known(
     assert first.resistances_at("intermediate") is first.resistances
 
 
-def test_type_of_the_end_is_echoed_with_its_cell(with_ends, save):
-    row = read_site(save(with_ends)).rows[0]
-    echo = next(one for one in row.inputs if one.cell == "Ends!B2")
-    assert (echo.text, echo.value) == ("A3", "A3")
-    assert not [one for one in row.inputs if one.cell == "Ends!C2"]
-
-
 def test_a_row_whose_end_is_as_inside_has_the_same_types(with_ends, save):
     with_ends["Ends"] = [["net row", "types of the support"], ["R1", "as inside"]]
     row = read_site(save(with_ends)).rows[0]
     assert values(row.resistances_at("edge")) == values(row.resistances)
     assert values(row.resistances)["foot_anchor", "tendon"] == 400e3
-
-
-def test_types_beside_as_inside_are_refused(with_ends, save, refused):
-    with_ends["Ends"][0].append("types of the support")
-    with_ends["Ends"][1].append("as inside")
-    (finding,) = refused(save(with_ends))
-    assert (finding.sheet, finding.cell) == ("Ends", "B2")
 
 
 @pytest.mark.parametrize(
@@ -77,27 +63,6 @@ def test_unknown_row_or_type_is_one_finding(with_ends, save, refused, line, cell
     with_ends["Ends"][1] = line
     (finding,) = refused(save(with_ends))
     assert (finding.sheet, finding.cell, finding.text) == ("Ends", cell, told)
-
-
-def test_a_row_named_twice_is_one_finding(with_ends, save, refused):
-    with_ends["Ends"].append(["R1", None, "A3", None, None])
-    (finding,) = refused(save(with_ends))
-    assert (finding.sheet, finding.cell) == ("Ends", "A3")
-    assert "Ends!A2" in str(finding.message)
-
-
-@pytest.mark.parametrize(
-    ("sheet", "headings"),
-    [
-        ("Extrémités", ["rangée", "ancrage de pied"]),
-        ("Enden", ["Werkreihe", "Fußanker"]),
-    ],
-)
-def test_sheet_is_read_in_other_languages(with_ends, save, sheet, headings):
-    del with_ends["Ends"]
-    with_ends[sheet] = [headings, ["R1", "A3"]]
-    row = read_site(save(with_ends)).rows[0]
-    assert values(row.end_resistances)["foot_anchor", "tendon"] == 731e3
 
 
 @pytest.mark.parametrize("word", ["all", "alle", "toutes", "All"])

@@ -5,7 +5,6 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import NETS, RANGES
 from netdesign.site.reader import read_site
-from netdesign.site.titles import name_map
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
 from tests.site.conftest import SOUND
@@ -33,32 +32,6 @@ def test_a_line_of_sheet_project_says_where_its_value_belongs(tmp_path, name, sh
     assert [(one.sheet, one.cell) for one in found] == [("Project", "A2")]
     assert str(found[0].rule) == "stands once for all net rows: it is not read there"
     assert f"sheet {sheet}" in str(found[0].accepted)
-
-
-@pytest.mark.parametrize("line", [("slack", "5 %"), ("Pfostenabstand [m]", 3.5)])
-def test_a_line_above_the_table_does_so_too(sheets, save, refused, line):
-    """Beside a column of the same: neither counts before the other."""
-    sheets["Nets"].insert(0, line)
-    (finding,) = refused(save(sheets))
-    assert finding.cell == "A1"
-    assert "with the value in each row" in str(finding.accepted)
-
-
-def test_a_range_on_a_cover_sheet_is_refused(sheets, save, refused):
-    sheets["Projekt"] = [
-        ["Bauherr:", "Gemeinde"],
-        ["Schneehöhe lotrecht", "2,9 - 3,4 m"],
-    ]
-    (finding,) = (one for one in refused(save(sheets)) if one.severity == "error")
-    assert (finding.sheet, finding.cell) == ("Projekt", "A2")
-    assert "of sheet Ranges" in str(finding.accepted)
-
-
-def test_it_may_be_answered_that_a_line_is_not_read(sheets, save):
-    sheets["Project"] = [["item", "value"], ["altitude", "2100 m"]]
-    path = save(sheets)
-    name_map(path).write_text('[headings.Project]\n"altitude" = "ignore"\n')
-    assert len(read_site(path).rows) == 2
 
 
 def test_no_stiffness_is_searched_over_all_that_may_be_typed_without_a_question(

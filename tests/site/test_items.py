@@ -6,10 +6,10 @@ import string
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES
+from netdesign.site.columns.all_tables import PROJECT_ITEMS
 from netdesign.site.columns.fields import find_item
 from netdesign.site.reader import read_site
-from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.catalogue import LANGUAGES
 from tests.site.conftest import SOUND
 from tests.site.csv_folder import write_csv_folder
 
@@ -48,16 +48,6 @@ def test_a_line_that_names_no_item_is_one_finding(tmp_path, line, near):
     assert (finding.sheet, finding.cell) == ("Project", "A3")
     assert finding.text == line.split(";")[0]
     assert str(finding.accepted).startswith(near)
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("sheet", ["Project", "Projet", "Projekt"])
-def test_items_are_listed_in_the_language_of_the_reader(tmp_path, sheet, language):
-    path = write_csv(tmp_path / "site", ["item;value", "colour;red"])
-    (path / "Project.csv").rename(path / f"{sheet}.csv")
-    (finding,) = findings_of(path)
-    expected = ", ".join(field.label_in(language) for field in PROJECT_ITEMS)
-    assert render(finding.accepted, language).startswith(expected)
 
 
 def misspell(word, rng):
@@ -116,33 +106,6 @@ def test_a_line_of_items_is_read_or_refused_wherever_its_marks_stand(tmp_path):
     assert 0 < used < 40
 
 
-@pytest.mark.parametrize("name", ["Porject", "Projects"])
-def test_a_misspelt_name_of_a_sheet_is_refused(sheets, save, refused, name):
-    sheets[name] = [["item", "value"], ["standard", PROFILE]]
-    (finding,) = refused(save(sheets))
-    assert (finding.sheet, finding.cell) == (name, "")
-
-
-def test_a_second_sheet_of_a_like_name_is_asked_about(sheets, save, refused):
-    sheets["Anchors old"] = [["id"], ["A9"]]
-    (finding,) = refused(save(sheets))
-    assert finding.sheet == "Anchors old"
-    assert 'is named like sheet "Anchors"' in str(finding.rule)
-
-
-def test_items_above_their_headings_are_refused(tmp_path):
-    lines = ["standard;eurocode", "item;value", "name;Combe"]
-    (finding,) = findings_of(write_csv(tmp_path / "site", lines))
-    assert (finding.cell, finding.text) == ("A1", "standard")
-    assert str(finding.rule) == "is above the headings: the line is not read"
-
-
-def test_a_title_block_is_noted(sheets, save):
-    sheets["Nets"][:0] = [["Survey", "2023"], ["alone"]]
-    (note,) = map(str, read_site(save(sheets)).notes)
-    assert 'Nets › A1: "Survey" is above the headings' in note
-
-
 @pytest.mark.parametrize("mark", [",", "\t", "|"])
 def test_a_net_row_with_another_delimiter_is_no_note(tmp_path, mark):
     """A long name makes it read like prose: a row would be lost, and the rest pass."""
@@ -153,13 +116,6 @@ def test_a_net_row_with_another_delimiter_is_no_note(tmp_path, mark):
     assert first.sheet == "Nets"
 
 
-def test_a_range_with_another_delimiter_is_no_note(tmp_path):
-    sheets = {name: [*rows] for name, rows in SOUND.items()}
-    sheets["Ranges"].append(["net inclination [deg], 27.5, 31.5, 3"])
-    (finding,) = findings_of(write_csv(tmp_path / "site", ["item;value"], sheets))
-    assert "holds the quantity and what belongs to it" in str(finding.rule)
-
-
 def test_a_cell_beyond_the_headings_of_a_csv_is_refused(tmp_path):
     """One delimiter too many shifts an optional cell out of its column."""
     sheets = {name: [*rows] for name, rows in SOUND.items()}
@@ -167,10 +123,3 @@ def test_a_cell_beyond_the_headings_of_a_csv_is_refused(tmp_path):
     sheets["Nets"][1] = [*sheets["Nets"][1], None, 0.087]
     (finding,) = findings_of(write_csv(tmp_path / "site", ["item;value"], sheets))
     assert (str(finding.rule), finding.text) == ("has no heading above it", "0.087")
-
-
-def test_every_spelling_of_an_item_names_it():
-    for items in (PROJECT_ITEMS, RANGE_QUANTITIES):
-        for field in items:
-            for language in LANGUAGES:
-                assert find_item(field.heading_for(language), items) is field

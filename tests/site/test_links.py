@@ -48,12 +48,3 @@ def test_a_link_without_a_type_or_with_two_strengths_is_refused(tmp_path, link, 
     with pytest.raises(SiteDataError, match="Links") as refused:
         read(tmp_path / "site.xlsx", [link])
     assert said in str(refused.value)
-
-
-def test_grips_are_refused_on_a_spiral_rope_alone(tmp_path):
-    rope = {"rope": 170, "termination": "clips", "protected_years": 50}
-    strand = {"id": "Rope 20 6x19", **rope}
-    assert read(tmp_path / "strand.xlsx", [], [strand])
-    spiral = {"id": "Rope 14.5 mm 1x37 1570", **rope}
-    with pytest.raises(SiteDataError, match="EN 13411-5"):
-        read(tmp_path / "spiral.xlsx", [], [spiral])

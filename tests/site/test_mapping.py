@@ -33,12 +33,6 @@ def test_an_answer_gives_field_and_unit(sheets, give):
     assert (slope.text, slope.label.key) == ("40 %", "column.Nets.slope_angle")
 
 
-def test_an_answer_may_be_a_key_of_the_program(sheets, give):
-    sheets["Nets"][HEADINGS][1] = "Steilheit [°]"
-    path = give('[headings.Nets]\n"Steilheit" = "slope_angle"\n')
-    assert read_site(path).rows[0].slope_angle == pytest.approx(math.radians(40))
-
-
 def test_an_answer_against_the_unit_of_the_heading_is_refused(sheets, give, refused):
     sheets["Nets"][HEADINGS][1] = "Steilheit [°]"
     path = give('[headings.Nets]\n"Steilheit" = "slope angle [%]"\n')
@@ -54,22 +48,6 @@ def test_a_column_that_is_ignored_is_told(sheets, give):
     site = read_site(path)
     told = [one for one in site.findings if one.cell == "O1"]
     assert [str(one.rule) for one in told] == ["is not read: so site.map.toml says"]
-
-
-def test_a_sheet_of_another_name_is_answered(sheets, give):
-    sheets["Feuil1"] = sheets.pop("Nets")
-    path = give('[sheets]\n"Feuil1" = "Filets"\n')
-    assert [row.id for row in read_site(path).rows] == ["R1", "R2"]
-
-
-def test_a_line_of_a_sheet_of_items_is_answered(sheets, give):
-    sheets["Ranges"][1][0] = "Raumgewicht Schnee"
-    sheets["Ranges"] += [["Loi", 1, 2, None]]
-    path = give(
-        '[headings.Ranges]\n"Raumgewicht Schnee" = "density [kg/m3]"\n'
-        '"Loi" = "ignore"\n'
-    )
-    assert read_site(path).ranges["density"].high == 400.0
 
 
 # A file of answers, and what is wrong with it
@@ -118,51 +96,6 @@ def test_what_is_asked_stands_in_the_file_with_what_is_understood(sheets, save):
     assert answers["Nets"] == {"Neigung [°]": "?", "Netzhöhe": "Netzhöhe [?]"}
     assert answers["Ranges"] == {"Raumgewicht Schnee": "?"}
     assert '# "post spacing [m]" = "Stützenabstand [m]"' in text
-
-
-def test_answers_given_so_far_are_kept(sheets, give):
-    sheets["Nets"][HEADINGS][1] = "Steilheit [°]"
-    sheets["Nets"][HEADINGS][8] = "Netzhöhe"
-    path = give('[headings.Nets]\n"Steilheit" = "slope_angle"\n')
-    text, missing = write_questions(path)
-    assert missing == 1
-    assert tomllib.loads(text)["headings"]["Nets"]["Steilheit"] == "slope_angle"
-
-
-def test_a_sheet_with_the_headings_of_a_missing_one_is_proposed(sheets, save):
-    sheets["Feuil1"] = sheets.pop("Nets")
-    text, missing = write_questions(save(sheets))
-    assert (tomllib.loads(text)["sheets"], missing) == ({"Feuil1": "?"}, 1)
-    assert '"Feuil1" = "?"  # "Nets"' in text
-
-
-def test_headings_of_a_proposed_sheet_are_asked_for_at_once(sheets, save):
-    sheets["Feuil1"] = sheets.pop("Nets")
-    sheets["Feuil1"][HEADINGS][1] = "Neigung [°]"
-    path = save(sheets)
-    text, missing = write_questions(path)
-    assert missing == 2
-    assert tomllib.loads(text)["headings"]["Feuil1"] == {"Neigung [°]": "?"}
-    answered = text.replace('"Feuil1" = "?"', '"Feuil1" = "Nets"')
-    answered = answered.replace('"Neigung [°]" = "?"', '"Neigung [°]" = "slope angle"')
-    name_map(path).write_text(answered, encoding="utf-8")
-    assert read_site(path).rows
-
-
-def test_two_columns_of_one_heading_are_asked_by_their_letters(sheets, give, refused):
-    sheets["Nets"][HEADINGS] += ["Anker", "Anker"]
-    path = give("")
-    text, missing = write_questions(path)
-    assert missing == 2
-    assert '"O: Anker" = "?"' in text
-    name_map(path).write_text(
-        '[headings.Nets]\n"O: Anker" = "ignore"\n"P: Anker" = "uphill anchor"\n'
-    )
-    told = {one.cell: str(one.rule) for one in read_site(path).findings if one.cell}
-    assert told == {
-        "O1": "is not read: so site.map.toml says",
-        "P1": 'is read as "uphill anchor": so site.map.toml says',
-    }
 
 
 def test_an_open_question_is_one_until_its_heading_is_understood(sheets, save, refused):

@@ -14,10 +14,6 @@ def with_lines(sheets, *lines, headings=HEADINGS):
     return sheets
 
 
-def test_without_the_sheet_there_is_nothing(sheets, save):
-    assert read_site(save(sheets)).monitoring == ()
-
-
 def test_series_are_read_by_row_and_member(sheets, save):
     site = read_site(
         save(
@@ -57,27 +53,6 @@ def test_dates_become_times_since_the_first(sheets, save, moments):
 
 
 @pytest.mark.parametrize(
-    ("name", "headings", "member"),
-    [
-        ("Mesures", ["Rangée", "Élément", "Temps [h]", "Effort [N]"], "hauban amont"),
-        (
-            "Messungen",
-            ["Werkreihe", "Bauteil", "Zeit [h]", "Zugkraft [N]"],
-            "bergseitiges Abspannseil",
-        ),
-    ],
-)
-def test_french_and_german_sheets_with_other_units(
-    sheets, save, name, headings, member
-):
-    sheets[name] = [headings, ["R1", member, 6, 31500], ["R1", member, 12, 32000]]
-    (series,) = read_site(save(sheets)).monitoring
-    assert series.member == "uphill_guy"
-    assert series.times == (0.0, 6 * 3600.0)
-    assert series.tensions == (31500.0, 32000.0)
-
-
-@pytest.mark.parametrize(
     ("line", "cell", "rule"),
     [
         (["R9", "post", 1.0, 10.0, None], "A2", "is no id of sheet Nets"),
@@ -92,28 +67,3 @@ def test_each_fault_names_its_cell(sheets, save, refused, line, cell, rule):
     (finding,) = refused(save(with_lines(sheets, line)))
     assert (finding.sheet, finding.cell) == ("Monitoring", cell)
     assert rule in str(finding.rule)
-
-
-def test_times_must_ascend(sheets, save, refused):
-    lines = [["R1", "post", time, 10.0, None] for time in (1.0, 1.0)]
-    (finding,) = refused(save(with_lines(sheets, *lines)))
-    assert finding.cell == "C3"
-    assert "is not after the line before" in str(finding.rule)
-
-
-def test_what_is_no_date_is_refused(sheets, save, refused):
-    headings = ["net row", "member", "date and time", "tension [kN]"]
-    lines = [["R1", "post", "18th of February", 10.0]]
-    (finding,) = refused(save(with_lines(sheets, *lines, headings=headings)))
-    assert str(finding.rule) == "is no date"
-
-
-def test_dates_and_days_are_not_mixed(sheets, save, refused):
-    headings = ["net row", "member", "time [d]", "date and time", "tension [kN]"]
-    lines = [
-        ["R1", "post", 3.0, None, 10.0],
-        ["R1", "post", None, "2003-02-18 06:00", 11.0],
-    ]
-    (finding,) = refused(save(with_lines(sheets, *lines, headings=headings)))
-    assert finding.cell == "D3"
-    assert "of another kind" in str(finding.rule)

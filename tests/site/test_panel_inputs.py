@@ -19,16 +19,6 @@ HEADINGS = {
     "sag of the lower rope [-]": 0.041,
     "foot anchors in mid-panel": "yes",
 }
-TRANSLATED = {
-    "fr": (
-        ["système du panneau", "coupe du filet", "câble de tête"],
-        ["rectangulaire", "en tête", "B1"],
-    ),
-    "de": (
-        ["Feldsystem", "Netzzuschnitt", "oberes Randseil"],
-        ["rechteckig", "oben", "B1"],
-    ),
-}
 
 
 @pytest.fixture
@@ -134,15 +124,6 @@ def test_triangular_nets_are_named_as_not_covered(with_panel, save):
         assert words[language] in render(row.panel_lack, language)
 
 
-def test_a_net_without_ropes_has_nothing_to_say(sheets, save):
-    sheets["Nets"][0].append("panel system")
-    sheets["Nets"][1].append("none")
-    row = read_site(save(sheets)).rows[0]
-    assert row.panels == ()
-    assert row.panel_lack is None
-    assert [one.member for one in row.net_parts] == [NetPart.MESH]
-
-
 @pytest.mark.parametrize(
     ("heading", "value"),
     [
@@ -163,31 +144,6 @@ def test_bad_input_is_one_finding_with_its_cell(
     column = with_panel["Nets"][0].index(heading)
     letters = chr(65 + column) if column < 26 else "A" + chr(65 + column - 26)
     assert (finding.sheet, finding.cell) == ("Nets", f"{letters}2")
-
-
-def test_a_stiffness_out_of_its_range_is_one_finding(with_panel, save, refused):
-    with_panel["Ropes"][-2][2] = 3
-    (finding,) = refused(save(with_panel))
-    last = len(with_panel["Ropes"])
-    assert (finding.sheet, finding.cell) == ("Ropes", f"C{last - 1}")
-
-
-def test_ropes_beside_no_ropes_are_refused(with_panel, save, refused):
-    put(with_panel, "panel system", "none")
-    found = refused(save(with_panel))
-    assert len(found) == len(HEADINGS) - 1
-    assert all("Nets!" in str(one.message) for one in found)
-
-
-@pytest.mark.parametrize("language", TRANSLATED)
-def test_columns_in_other_languages(with_panel, save, language):
-    headings, values = TRANSLATED[language]
-    for old, new, value in zip(HEADINGS, headings, values, strict=False):
-        place = with_panel["Nets"][0].index(old)
-        with_panel["Nets"][0][place] = new
-        with_panel["Nets"][1][place] = value
-    (panel,) = read_site(save(with_panel)).rows[0].panels
-    assert (panel.cut, panel.upper.stiffness) == ("upper", 17.3e6)
 
 
 @pytest.fixture
@@ -228,19 +184,3 @@ def test_a_row_of_panels_without_a_line_of_ends_has_nothing_that_holds_it(
     row = read_site(save(with_panel)).rows[0]
     assert row.row_end.guy_angle is None
     assert {one.value for one in row.row_end.resistances} == {None}
-
-
-def test_a_row_that_goes_on_has_no_end(with_end, save):
-    with_end["Nets"][0].append("gap to next work [m]")
-    with_end["Nets"][1].append(0.0)
-    assert read_site(save(with_end)).rows[0].row_end is None
-
-
-@pytest.mark.parametrize(
-    ("column", "value", "cell"),
-    [(1, "A9", "B2"), (2, "A1", "C2"), (3, "G1", "D2"), (4, 81, "E2")],
-)
-def test_bad_ends_are_one_finding(with_end, save, refused, column, value, cell):
-    with_end["Ends"][1][column] = value
-    (finding,) = refused(save(with_end))
-    assert (finding.sheet, finding.cell) == ("Ends", cell)

@@ -4,10 +4,8 @@ import math
 
 import pytest
 
-from netdesign.envelope.parameters import PARAMETERS
-from netdesign.envelope.ranges import USUAL, Case
+from netdesign.envelope.ranges import Case
 from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
-from netdesign.site.columns.fields import convert_unit
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.each import each
@@ -87,25 +85,6 @@ def test_a_typed_glide_factor_follows_the_thickness(sheets, save):
     assert slip.at(at).ground == slip.ground
 
 
-@pytest.mark.parametrize(
-    ("line", "own"),
-    [(["glide factor", 1.31, 1.83], "glide_factor"),
-     (["slip length [cm]", 55, 470], "slip_length")],
-)  # fmt: skip
-def test_glide_ranges_on_sliding_ground(sheets, save, line, own):
-    for row in sheets["Nets"][1:]:
-        row[5] = "sliding"
-    give(sheets, line)
-    row = read_site(save(sheets)).rows[0]
-    if own == "glide_factor":
-        assert row.glide_factor == 1.83
-        low = row.at(case(glide_factor=1.31)).ground
-        assert low == build_ground_from_glide_factor(1.31, row.snow_thickness)
-    else:
-        assert row.ground.slip_length == pytest.approx(4.7)
-        assert row.at(case(slip_length=0.8)).ground.slip_length == 0.8
-
-
 FURTHER = [one.key for one in FURTHER_QUANTITIES]
 GLIDE = {"slip_length", "glide_factor"}
 
@@ -118,15 +97,6 @@ def test_every_quantity_that_ranges_changes_a_row(name):
     value = 0.0437 if name == "slack" else value
     assert row.at(case(**{name: value})) != row
     assert row.at(case(**{name: value})) != row.at(case(**{name: 1.01 * value}))
-
-
-@pytest.mark.parametrize(
-    "name", sorted({*PARAMETERS, "post_spacing"} - {*FURTHER, *USUAL})
-)
-def test_a_quantity_without_a_place_in_a_row_is_a_fault(name):
-    row = build_row("R", ground=GroundLaw(kind="sliding", slip_length=1.1))
-    with pytest.raises(ValueError, match=name):
-        row.at(case(slack=0.03, **{name: 0.4}))
 
 
 @pytest.mark.parametrize("name", sorted(GLIDE))
@@ -148,38 +118,6 @@ def test_what_ranges_and_is_given_too_is_refused_at_the_cell(
     assert finding.cell == f"{'ABCDEFGHIJ'[column]}2"
     assert str(finding.rule) == "is given beside the range in Ranges!B4"
     assert str(finding.accepted) == "an empty cell, or no range"
-
-
-@pytest.mark.parametrize(
-    ("line", "column", "value"),
-    [
-        (["snow height vertical [m]", 2.5, 3.4], 2, 2.7),
-        (["snow thickness [m]", 2.1, 2.8], 3, 3.3),
-        (["glide factor", 1.3, 1.9], 6, 2.2),
-        (["slip length [m]", 0.3, 2.9], 7, 1.6),
-    ],
-)
-def test_the_other_name_of_what_ranges_is_refused_too(
-    sheets, save, refused, line, column, value
-):
-    for row in sheets["Nets"][1:]:
-        row[5] = "sliding"
-        if column > 3:
-            row[7] = None
-        else:
-            row[2], row[7] = None, 1.5
-    sheets["Nets"][1][column] = value
-    give(sheets, line)
-    (finding,) = refused(save(sheets))
-    assert finding.cell == f"{'ABCDEFGH'[column]}2"
-    assert str(finding.rule) == "is given beside the range in Ranges!B4"
-
-
-def test_a_single_value_beside_a_range_of_one_value_is_refused_as_well(
-    sheets, save, refused
-):
-    give(sheets, ["net stiffness [kN/m]", 9000, 9000])
-    assert [one.cell for one in refused(save(sheets))] == ["J2", "J3"]
 
 
 def test_glide_that_ranges_needs_sliding_ground_in_every_row(sheets, save, refused):
@@ -225,21 +163,6 @@ def test_faults_of_further_ranges_are_one_finding_each(
     assert (finding.sheet, finding.cell, str(finding.rule)) == ("Ranges", cell, rule)
 
 
-def test_a_seventh_range_is_one_too_many(sheets, save, refused):
-    for column in filter(None, COLUMNS.values()):
-        empty(sheets, column)
-    give(sheets, *LINES.values())
-    (finding,) = refused(save(sheets))
-    assert (finding.cell, str(finding.rule)) == ("A7", "is one range too many")
-
-
-def test_an_empty_line_of_a_further_range_is_none(sheets, save):
-    give(sheets, ["slack [-]", None, None])
-    site = read_site(save(sheets))
-    assert site.ranges.further == ()
-    assert site.rows[0].slack == 0.02
-
-
 def test_layers_follow_a_thickness_that_ranges(sheets, save, refused):
     sheets["Snow"] = [
         ["net row", "layer", "layer thickness [m]", "density [kg/m3]"],
@@ -257,31 +180,3 @@ def test_layers_follow_a_thickness_that_ranges(sheets, save, refused):
     (finding,) = refused(save(sheets))
     assert (finding.sheet, finding.cell) == ("Snow", "C2")
     assert "layers of 3 m in all, outside the range" in str(finding.rule)
-
-
-@pytest.mark.parametrize(
-    ("field", "unit"),
-    [(one, unit) for one in FURTHER_QUANTITIES for unit in one.units if unit != "-"],
-    ids=lambda one: getattr(one, "key", one),
-)
-def test_an_end_that_lacks_is_refused_in_the_unit_of_its_line(
-    sheets, save, refused, field, unit
-):
-    title = field.heading_for("en").split(" [")[0]
-    low = 0.37 * field.bounds[1] / convert_unit(1.0, unit, field.unit)
-    give(sheets, [f"{title} [{unit}]", low, None])
-    told = str(refused(save(sheets))[-1])
-    assert "is empty beside" in told
-    assert f"{title}, high [{unit}]" in told
-
-
-@pytest.mark.parametrize("word", ["snow", "Schnee", "neige", "snow depth"])
-def test_a_snow_that_is_neither_thickness_nor_height_is_ambiguous(
-    sheets, save, refused, word
-):
-    """As a column of sheet Nets is."""
-    give(sheets, [f"{word} [cm]", 210, 330])
-    told = str(refused(save(sheets))[-1])
-    assert "is ambiguous" in told
-    assert "snow thickness" in told
-    assert "snow height vertical" in told

@@ -51,22 +51,6 @@ def test_a_replaced_cell_is_read_and_told(workbook):
     assert site.sha256 == built.sha256
 
 
-@pytest.mark.parametrize(
-    ("place", "text", "rule"),
-    [
-        ("Netz!P3", "A40-tested", "has no sheet Netz that is read"),
-        ("Nets!P3", "A28-computed", "is what the workbook has already"),
-        ("Nets!P3", "A41", "is no id of sheet Anchors"),
-        ("Anchors!B2", "strong", "not a number"),
-    ],
-)
-def test_what_cannot_be_read_is_refused_with_its_place(workbook, place, text, rule):
-    with pytest.raises(SiteDataError) as caught:
-        read_site(workbook, instead={place: text})
-    (finding,) = caught.value.findings
-    assert rule in str(finding.message)
-
-
 def test_the_catalogue_holds_types_that_no_row_uses(workbook):
     site = read_site(workbook)
     used = {one.type_id for row in site.rows for one in row.resistances}

@@ -127,31 +127,3 @@ def test_a_ground_that_its_line_does_not_have_is_refused(site, save, refused):
     site["Tests"] = [TITLES["en"][1], [kind, "rock", 222.0]]
     (finding,) = refused(save(site))
     assert (finding.sheet, finding.cell) == ("Tests", "B2")
-
-
-def test_a_type_may_be_named_with_its_ground(site, save):
-    kind = "A1"
-    site["Tests"] = [
-        *(TITLES["en"][1], [kind, "scree", 200.0], [kind, "rock", 300.0]),
-    ]
-    give_ground(site, "rock")
-    bare = find_pull_out(save(site))
-    column = site["Nets"][0].index("foot anchor")
-    for line in site["Nets"][1:]:
-        line[column] = f"{kind} (rock)"
-    assert find_pull_out(save(site)).tests == bare.tests
-    for line in site["Nets"][1:]:
-        line[column] = f"{kind} (scree)"
-    with pytest.raises(SiteDataError, match="in another ground"):
-        read_site(save(site))
-
-
-@pytest.mark.parametrize("force", [37.2, 100 / 3])
-def test_a_test_without_the_ground_that_its_type_has_is_refused(site, save, force):
-    site["Anchors"][0].append("ground")
-    for line in site["Anchors"][1:]:
-        line.append("till")
-    kind = site["Anchors"][1][0]
-    site["Tests"] = [TITLES["en"][1], [kind, None, force]]
-    with pytest.raises(SiteDataError, match="this test names none"):
-        read_site(save(site))

@@ -40,47 +40,6 @@ def test_groups_merged_above_headings_are_refused(sheets, save, refused):
     assert told == {place.split(":")[0] for place in places}
 
 
-def test_a_title_merged_above_the_headings_is_none_of_them(sheets, save):
-    sheets["Nets"].insert(0, ["Net rows of the north side"])
-
-    def merge(workbook):
-        workbook["Nets"].merge_cells("A1:F1")
-
-    assert len(read_site(save(sheets, merge)).rows) == 2
-
-
-def test_a_group_that_is_not_merged_says_nothing(sheets, save, refused):
-    group(sheets)
-    rules = {
-        (f.cell, str(f.rule)) for f in refused(save(sheets)) if f.severity == "error"
-    }
-    assert (
-        "I2",
-        "is ambiguous: "
-        + " or ".join(
-            f'"{name}"'
-            for name in (
-                "snow thickness [m]",
-                "snow height vertical [m]",
-                "net height [m]",
-            )
-        ),
-    ) in rules
-
-
-def test_a_heading_merged_over_two_columns_of_numbers_is_refused(sheets, save, refused):
-    sheets["Nets"][0][3] = None
-    sheets["Nets"][1][3] = 3.5
-
-    def merge(workbook):
-        workbook["Nets"].merge_cells("C1:D1")
-
-    (finding,) = refused(save(sheets, merge))
-    assert (finding.cell, str(finding.rule)) == (
-        *("D2", "is below a heading merged over C1:D1"),
-    )
-
-
 @pytest.mark.parametrize("heading", ["snow depth [m]", "hauteur [m]", "Höhe [m]"])
 def test_a_heading_with_several_meanings_is_refused_with_them(
     sheets, save, refused, heading
@@ -91,13 +50,6 @@ def test_a_heading_with_several_meanings_is_refused_with_them(
     assert str(finding.rule).startswith(
         'is ambiguous: "snow thickness [m]" or "snow height vertical [m]"'
     )
-
-
-def test_a_heading_whose_sides_mean_two_columns_is_refused(sheets, save, refused):
-    sheets["Ranges"][0][2] = "de / high"
-    finding = next(one for one in refused(save(sheets)) if one.cell == "C1")
-    assert finding.sheet == "Ranges"
-    assert str(finding.rule).startswith("is no known heading, but close to")
 
 
 @pytest.mark.parametrize("heading", ["slak [-]", "slack agreed"])
@@ -116,59 +68,6 @@ def test_an_optional_heading_nearly_right_is_refused_not_defaulted(
         site = read_site(save(sheets))
         assert site.rows[0].slack == 0.02
         assert any("slack agreed" in note for note in map(str, site.notes))
-
-
-def test_notes_below_a_table_are_listed_and_not_read(sheets, save):
-    sheets["Nets"] += [
-        [None],
-        ["* heights from the survey of 2023"],
-        [None, "Bemerkung: R2 im Wald"],
-    ]
-    site = read_site(save(sheets))
-    assert len(site.rows) == 2
-    notes = [note for note in map(str, site.notes) if "is a note below" in note]
-    assert notes == [
-        'site.xlsx › Nets › B6: "Bemerkung: R2 im Wald" is a note below the table: it '
-        'is not read; likewise A5 "* heights from the survey of 2023"'
-    ]
-
-
-@pytest.mark.parametrize("line", [["R3"], ["R3 new"], [None, 40], ["R3", 40]])
-def test_a_line_begun_is_no_note(sheets, save, refused, line):
-    sheets["Nets"].append(line)
-    assert {f.cell for f in refused(save(sheets))} >= {"C4", "E4"}
-
-
-def test_a_note_between_lines_is_refused(sheets, save, refused):
-    sheets["Nets"].insert(2, ["these rows are to be checked again"])
-    assert {f.cell for f in refused(save(sheets))} >= {"B3", "C3"}
-
-
-def test_a_hidden_column_is_read_and_noted(sheets, save):
-    def hide(workbook):
-        workbook["Nets"].column_dimensions["B"].hidden = True
-
-    site = read_site(save(sheets, hide))
-    (note,) = map(str, site.notes)
-    assert 'Nets › B1: "slope angle [deg]" is in a hidden column' in note
-    assert site.rows[0].inputs[1].value == 40.0
-
-
-def test_macros_are_ignored_with_a_remark(sheets, save):
-    import zipfile
-
-    path = save(sheets)
-    with zipfile.ZipFile(path, "a") as archive:
-        archive.writestr("xl/vbaProject.bin", b"macros")
-    (note,) = map(str, read_site(path.rename(path.with_suffix(".xlsm"))).notes)
-    assert note == "site.xlsm: the file holds macros: they are ignored"
-
-
-def test_numbers_may_have_their_units_in_their_cells(sheets, save):
-    sheets["Nets"][0][8] = "net height"
-    sheets["Nets"][1][8], sheets["Nets"][2][8] = "3,5 m", "300 cm"
-    rows = read_site(save(sheets)).rows
-    assert [row.net_height for row in rows] == [3.5, 3.0]
 
 
 # Cell below a heading without unit, beside one in metres, and what is wrong with it
@@ -264,27 +163,6 @@ def test_what_is_no_range_is_refused(sheets, save, refused, typed, rule):
     assert {cell for cell, _ in rules} == {"B2"}
 
 
-def test_lines_between_the_lines_of_a_table_are_told(sheets, save):
-    first, second = sheets["Nets"][1:]
-    sheets["Nets"][1:] = [
-        ["Secteur Nord"],
-        first,
-        ["Sous-total", None, None, None, 20],
-        [],
-        [*sheets["Nets"][0]],
-        ["Zone Sud"],
-        second,
-        ["TOTAL", None, None, None, 35],
-    ]
-    site = read_site(save(sheets))
-    assert [row.id for row in site.rows] == ["R1", "R2"]
-    told = {one.cell: one.rule.key for one in site.findings}
-    assert told == {
-        **{"A2": "table.part", "A4": "table.total", "A6": "table.headings_again"},
-        **{"A7": "table.part", "A9": "table.total"},
-    }
-
-
 @pytest.mark.parametrize(
     "line",
     [
@@ -297,13 +175,3 @@ def test_lines_between_the_lines_of_a_table_are_told(sheets, save):
 def test_a_line_that_may_be_a_net_row_is_never_passed_over(sheets, save, refused, line):
     sheets["Nets"].insert(2, line)
     assert {one.cell[1:] for one in refused(save(sheets))} == {"3"}
-
-
-def test_a_name_with_a_unit_is_asked_for(sheets, save, refused):
-    """A length of the line is none of its ids."""
-    sheets["Nets"][0][0] = "ligne [m]"
-    (finding,) = refused(save(sheets))
-    assert (finding.cell, str(finding.rule)) == (
-        "A1",
-        "has the unit m, but id has none",
-    )

@@ -6,7 +6,6 @@ import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.model import MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.snow.ground import build_ground_from_glide_factor
@@ -16,7 +15,6 @@ from tests.site.whole_sites import (
     FRENCH_SLOPES_PERCENT,
     damaged_site,
     french_site,
-    german_site,
 )
 
 
@@ -45,37 +43,8 @@ def assert_french(site):
     assert '"Remarque" is no known heading' in notes
 
 
-def assert_german(site):
-    first, second = site.rows
-    assert [row.id for row in site.rows] == ["W1", "W2"]
-    assert first.slope_angle == math.radians(38.5)
-    assert (first.snow_thickness, first.net_stiffness_per_m) == (2.8, 12.5e6)
-    assert first.layout.post_tilt == pytest.approx(math.radians(9), rel=1e-15)
-    assert second.ground.slip_length == 1.25
-    assert second.net_stiffness_per_m == 9e6
-    assert [layer.density for layer in second.layers] == [400.0, 250.0]
-    assert [layer.thickness for layer in second.layers] == [1.0, 1.755]
-    assert second.snow_thickness == 2.755
-    assert site.ranges["density"].low == pytest.approx(270.0, rel=1e-15)
-    assert site.ranges["friction_angle"].high == pytest.approx(math.radians(45))
-    types = {one.member: one.type_id for one in second.resistances}
-    assert types == {
-        **dict.fromkeys({member for member, _ in MEMBER_MODES}, "A2"),
-        "post_base": "P1",
-        **{"foot_anchor": "A1", "uphill_guy": "S1", "downhill_guy": "S1"},
-        **{"post": "P1", "post_base": "P1", "post_foot": "P1"},
-    }
-    post = next(one for one in second.resistances if one.member == "post")
-    assert post.value == pytest.approx(380e3, rel=1e-15)
-    assert site.notes == ()
-
-
 def test_twelve_french_rows_with_commas_and_per_cent(save):
     assert_french(read_site(save(french_site())))
-
-
-def test_a_german_site_with_a_row_of_units(save):
-    assert_german(read_site(save(german_site())))
 
 
 def test_a_damaged_site_gives_every_finding_at_once(save, refused):

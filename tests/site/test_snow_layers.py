@@ -43,17 +43,6 @@ def test_layers_are_read_from_the_ground_up_in_any_order(layered, save):
     assert second.layers == ()
 
 
-def test_every_input_of_a_layer_is_echoed(layered, save):
-    shown = {str(echo.label): echo for echo in read_site(save(layered)).rows[0].inputs}
-    assert shown["layer 2, density"].value == 300.0
-    assert shown["layer 2, density"].cell == "Snow!D3"
-
-
-def test_thickness_may_be_left_to_the_layers(layered, save):
-    layered["Nets"][1][2] = None
-    assert read_site(save(layered)).rows[0].snow_thickness == 3.0
-
-
 def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered, save):
     layered["Snow"][0][2] = "height vertical [m]"
     for line, celsius in zip(layered["Snow"][1:], (-1, -5, -8), strict=True):
@@ -88,14 +77,6 @@ def test_faults_of_layers_are_refused(layered, save, refused, cell, value, place
     layered["Snow"][cell[0]][cell[1]] = value
     found = [(f"{f.sheet}!{f.cell}", str(f.rule)) for f in refused(save(layered))]
     assert any(where == place and what.startswith(rule) for where, what in found), found
-
-
-def test_a_range_that_makes_a_layer_denser_than_snow_is_refused(layered, save, refused):
-    layered["Ranges"][1][2] = 700
-    (finding,) = refused(save(layered))
-    assert finding.cell == "D2"
-    # the densest layer at the top of the range: 450 / 333 x 700
-    assert str(finding.rule).endswith(f"as dense as {450 / MEAN * 700:.4g} kg/m³")
 
 
 def test_a_change_of_height_or_density_keeps_the_proportions(layered, save):

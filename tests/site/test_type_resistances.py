@@ -6,7 +6,7 @@ import re
 import pytest
 
 from netdesign.site.reader import read_site
-from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.catalogue import render
 
 
 def add_columns(sheets, name, **columns):
@@ -109,34 +109,6 @@ def test_bearing_has_the_value_of_its_post_type_or_none(sheets, save):
 
 
 @pytest.mark.parametrize(
-    "columns",
-    [
-        {
-            "Bohrdurchmesser [cm]": 9,
-            "Verbundlänge [m]": 3.0,
-            "Baugrund": "Kies",
-            "Gewebestrumpf": "nein",
-        },
-        {
-            "diamètre de forage [m]": 0.09,
-            "longueur de scellement [cm]": 300,
-            "terrain": "gravier",
-            "gaine textile": "non",
-        },
-    ],
-)
-def test_dimensions_in_other_languages_and_units(sheets, save, columns):
-    sheets["Anchors"][1][1:] = [None, None, None]
-    add_columns(sheets, "Anchors", **columns)
-    pull_out = resistance(read_site(save(sheets)), "foot_anchor", "pull_out")
-    assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
-    assert str(pull_out.derivation).startswith("π · 90 mm · 3 m · 95 kPa (gravel")
-    told = [render(pull_out.derivation, language) for language in ("fr", "de")]
-    assert "95 kPa (gravier, injection A\xa0; source secondaire\xa0: FHWA" in told[0]
-    assert "95 kPa (Kies, Verpressung A; Sekundärquelle: FHWA" in told[1]
-
-
-@pytest.mark.parametrize(
     ("columns", "told"),
     [
         (
@@ -215,67 +187,6 @@ def test_grouting_that_a_rock_has_no_value_for_is_refused(sheets, save, refused)
     add_columns(sheets, "Anchors", **(BOND | {"ground": "granite", "grouting": "B"}))
     (finding,) = refused(save(sheets))
     assert "grouting in granite = 'B': must be one of A" in str(finding)
-
-
-def test_a_refused_grouting_names_its_ground_in_the_language(sheets, save, refused):
-    sheets["Anchors"][1][2:] = [None, None]
-    ground = {"ground": "schiste tendre", "grouting": "C"}
-    add_columns(sheets, "Anchors", **(BOND | ground))
-    (finding,) = refused(save(sheets))
-    told = {language: render(finding.accepted, language) for language in LANGUAGES}
-    assert "grouting in shale-soft = 'C'" in told["en"]
-    assert "injection dans schiste tendre = 'C'" in told["fr"]
-    assert "Verpressung in Tonschiefer weich = 'C'" in told["de"]
-
-
-def test_type_that_no_sheet_defines_names_cell_and_near_matches(sheets, save, refused):
-    sheets["Nets"][1][11] = "A11"
-    sheets["Nets"][1][12] = "H1"
-    first, second = refused(save(sheets))
-    assert (first.cell, second.cell) == ("L2", "M2")
-    assert 'nearest: "A1"' in str(first.accepted)
-    assert "an id defined in sheet Ropes" in str(second.accepted)
-
-
-def test_place_in_the_row_is_read(sheets, save):
-    for label, value in (
-        ("gap to next work [m]", 1.5),
-        ("altitude [m]", 2100),
-        ("post base distance [m]", 0.8),
-    ):
-        sheets["Nets"][0].append(label)
-        sheets["Nets"][1].append(value)
-    first, second = read_site(save(sheets)).rows
-    assert (first.gap, first.altitude) == (1.5, 2100.0)
-    assert first.layout.post_base_distance == 0.8
-    assert (second.gap, second.altitude) == (math.inf, None)
-    assert second.layout.post_base_distance is None
-
-
-@pytest.mark.parametrize(
-    ("columns", "basis"),
-    [({}, "tested"), (TESTS, "tested"), (None, "")],
-    ids=["a value", "tests", "nothing yet"],
-)
-@pytest.mark.parametrize(
-    ("heading", "word", "ground"),
-    [
-        ("ground", "scree", "scree"),
-        ("terrain", "rocher", "rock"),
-        ("Baugrund", "Kalkstein", "limestone"),
-    ],
-)
-def test_a_ground_alone_says_where_a_type_was_tested(
-    sheets, save, columns, basis, heading, word, ground
-):
-    if columns != {}:
-        sheets["Anchors"][1][2:] = [None, None]
-    add_columns(sheets, "Anchors", **(columns or {}), **{heading: word})
-    site = read_site(save(sheets))
-    for mode in ("tendon", "pull_out"):
-        assert resistance(site, "foot_anchor", mode).ground == ground
-    assert resistance(site, "foot_anchor", "pull_out").basis == basis
-    assert {one.ground for one in site.catalogue if one.mode == "rope"} == {""}
 
 
 def test_a_drilled_hole_asks_for_its_ground(sheets, save):

@@ -19,10 +19,6 @@ def with_lines(sheets, *lines):
     return sheets
 
 
-def test_without_the_sheet_nothing_is_known(sheets, save):
-    assert read_site(save(sheets)).uncertain == ()
-
-
 def test_a_line_holds_for_its_row_before_that_of_all(sheets, save):
     of_all = [None, "model factor", None, 0.23, None, None, "judgement"]
     site = read_site(save(with_lines(sheets, HEIGHT, of_all, MODEL)))
@@ -36,12 +32,6 @@ def test_a_line_holds_for_its_row_before_that_of_all(sheets, save):
     assert own.distribution == "lognormal"
     assert general.variation == 0.23
     assert site.find_uncertain(first, "density") is None
-
-
-def test_german_words_are_read(sheets, save):
-    line = [None, "Schneehöhe", "Gumbel", 0.31, None, 100, "Messreihe"]
-    (found,) = read_site(save(with_lines(sheets, line))).uncertain
-    assert (found.name, found.distribution) == ("snow_height", "gumbel")
 
 
 @each(

@@ -5,9 +5,7 @@ from datetime import date, datetime
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.cells.cells import TextFormat
 from netdesign.site.reader import read_site
-from netdesign.site.snow_sheets import read_height_file
 
 HEADINGS = ["date", "snow height of the station [cm]", "air temperature [°C]"]
 
@@ -21,10 +19,6 @@ def days(*heights, first=1):
     return [
         [f"2003-02-{first + k:02d}", height, -4.5] for k, height in enumerate(heights)
     ]
-
-
-def test_without_the_sheet_there_is_nothing(sheets, save):
-    assert read_site(save(sheets)).winter is None
 
 
 def test_series_is_read_in_metres_and_kelvin(sheets, save):
@@ -63,11 +57,6 @@ def test_short_gap_in_snow_is_filled_and_told(sheets, save):
     assert "2003-02-03, 2003-02-04" in told[0]
 
 
-def test_blank_height_is_a_day_without_a_reading(sheets, save):
-    site = read_site(save(with_lines(sheets, *days(0, 80, None, 90))))
-    assert site.winter.series.heights == pytest.approx((0, 0.8, 0.85, 0.9))
-
-
 @pytest.mark.parametrize(
     ("lines", "cell", "told"),
     [
@@ -96,61 +85,12 @@ def test_faults_have_their_cell(sheets, save, refused, lines, cell, told):
     assert told in str(finding.message)
 
 
-def test_all_faults_are_told_at_once(sheets, save, refused):
-    lines = [*days(0, -1, 40), ["x", 20, None], ["2003-02-09", 30, None]]
-    findings = refused(save(with_lines(sheets, *lines)))
-    cells = {one.cell for one in findings if one.severity == "error"}
-    assert cells == {"B3", "A5", "A6"}
-
-
 def test_spikes_and_a_start_in_snow_are_told(sheets, save):
     site = read_site(save(with_lines(sheets, *days(30, 92, 40))))
     told = " ".join(map(str, site.notes))
     assert "2003-02-02: the snow rises by more than 0.6 m" in told
     assert "300 kg/m³ (assumed)" in told
     assert len(site.winter.notes) == 2
-
-
-def test_file_of_a_station_alone(tmp_path):
-    path = tmp_path / "davos 2003.csv"
-    path.write_text("date;HS [cm];LWD\n2003-02-01;0;1\n2003-02-02;41;2\n")
-    winter, remarks = read_height_file(path)
-    assert winter.series.heights == (0.0, 0.41)
-    assert any("LWD" in str(one.message) for one in remarks)
-
-
-def test_file_without_a_unit_is_refused(tmp_path):
-    path = tmp_path / "davos.csv"
-    path.write_text("date;HS\n2003-02-01;0\n2003-02-02;41\n")
-    with pytest.raises(SiteDataError, match="unit"):
-        read_height_file(path)
-
-
-def test_file_without_heights_is_refused(tmp_path):
-    path = tmp_path / "davos.csv"
-    path.write_text("date;air temperature [°C]\n2003-02-01;0\n2003-02-02;-4\n")
-    with pytest.raises(SiteDataError, match="without a snow height"):
-        read_height_file(path)
-
-
-def test_many_days_that_are_odd_alike_are_one_remark(sheets, save):
-    """So are many faults: whoever has metres under centimetres reads one line."""
-    site = read_site(save(with_lines(sheets, *days(*(0, 80) * 9))))
-    (told,) = [str(one) for one in site.notes if "0.6 m" in str(one)]
-    assert "2003-02-02" in told
-    assert "and 1 more" in told
-
-
-def test_faults_of_a_long_file_are_folded_and_its_marks_may_be_declared(tmp_path):
-    path = tmp_path / "davos.csv"
-    lines = [f"2003-02-{day:02};{100 + 3 * day},125" for day in range(1, 29)]
-    path.write_text("\n".join(["date;HS [m]", *lines]))
-    with pytest.raises(SiteDataError) as caught:
-        read_height_file(path)
-    assert len(str(caught.value).splitlines()) < 4
-    path.write_text("\n".join(["date;HS [cm]", *lines]))
-    winter, _ = read_height_file(path, TextFormat(decimal_mark=","))
-    assert winter.series.heights[1] == pytest.approx(1.06125)
 
 
 WITH_ROWS = [*HEADINGS, "height factor [-]", "net row"]
@@ -191,9 +131,3 @@ def test_a_height_factor_that_cannot_be_placed_is_one_finding(
     (finding,) = [one for one in refusal.value.findings if one.severity == "error"]
     assert (finding.sheet, finding.cell) == ("Winter", cell)
     assert told in str(finding)
-
-
-def test_a_factor_repeated_down_the_column_is_that_of_all_rows(sheets, save):
-    lines = rows_of((0.93, None), (0.93, None), (0.93, "R1"))
-    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).winter
-    assert (winter.height_factor, dict(winter.row_factors)) == (0.93, {"R1": 0.93})

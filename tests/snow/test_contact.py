@@ -7,7 +7,6 @@ import pytest
 
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
-    change_some,
     free_unknowns,
     may_lift,
     net_components,
@@ -71,20 +70,6 @@ def test_what_moves_back_is_held_again(inclined, a_flow_problem, speed, stays_ap
     assert contact.is_lifted[4] == stays_apart
     assert contact.is_open[3] == stays_apart
     assert contact.is_pressed[3] is np.False_
-
-
-def test_open_nodes_are_free(inclined, a_flow_problem):
-    law = a_flow_problem(ground="no-slip")
-    start = start_contact(inclined)
-    lifted, is_open = start.is_lifted.copy(), start.is_open.copy()
-    lifted[4] = is_open[3] = True
-    held = free_unknowns(law, inclined, start)
-    free = free_unknowns(law, inclined, replace(start, is_lifted=lifted))
-    place = upward(inclined)[4]
-    assert np.flatnonzero(free & ~held).tolist() == [place - 1, place]
-    free = free_unknowns(law, inclined, replace(start, is_open=is_open))
-    normal, tangential = net_components(inclined)
-    assert np.flatnonzero(free & ~held).tolist() == sorted([normal[3], tangential[3]])
 
 
 def test_foot_is_never_let_go(inclined, a_flow_problem):
@@ -151,35 +136,3 @@ def test_contact_that_never_pulls_is_the_two_sided_one(inclined, a_flow_problem)
 
 
 # --- some of the changes ------------------------------------------------------
-
-
-def changed(contact, **places):
-    """The contact with other entries at places of its arrays."""
-    arrays = {}
-    for name, (where, value) in places.items():
-        arrays[name] = getattr(contact, name).copy()
-        arrays[name][where] = value
-    return replace(contact, **arrays)
-
-
-def test_the_first_half_of_each_row_changes(inclined):
-    before = start_contact(inclined)
-    wanted = changed(before, sign=([0, 1, 2, 3, 7, 8], 1))
-    after = change_some(before, wanted, only_first=False)
-    assert np.flatnonzero(after.sign).tolist() == [0, 1, 7]
-
-
-def test_one_node_of_the_net_and_one_of_the_ground_change(inclined):
-    before = start_contact(inclined)
-    wanted = changed(before, sign=([2, 3], -1), is_lifted=([4, 5], True))
-    after = change_some(before, wanted, only_first=True)
-    assert np.flatnonzero(after.sign).tolist() == [2]
-    assert np.flatnonzero(after.is_lifted).tolist() == [4]
-
-
-def test_friction_lost_or_found_by_slipping_snow_is_a_change(inclined):
-    """Where the snow sticks, pressure alone changes nothing."""
-    before = changed(start_contact(inclined), sign=([3, 4, 5, 6], 1))
-    wanted = changed(before, is_pressed=([1, 3, 4, 5, 6], False))
-    after = change_some(before, wanted, only_first=False)
-    assert np.flatnonzero(~after.is_pressed).tolist() == [3, 4]

@@ -1,13 +1,8 @@
-import math
-
 import pytest
 
-from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
-    COLDEST,
     PAPER_FLUIDITY,
-    WARMEST,
     compute_fluidity,
     compute_settling_fluidity,
 )
@@ -31,25 +26,6 @@ def test_paper_value():
     assert pytest.approx(20.0 / (1e6**3 * year), rel=1e-14) == PAPER_FLUIDITY
 
 
-def test_branches_meet():
-    below, above = compute_fluidity(263.15), compute_fluidity(263.1500001)
-    assert above == pytest.approx(below, rel=5e-3)  # coefficients of four digits
-
-
-@pytest.mark.parametrize("temperature", [COLDEST, WARMEST])
-def test_bounds_are_accepted(temperature):
-    assert compute_fluidity(temperature) > 0.0
-
-
-@pytest.mark.parametrize(
-    "temperature",
-    [math.nextafter(COLDEST, 0), math.nextafter(WARMEST, 400), math.nan, math.inf],
-)
-def test_beyond_is_refused(temperature):
-    with pytest.raises(ModelError, match="snow temperature"):
-        compute_fluidity(temperature)
-
-
 @pytest.mark.parametrize(
     ("density", "printed"), [(100.0, 0.63), (250.0, 0.95), (400.0, 4.0)]
 )
@@ -66,9 +42,3 @@ def test_snow_under_more_stress_has_the_slower_clock():
         for stress in (2.7e3, 8.1e3)
     )
     assert once / thrice == pytest.approx(9.0, rel=1e-12)
-
-
-@pytest.mark.parametrize(("density", "stress"), [(0.0, 1e3), (300.0, 0.0)])
-def test_no_settling_without_snow_or_load(density, stress):
-    with pytest.raises(ModelError):
-        compute_settling_fluidity(BOUTILLIER_2004, density, stress)

@@ -35,16 +35,6 @@ def mesh(request, a_mesh):
     return a_mesh(inclination_deg=inclination, sag=sag)
 
 
-def test_numbering_of_nodes_is_the_kernels(mesh):
-    basis = forms.build_basis(mesh)
-    places = np.repeat(mesh.nodes, 2, axis=1)
-    np.testing.assert_allclose(basis.doflocs, places, atol=1e-14)
-
-
-def test_quadrature_weights(mesh):
-    np.testing.assert_allclose(mesh.weights, forms.build_basis(mesh).dx, rtol=1e-12)
-
-
 def test_tangent_matrix(mesh):
     moduli = random_moduli(mesh, seed=1)
     rotation = rotation_to_slope_axes(mesh)

@@ -1,14 +1,12 @@
 """Reference mesh and its placing against a net's curve."""
 
 import math
-from dataclasses import asdict
 
 import numpy as np
 import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from tests.each import each
 
@@ -148,21 +146,6 @@ def test_layers_have_two_rows_of_triangles_wherever_they_are():
             assert ((rows >= below) & (rows <= above)).sum() >= 3
 
 
-def test_a_mesh_finer_than_rounding_is_refused():
-    """Qhull would leave out points, and the mesh would have nodes without triangles."""
-    size = MeshSize(net_spacing=0.04, corner=1e-7, sectors=12, upslope_spacing=0.2)
-    with pytest.raises(SolveError, match="too fine"):
-        build_template(8.0, size)
-
-
-def test_an_even_mesh_has_no_rings():
-    size = MeshSize(net_spacing=0.125, corner=0.125, sectors=0, upslope_spacing=0.25)
-    template = build_template(5.0, size, (0.5,))
-    np.testing.assert_allclose(np.diff(template.net_fractions[::2]), 0.125)
-    n_ground = (template.ground.size - 1) // 2
-    assert n_ground == pytest.approx(5.0 / 0.25, abs=2)
-
-
 def test_a_long_snowpack_costs_little_more():
     """Columns widen with their distance: as many for each doubling of the length."""
     counts = [
@@ -172,20 +155,6 @@ def test_a_long_snowpack_costs_little_more():
     added = np.diff(counts)
     assert (added > 0).all()
     assert added.max() < 1.5 * added.min()
-
-
-def test_midpoints_follow_the_vertices():
-    template = build_template(5.0, COARSE)
-    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
-    middles = template.nodes[:, template.edges].mean(axis=1)
-    np.testing.assert_allclose(template.nodes[:, n_vertices:], middles, atol=1e-15)
-
-
-def test_template_is_shared_and_read_only():
-    template = build_template(5.0, COARSE)
-    assert build_template(5.0, COARSE) is template
-    with pytest.raises(ValueError, match="read-only"):
-        template.nodes[0, 0] = 1.0
 
 
 def test_straight_net_normal_to_the_slope_mirrors_the_reference():
@@ -234,69 +203,4 @@ def test_ends_of_the_net_have_sectors_of_their_own(interfaces, at_head):
         assert (distance < nearest * (1.0 + 1e-6)).sum() == 1 + sectors + 1
 
 
-@pytest.mark.parametrize("aspect", [0.25, 200.0])
-def test_bounds_of_the_aspect_are_accepted(aspect):
-    assert build_template(aspect, COARSE).aspect == aspect
-
-
-@pytest.mark.parametrize(
-    "aspect",
-    [math.nextafter(0.25, 0.0), math.nextafter(200.0, 999.0), math.nan, math.inf],
-)
-def test_aspect_is_refused(aspect):
-    with pytest.raises(ModelError, match="upslope length over thickness"):
-        build_template(aspect, COARSE)
-
-
 SOUND = {"net_spacing": 0.2, "corner": 0.01, "sectors": 2, "upslope_spacing": 1.0}
-
-UNLESS_GIVEN = {"subdivisions": 0, "head_sectors": None}
-
-SIZES_ACCEPTED = [
-    {"net_spacing": 0.34},
-    {"net_spacing": 1e-3, "corner": 1e-3},
-    {"corner": 1e-9},
-    {"corner": 0.2},
-    {"sectors": 1},
-    {"sectors": 0},
-    {"sectors": 64},
-    {"subdivisions": 4},
-    {"head_sectors": 1},
-    {"head_sectors": 64},
-    {"upslope_spacing": 1e-2},
-    {"upslope_spacing": 10.0},
-]
-
-
-@each("changes", SIZES_ACCEPTED)
-def test_bounds_of_sizes_are_accepted(changes):
-    sizes = {**SOUND, **changes}
-    assert asdict(MeshSize(**sizes)) == UNLESS_GIVEN | sizes
-
-
-SIZES_REFUSED = [
-    ("net_spacing", math.nextafter(0.34, 1.0), "net spacing"),
-    ("net_spacing", 0.9e-3, "net spacing"),
-    ("head_sectors", 0, "sectors around the head"),
-    ("head_sectors", 65, "sectors around the head"),
-    ("corner", 0.0, "corner size"),
-    ("corner", 0.9e-9, "corner size"),
-    ("corner", math.nextafter(0.2, 1.0), "corner size"),
-    ("sectors", -1, "sectors"),
-    ("sectors", 65, "sectors"),
-    ("subdivisions", 5, "subdivisions"),
-    ("subdivisions", -1, "subdivisions"),
-    ("upslope_spacing", 0.9e-2, "upslope spacing"),
-    ("upslope_spacing", 10.1, "upslope spacing"),
-]
-NONFINITE = [
-    (field, value, field.split("_")[0])
-    for field in SOUND
-    for value in (math.nan, math.inf)
-]
-
-
-@each("field, value, name", SIZES_REFUSED + NONFINITE)
-def test_sizes_are_refused(field, value, name):
-    with pytest.raises(ModelError, match=name):
-        MeshSize(**{**SOUND, field: value})

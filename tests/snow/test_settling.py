@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS
-from netdesign.outcome import ModelError
-from netdesign.snow.body import Settling, build_body, build_material, largest_density
+from netdesign.snow.body import Settling, build_body, build_material
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     DENSEST_SNOW,
@@ -55,23 +54,6 @@ def test_factors_of_many_densities_are_those_of_each(name):
     np.testing.assert_allclose(shear, expected, rtol=1e-14)
     expected = [compute_bulk_factor(law, float(d)) for d in densities]
     np.testing.assert_allclose(bulk, expected, rtol=1e-14)
-
-
-def test_factors_keep_the_shape():
-    shear, bulk = compute_factors(LAW, np.full((2, 3), 0.5))
-    assert shear.shape == bulk.shape == (2, 3)
-
-
-def test_denser_than_the_densest_counts_as_that():
-    shear, bulk = compute_factors(LAW, np.array([DENSEST_SNOW, 1.0, 1.5]))
-    assert len(set(shear)) == len(set(bulk)) == 1
-    assert shear[0] == pytest.approx(compute_shear_factor(LAW, DENSEST_SNOW))
-
-
-@pytest.mark.parametrize("wrong", [0.0, -0.1, np.nan])
-def test_a_density_that_no_snow_has_is_refused(wrong):
-    with pytest.raises(ModelError, match="relative density"):
-        compute_factors(LAW, np.array([0.4, wrong, 0.5]))
 
 
 # --- material ----------------------------------------------------------------
@@ -146,19 +128,6 @@ def test_without_densification_the_material_is_that_of_the_start(a_flow_problem,
 
 
 # --- the largest density -----------------------------------------------------
-
-
-def test_largest_density_of_a_body(a_flow_problem):
-    body = settled(a_body(a_flow_problem()), 0.8)
-    mass = body.mass.copy()
-    mass[3] *= 1.1
-    found = largest_density(settling(), replace(body, mass=mass))
-    assert found == pytest.approx(1.1 * DENSITY / 0.8, rel=1e-12)
-
-
-def test_largest_density_is_that_of_ice_at_most(a_flow_problem):
-    body = settled(a_body(a_flow_problem()), 0.3)
-    assert largest_density(settling(), body) == DENSEST_SNOW
 
 
 def test_stretched_snow_is_no_looser_than_the_loosest_layer(a_flow_problem):

@@ -8,8 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.outcome import ModelError
-from netdesign.snow import shared_mesh
 from netdesign.snow.element import list_dofs
 from netdesign.snow.mesh import BESIDE, build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
@@ -68,18 +66,6 @@ def test_rings_stay_and_numbers_are_shared(aspect, tops):
     assert list_dofs(template, "velocity") is list_dofs(origin, "velocity")
 
 
-def test_a_short_snowpack_has_a_mesh_of_its_own():
-    template = share_template(1.37, MESH_LEVELS[0])
-    assert (template.source, template.aspect) == (None, 1.37)
-
-
-@pytest.mark.parametrize("aspect", [0.24, 203.0, math.nan])
-def test_what_has_no_mesh_is_refused(aspect):
-    """Also where the preferred number beside it has one."""
-    with pytest.raises(ModelError, match="upslope length over thickness"):
-        share_template(aspect, MESH_LEVELS[0])
-
-
 def test_what_is_shared_is_found_once():
     found = []
 
@@ -92,9 +78,3 @@ def test_what_is_shared_is_found_once():
     assert find(one, "a") == find(other, "a") == find(one.origin, "a")
     find(other, "b")
     assert found == ["a", "b"]
-
-
-def test_a_template_of_a_stretched_one_has_the_same_origin():
-    one = share_template(6.21, MESH_LEVELS[0])
-    again = shared_mesh.stretch_template(one, 6.4)
-    assert again.origin is one.origin

@@ -8,7 +8,6 @@ from netdesign.snowpack.series import (
     HeightSeries,
     build_series,
     find_gaps,
-    find_spikes,
     smooth,
     split_winters,
 )
@@ -41,11 +40,6 @@ def test_short_gaps_are_closed_by_a_line_and_listed():
 def test_gaps_that_may_hide_snow_are_not_closed(before, low, after, high, closable):
     (gap,) = find_gaps({before: low, after: high})
     assert gap.is_closable is closable
-
-
-def test_rises_of_more_than_a_gauge_sees_are_spikes():
-    series = a_series([0.2, 0.79, 1.5, 1.4, 2.05])
-    assert find_spikes(series) == (date(2011, 12, 30), date(2012, 1, 1))
 
 
 def test_median_of_three_days_drops_a_single_spike():

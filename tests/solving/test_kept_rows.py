@@ -10,7 +10,7 @@ import pytest
 
 from netdesign.solving import store as module
 from netdesign.solving.runner import Runner
-from netdesign.solving.store import CaseStore, seal_entry
+from netdesign.solving.store import CaseStore
 
 ROW = ['{"told": "W\u00e4chte \u2028 +3,7 kN"}', "", "1" * 371]
 
@@ -65,16 +65,6 @@ def test_a_changed_entry_is_told_and_left_out(store, said, statement, value):
     assert [one.key for one in said] == ["store.row_damaged"]
     store.keep_row(name, ROW)
     assert store.find_row(name) == ROW
-
-
-@pytest.mark.parametrize("text", ["{}", "[1]", "no JSON", '["x"', '"x"', "7" * 10**6])
-def test_a_sealed_entry_that_is_none_is_left_out(store, said, monkeypatch, text):
-    monkeypatch.setattr(module, "MAX_JSON_BYTES", 1000)  # no more is unpacked
-    packed = zlib.compress(text.encode())
-    values = ("a", packed, seal_entry("a", "", packed))
-    change(store, "INSERT INTO rows (name, packed, seal) VALUES (?, ?, ?)", *values)
-    assert store.find_row("a") is None
-    assert [one.key for one in said] == ["store.row_damaged"]
 
 
 def test_the_newest_are_kept_as_far_as_there_is_room(store, monkeypatch):

@@ -43,13 +43,6 @@ def test_a_case_in_two_batches_is_solved_once(runner):
     assert (runner.counts.solved, runner.counts.reused) == (4, 1)
 
 
-def test_equal_cases_of_one_batch_are_solved_once(runner):
-    batch = build_line(300.0, LOW, LOW, MIDDLE)
-    found = write(runner.solve_batches([batch]))
-    assert found == solve_each(batch)
-    assert (runner.counts.solved, runner.counts.reused) == (2, 1)
-
-
 def test_a_known_case_that_sticks_ends_a_batch_before_workers_see_it(runner, tmp_path):
     (known,) = build_line(300.0, HIGH)
     batch = build_line(300.0, LOW, MIDDLE, HIGH, TOP)

@@ -1,15 +1,10 @@
 import math
 import sqlite3
-import sys
 from dataclasses import fields, replace
 from functools import cache
 
 import numpy as np
-import platformdirs
 import pytest
-from platformdirs import windows
-from platformdirs.macos import MacOS
-from platformdirs.unix import Unix
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
@@ -18,7 +13,7 @@ from netdesign.outcome import Outcome
 from netdesign.solving import store as module
 from netdesign.solving.runner import Runner
 from netdesign.solving.state import CaseEnd, SolvedState, decode_end, encode_end
-from netdesign.solving.store import CaseStore, StoreError, find_store, name_case
+from netdesign.solving.store import CaseStore, name_case
 from netdesign.solving.workers import Job, solve_job
 from netdesign.words.message import say
 from tests.solving.small_scene import COARSE, build_scene
@@ -59,14 +54,6 @@ def test_an_end_survives_the_way_to_disk_and_back_bit_by_bit():
     assert_same(decode_end(*encode_end(solve_one())), solve_one())
 
 
-def test_a_failure_survives_too():
-    reason = say("text.as_given", text="the post ü would pull")
-    failed = FailedSolution(outcome=Outcome.NO_EQUILIBRIUM, reason=reason)
-    back = decode_end(*encode_end(failed))
-    assert (back.outcome, back.reason) == (failed.outcome, failed.reason)
-    assert back.fault is None
-
-
 def test_what_is_kept_is_found_by_a_later_run(opened, said):
     with opened() as one:
         one.keep("a", solve_one())
@@ -75,14 +62,6 @@ def test_what_is_kept_is_found_by_a_later_run(opened, said):
     assert set(found) == {"a"}
     assert_same(found["a"], solve_one())
     assert said == []
-
-
-def test_many_names_are_looked_up_at_once(opened):
-    failed = FailedSolution(outcome=Outcome.DIVERGED, reason=say("worker.died"))
-    with opened() as one:
-        for k in range(1203):
-            one.keep(str(k), failed)
-        assert len(one.find([str(k) for k in range(2000)])) == 1203
 
 
 @pytest.mark.parametrize("lost", [Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT])
@@ -104,10 +83,6 @@ def test_a_case_lost_with_its_worker_or_by_a_fault_is_not_kept(opened, lost):
 )  # fmt: skip
 def test_everything_that_could_change_the_result_changes_the_name(other):
     assert name_case(other.scene, other.settings) != name_case(SCENE, COARSE)
-
-
-def test_equal_inputs_have_equal_names():
-    assert name_case(build_scene(CASE), replace(COARSE)) == name_case(SCENE, COARSE)
 
 
 def test_a_store_of_another_version_is_set_aside_and_said_so(
@@ -141,31 +116,6 @@ def test_a_damaged_store_is_set_aside_and_rebuilt(opened, said, tmp_path, conten
     assert (tmp_path / "cases.sqlite.aside-1").read_bytes() == content
 
 
-def test_a_database_of_something_else_is_left_as_it_was(opened, said, tmp_path):
-    base = sqlite3.connect(tmp_path / "cases.sqlite")
-    base.execute("CREATE TABLE mine (x)")
-    base.commit()
-    base.close()
-    with opened() as one:
-        assert one.find(["a"]) == {}
-    assert "is no store of cases" in str(said[0])
-    kept = sqlite3.connect(tmp_path / "cases.sqlite.aside-1")
-    assert kept.execute("SELECT name FROM sqlite_master").fetchall() == [("mine",)]
-    kept.close()
-
-
-def test_a_store_that_does_not_say_whose_it_is_is_set_aside(opened, said, tmp_path):
-    with opened() as one:
-        one.keep("a", solve_one())
-    base = sqlite3.connect(tmp_path / "cases.sqlite")
-    base.execute("DELETE FROM origin")
-    base.commit()
-    base.close()
-    with opened() as other:
-        assert other.find(["a"]) == {}
-    assert "belongs to version ? of the solver" in str(said[0])
-
-
 def test_a_case_that_holds_no_number_is_solved_anew(opened, said):
     end = solve_one()
     spoilt = replace(end, foot=replace(end.foot, x=math.nan))
@@ -192,46 +142,11 @@ def test_a_damaged_entry_is_told_and_solved_anew(opened, said, tmp_path):
     assert "case a is damaged" in str(said[0])
 
 
-def test_no_file_possible_is_an_error_that_names_the_place(tmp_path, said):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(StoreError, match=r"file.cases\.sqlite: no store of cases here"):
-        CaseStore(tmp_path / "file" / "cases.sqlite", said.append)
-
-
 def test_two_runs_share_a_store_at_the_same_time(opened):
     with opened() as one, opened() as other:
         one.keep("a", solve_one())
         other.keep("b", solve_one())
         assert set(one.find(["a", "b"])) == {"a", "b"} == set(other.find(["a", "b"]))
-
-
-def test_the_place_is_the_users_choice(monkeypatch, tmp_path):
-    monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "mine.sqlite"))
-    assert find_store() == tmp_path / "mine.sqlite"
-
-
-@pytest.mark.parametrize(
-    ("system", "variable", "cache"),
-    [
-        (Unix, "XDG_CACHE_HOME", "."),
-        (Unix, "HOME", ".cache"),
-        (MacOS, "HOME", "Library/Caches"),
-        (windows.Windows, "", "."),
-    ],
-)
-@pytest.mark.skipif(sys.platform == "win32", reason="HOME is another one there")
-def test_without_a_choice_it_is_in_the_cache_of_each_system(
-    monkeypatch, tmp_path, system, variable, cache
-):
-    monkeypatch.setattr(platformdirs, "PlatformDirs", system)
-    for unset in ("NETDESIGN_STORE", "XDG_CACHE_HOME"):
-        monkeypatch.delenv(unset, raising=False)
-    if variable:
-        monkeypatch.setenv(variable, str(tmp_path))
-    else:  # asked of the system: the folder of what is local to an account
-        local = {"CSIDL_LOCAL_APPDATA": str(tmp_path)}
-        monkeypatch.setattr(windows, "get_win_folder", local.__getitem__)
-    assert find_store() == tmp_path / cache / "netdesign" / "cases.sqlite"
 
 
 def test_a_runner_solves_equal_cases_once_and_known_ones_never(opened):
@@ -259,13 +174,3 @@ def test_cases_of_two_versions_of_the_solver_are_told_apart(monkeypatch):
     own = name_case(SCENE, COARSE)
     monkeypatch.setattr(module, "identify_solver", lambda: "another+0123")
     assert name_case(SCENE, COARSE) != own
-
-
-@pytest.mark.parametrize("name", ["site.xlsx", "notes"])
-def test_a_file_of_another_kind_is_left_as_it_is(tmp_path, name):
-    path = tmp_path / name
-    path.write_bytes(b"PK\x03\x04 somebody's work")
-    with pytest.raises(StoreError, match="another kind of file"):
-        CaseStore(path, print)
-    assert [one.name for one in tmp_path.iterdir()] == [name]
-    assert path.read_bytes() == b"PK\x03\x04 somebody's work"

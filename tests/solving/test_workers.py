@@ -169,18 +169,6 @@ def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
         pool.close()
 
 
-def test_a_call_begun_has_what_it_was_given_then(request):
-    """Reports are made of a study that goes on remembering what was read of it."""
-    pool = ProcessPool(processes=1)
-    request.addfinalizer(pool.close)
-    for _ in range(5):
-        given = dict.fromkeys(range(20_011))
-        finish = pool.begin(len, given)
-        for number in range(20_011, 60_000):
-            given[number] = None
-        assert finish() == 20_011
-
-
 def test_a_bug_in_one_case_is_its_outcome():
     end = solve_job(job(300.0, FaultyScene))
     assert (end.outcome, end.reason) == (Outcome.PROGRAM_FAULT, SENTENCE)
@@ -210,13 +198,6 @@ def test_a_fault_comes_whole_from_any_process(workers, alone):
         assert_fault(workers, alone)
     finally:
         workers.close()
-
-
-def test_small_waves_start_no_processes(alone):
-    pool = ProcessPool(2, worth=sum(map(len, BATCHES)) + 1)
-    assert collect(pool, BATCHES) == alone
-    assert multiprocessing.active_children() == []
-    pool.close()
 
 
 def test_an_interrupt_leaves_no_process_behind():
@@ -270,19 +251,6 @@ def is_alive(number):
         return False
     state = Path(f"/proc/{number}/stat")
     return not (state.exists() and state.read_text().split(")")[-1].split()[0] == "Z")
-
-
-@pytest.mark.parametrize("name", ["dask://", "dask", "slurm://x", "tcp://host:1"])
-def test_unknown_executors_are_refused_with_what_is_accepted(name):
-    with pytest.raises(ClusterError, match="accepted is dask://HOST:PORT") as caught:
-        build_workers(name, 1)
-    assert name in str(caught.value)
-    assert ClusterError.exit_code == 2
-
-
-def test_workers_go_by_the_number_of_processes():
-    assert isinstance(build_workers("", 1), OwnProcess)
-    assert isinstance(build_workers("", 2), ProcessPool)
 
 
 # --- a Dask cluster of two processes on loopback -------------------------------------
@@ -381,21 +349,3 @@ def test_a_cluster_that_lost_all_its_workers_is_named():
 
     with pytest.raises(ClusterError, match="no worker for"):
         next(follow_futures(Deserted(), Never(), patience=0.0))
-
-
-@pytest.mark.filterwarnings("ignore")
-def test_an_unreachable_cluster_is_named():
-    with pytest.raises(ClusterError, match=r"dask://127\.0\.0\.1:9: no Dask scheduler"):
-        DaskCluster("127.0.0.1:9")
-
-
-@pytest.mark.parametrize("address", ["host", ":8786", "host:", "host:x", "host:70000"])
-def test_an_address_without_host_and_port_is_refused(address):
-    with pytest.raises(ClusterError, match="accepted is dask://HOST:PORT"):
-        build_workers(f"dask://{address}", 1)
-
-
-def test_without_the_extra_the_way_to_it_is_named(monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(ClusterError, match=r"pip install \"netdesign\[dask\]\""):
-        DaskCluster("127.0.0.1:9")

@@ -9,7 +9,7 @@ import pytest
 from netdesign.snow.ground import GroundLaw
 from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
-from netdesign.winter.day import DaySolver, RowDay
+from netdesign.winter.day import RowDay
 from netdesign.winter.maxima import find_annual_maximum, find_bound, find_maximum_alone
 from netdesign.words.message import say
 from tests.each import each
@@ -56,14 +56,6 @@ def rises(solver, rng, number):
 def test_more_snow_never_pulls_less(kind):
     rng = np.random.default_rng(1905)
     found = [rises(draw_solver(rng, kind), rng, 8) for _ in range(4)]
-    assert np.all(found)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("kind", ["no-slip", "sliding", "free"])
-def test_more_snow_never_pulls_less_on_sixty_scenes(kind):
-    rng = np.random.default_rng(2211)
-    found = [rises(draw_solver(rng, kind), rng, 14) for _ in range(20)]
     assert np.all(found)
 
 
@@ -157,28 +149,7 @@ def test_a_bound_is_never_below_the_maximum():
     assert endings.count("solved") > 30
 
 
-def test_a_bound_is_never_below_the_maximum_that_a_tauter_net_has():
-    """Solves of a net so taut that all its snow has a force."""
-    rng = np.random.default_rng(83)
-    solver = a_solver(accuracy=0.03, slack=0.0)
-    endings = {compare(DaySolver, solver, rng) for _ in range(4)}
-    assert "doubtful" in endings
-
-
 def test_snow_without_a_force_up_to_the_head_has_no_bound():
     solver = hide_thin(FormulaSolver, a_solver(), 99.0)
     day = RowDay(index=0, thickness=1.3, density=290.0, ending="failed")
     assert find_bound([day], [], solver) is None
-
-
-def test_thicker_and_denser_snow_of_the_winter_needs_no_further_solve():
-    solver = hide_thin(FormulaSolver, a_solver(), 99.0)
-    formula = FormulaSolver(row=solver.row, settings=solver.settings)
-    sizes = [(1.5, 300.0), (1.9, 310.0), (1.2, 400.0)]
-    snow = [
-        RowDay(index=k, thickness=d, density=rho, ending="open")
-        for k, (d, rho) in enumerate(sizes)
-    ]
-    solved = formula.solve(snow)
-    day = RowDay(index=9, thickness=1.4, density=290.0, ending="failed")
-    assert find_bound([day], solved, solver) == solved[0].foot.high

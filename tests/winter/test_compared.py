@@ -3,7 +3,6 @@
 from dataclasses import replace
 from datetime import date, datetime, timedelta
 
-import numpy as np
 import pytest
 
 from netdesign.checks.result import Band
@@ -88,17 +87,6 @@ def test_band_is_the_numerical_one_and_the_swing_of_the_ropes():
     assert compare(far, season, a_series(warmth)).inside == 0.5
 
 
-def test_temperatures_beside_the_readings_count():
-    pulls = readings((6.5, 60e3), air=((6.2, 258.0), (6.6, 270.0)))
-    (day,) = compare(pulls, a_season(a_day(6, 17e3))).computed
-    assert (day.amplitude, day.is_assumed) == (6.0, False)
-
-
-def test_without_any_temperature_the_amplitude_is_assumed():
-    (day,) = compare(readings((6.5, 60e3)), a_season(a_day(6, 17e3))).computed
-    assert (day.amplitude, day.is_assumed) == (5.0, True)
-
-
 def test_days_without_a_force_are_left_out_and_bare_ones_have_none():
     failed = replace(a_day(8, 1.0), ending="failed", foot=None, head=None)
     failed = replace(failed, member_forces={})
@@ -106,12 +94,3 @@ def test_days_without_a_force_are_left_out_and_bare_ones_have_none():
     found = compare(readings((5.0, 30e3)), a_season(bare, a_day(5, 9e3), failed))
     assert [one.index for one in found.computed] == [2, 5]
     assert found.computed[0].force.value == 0.0
-
-
-def test_readings_of_another_winter_or_without_a_curve():
-    season = a_season(a_day(5, 9e3))
-    assert compare(readings((40.0, 30e3)), season) is None
-    other = replace(readings((5.0, 30e3)), member="downhill_guy")
-    found = compare(other, season)
-    assert (found.computed, found.inside, found.mean_ratio) == ((), None, None)
-    assert np.size(found.ratios) == 0

@@ -1,20 +1,17 @@
 """One day: its scene, and every way in which it may end."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.outcome import ModelError
-from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.snowpack import Layer
-from netdesign.snowpack.pack import BARE, DayPack
+from netdesign.snowpack.pack import DayPack
 from netdesign.structure.layout import SupportLayout
-from netdesign.winter.day import RowDay, WinterRow, build_day_scene
-from tests.winter.made_up_row import SLOPE, a_scene, a_solver
+from netdesign.winter.day import RowDay, build_day_scene
+from tests.winter.made_up_row import SLOPE, a_solver
 
 
 def a_pack(heights, densities):
@@ -39,25 +36,6 @@ def test_heights_become_thicknesses_normal_to_the_slope():
     assert [la.density for la in day.layers] == pytest.approx([391.0, 203.0])
     share = day.layers[0].thickness / day.thickness
     assert share == pytest.approx(0.55, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("height", "ending", "pull"),
-    [
-        (0.24 / math.cos(SLOPE), "thin", 0.0),
-        (0.26 / math.cos(SLOPE), "open", None),
-        (2.999 / math.cos(SLOPE), "open", None),
-        (3.001 / math.cos(SLOPE), "overtopped", None),
-    ],
-)
-def test_endings_by_thickness(height, ending, pull):
-    day = prepare(a_pack([height], [300.0]))
-    assert (day.ending, day.pull) == (ending, pull)
-
-
-def test_bare_ground_pulls_nothing():
-    day = prepare(BARE)
-    assert (day.ending, day.pull) == ("bare", 0.0)
 
 
 def test_thin_snow_is_uniform():
@@ -111,14 +89,3 @@ def test_layers_that_fail_are_tried_as_uniform_snow():
     assert day.ending == "solved"
     assert day.layers == ()
     assert day.reason is not None
-
-
-def test_laws_that_clamp_the_density_are_refused():
-    law = CREEP_LAWS["zwinger-2007"]
-    with pytest.raises(ModelError, match="does not follow the density of light snow"):
-        WinterRow(id="A", scene=replace(a_scene(), creep_law=law))
-
-
-def test_factors_that_no_exposure_explains_are_refused():
-    with pytest.raises(ModelError, match="over that of the station"):
-        WinterRow(id="A", scene=a_scene(), height_factor=0.19)

@@ -28,29 +28,6 @@ def test_thickness_and_mass_are_kept_and_few_layers_left():
         build_layered_snowpack(layers, slope_angle=0.7, upslope_length=11.0)
 
 
-def test_light_snow_joins_what_lies_below():
-    layers = merge_layers([1.0, 0.5, 0.4], [300.0, 200.0, 81.0])
-    assert [layer.thickness for layer in layers] == pytest.approx([1.0, 0.9])
-    assert layers[1].density == pytest.approx((100.0 + 32.4) / 0.9)
-
-
-def test_light_snow_on_the_ground_joins_what_lies_above():
-    (layer,) = merge_layers([0.3, 0.7], [90.0, 240.0])
-    assert layer.density == pytest.approx(27.0 + 168.0)
-
-
-def test_thin_layer_joins_the_neighbour_most_like_it():
-    below = merge_layers([1.0, 0.05, 0.8], [300.0, 290.0, 150.0])
-    above = merge_layers([1.0, 0.05, 0.8], [300.0, 160.0, 150.0])
-    assert [la.thickness for la in below] == pytest.approx([1.05, 0.8])
-    assert [la.thickness for la in above] == pytest.approx([1.0, 0.85])
-
-
 def test_pair_that_matters_least_goes_first():
     layers = merge_layers([0.5, 0.5, 0.5, 0.5], [400.0, 395.0, 250.0, 150.0], most=3)
     assert [la.density for la in layers] == pytest.approx([397.5, 250.0, 150.0])
-
-
-def test_light_snow_alone_stays_as_it_is():
-    (layer,) = merge_layers([0.4, 0.3], [81.0, 81.0])
-    assert (layer.thickness, layer.density) == pytest.approx((0.7, 81.0))

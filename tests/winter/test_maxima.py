@@ -15,7 +15,6 @@ from netdesign.winter.maxima import (
     find_equivalent,
     find_many_maxima,
 )
-from netdesign.winter.season import follow_season
 from tests.each import each
 from tests.winter.made_up_row import FormulaSolver, a_solver
 
@@ -35,14 +34,6 @@ def test_days_far_below_the_best_rank_are_not_solved():
     ]
     assert [day.index for day in choose_days(days, solver)] == [0, 1]
     assert choose_days([], solver) == ()
-
-
-def test_largest_day_has_an_equivalent_density_of_its_own():
-    solver = a_solver(**QUICK)
-    days = solver.solve([RowDay(index=0, thickness=1.9, density=317.0, ending="open")])
-    found = find_equivalent(1.9, days[0], solver)
-    assert found == pytest.approx(317.0, rel=1e-6)
-    assert find_equivalent(3.1, days[0], solver) is None
 
 
 def test_equivalent_density_pulls_as_much():
@@ -72,15 +63,6 @@ def test_winter_without_a_solved_day_proves_no_maximum():
     assert (maximum.ending, maximum.foot) == ("doubtful", 0.0)
     assert 100.0 < maximum.bound < 2000.0
     assert maximum.reason
-
-
-def test_winter_of_thin_snow_pulls_nothing():
-    packs = follow([0.0, 0.2, 0.25, 0.1])
-    maximum, _ = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
-    assert (maximum.ending, maximum.is_proven) == ("no snow", True)
-    season = follow_season("1999/2000", packs, a_solver(**QUICK))
-    assert season.governing is None
-    assert season.equivalent_density is None
 
 
 def test_table_is_the_solves_themselves():

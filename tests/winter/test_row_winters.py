@@ -13,9 +13,8 @@ from netdesign.winter.season import (
     list_complete,
     split_packs,
 )
-from netdesign.winter.statistics import find_trend, fit_limited
-from tests.winter.made_up_row import FormulaSolver, a_formula_solver
-from tests.winter.test_bounds import hide_thin
+from netdesign.winter.statistics import find_trend
+from tests.winter.made_up_row import a_formula_solver
 
 
 def a_series(tops, first=date(1990, 9, 1)):
@@ -46,22 +45,6 @@ def test_snow_goes_on_settling_through_september():
     assert packs["1990/1991"][2].ages.tolist() == [1]
 
 
-def test_few_winters_have_curves_and_no_return_values():
-    models = [HS2SWE, MODELS["delta-snow"]]
-    station = follow_station(a_series([1.2, 1.5]), models)
-    found = follow_winters(station, a_formula_solver(), step=40)
-    assert [season.name for season in found.seasons] == ["1990/1991", "1991/1992"]
-    assert found.maxima == tuple(season.maximum for season in found.seasons)
-    assert (found.sample.fit, found.trend) == (None, None)
-    assert found.model == "hs2swe"
-    assert [one.winter for one in found.others["delta-snow"]] == [
-        "1990/1991",
-        "1991/1992",
-    ]
-    low, high = found.density_range
-    assert 120.0 < low <= high < 450.0
-
-
 def test_many_winters_have_return_values_and_curves_of_the_largest():
     tops = [1.0 + 0.07 * ((7 * k) % 16) for k in range(16)]
     station = follow_station(a_series(tops), [HS2SWE, MODELS["delta-snow"]])
@@ -88,25 +71,3 @@ def test_one_winter_above_the_net_and_there_are_no_return_values():
     assert [one.winter for one in found.maxima if not one.is_proven] == ["1995/1996"]
     assert "1995/1996" in str(found.sample.lack)
     assert (found.sample.fit, found.trend) == (None, None)
-
-
-def test_winters_of_thin_snow_without_a_force_leave_return_values():
-    """The same as if all that lies below the largest bound were unknown."""
-    tops = [0.5 + 0.13 * ((7 * k) % 20) for k in range(20)]
-    station = follow_station(a_series(tops), [HS2SWE])
-    whole = follow_winters(station, a_formula_solver(), step=0)
-    solver = hide_thin(FormulaSolver, a_formula_solver(), 0.9)
-    found = follow_winters(station, solver, step=0)
-    unproven = [one for one in found.maxima if not one.is_proven]
-    assert 4 <= len(unproven) == len(found.sample.bounds)
-    assert (found.trend, found.extreme_values) == (None, None)
-    assert whole.sample.lack is found.sample.lack is None
-    fit = found.sample.fit
-    assert fit.count == whole.sample.fit.count == 20
-    assert fit.limit == max(found.sample.bounds)
-    known = [one.foot for one in whole.maxima]
-    alike = fit_limited(known, fit.limit)
-    assert (fit.location, fit.scale) == pytest.approx((alike.location, alike.scale))
-    value, _ = whole.sample.fit.find_return_value(100.0)
-    low, high = fit.find_interval(100.0)
-    assert low < value < high

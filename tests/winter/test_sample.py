@@ -57,9 +57,3 @@ def test_without_return_values_there_is_a_reason(winters, key):
     assert found.lack.key == f"winter_sample.{key}"
     for one in found.lack.arguments.get("winters", ()):
         assert one in {"W50", "W60", "W61"}
-
-
-@each("known, is_fitted", [(17, False), (18, True)])
-def test_one_winter_in_ten_may_be_left_out(known, is_fitted):
-    found = choose([*SOLVED[:known], UNKNOWN, a_winter(61, "doubtful")])
-    assert (found.fit is not None) is is_fitted

@@ -87,16 +87,6 @@ def test_no_day_is_coarser_than_the_limit_or_than_what_was_asked_for():
         assert most == pytest.approx(max(accuracy, COARSEST_CURVE))
 
 
-def test_a_day_that_fails_at_the_full_accuracy_has_no_force():
-    plain = follow(ACCURACY)
-    place = plain.governing.index
-    season = follow(ACCURACY, failing=[place])
-    day = {one.index: one for one in season.curve}[place]
-    assert (day.ending, day.foot, day.bands) == ("failed", None, {})
-    assert place in [one.index for one in season.failed]
-    assert season.governing.index != place
-
-
 GROUNDS = [None, GroundLaw(kind="free"), slides(1.6, 2.0)]
 
 

@@ -8,7 +8,7 @@ import tomllib
 import pytest
 
 from netdesign.edge.given_files import find_resource
-from netdesign.words.catalogue import LANGUAGES, _fill, list_gaps, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
 from netdesign.words.message import say
 from tests.sources import PACKAGE, walk_package
 
@@ -164,20 +164,6 @@ def test_no_text_is_idle():
     assert idle == set()
 
 
-def test_words_of_ours_are_rendered_in_the_language_of_the_whole():
-    inner = say("unit.count_cases", count=3)
-    assert [render(inner, language) for language in LANGUAGES] == [
-        *("3 cases", "3 cas", "3 Fälle")
-    ]
-
-
-def test_messages_that_differ_in_their_values_are_told_apart_by_their_hash():
-    """Else a table of them takes as long as the square of its lines."""
-    lines = [say("unit.count_cases", count=number) for number in range(997)]
-    assert len(set(map(hash, lines))) == len(lines)
-    assert hash(say("unit.count_cases", count=37)) == hash(lines[37])
-
-
 def test_a_message_goes_from_process_to_process():
     message = say("unit.count_cases", count=3)
     assert pickle.loads(pickle.dumps(message)) == message
@@ -186,20 +172,3 @@ def test_a_message_goes_from_process_to_process():
 def test_an_argument_that_lacks_is_a_fault():
     with pytest.raises(KeyError, match="count"):
         render(say("unit.count_cases"), "en")
-
-
-@pytest.mark.parametrize("spec", ["; ", " ; ", ": ", ", ", "\n"])
-def test_french_sets_the_semicolons_of_a_list_apart(spec):
-    """Whatever the text has between the parts of a list."""
-    joint = _fill(("a", "b"), spec, "fr")[1:-1]
-    assert (joint == "\u00a0; ") is (";" in spec)
-    assert _fill(("a", "b"), spec, "de") == f"a{spec}b"
-
-
-def test_no_text_of_a_page_joins_its_parts_by_itself():
-    """French has another list of parts: `Words.join` makes it."""
-    sources = (PACKAGE / "report").rglob("*.py")
-    texts = {path.name: path.read_text("utf-8") for path in sources}
-    joined = {name: text.count('"; ".join') for name, text in texts.items()}
-    assert {name: count for name, count in joined.items() if count} == {}
-    assert {TEXTS[one]["text.parts"] for one in LANGUAGES} == {"{parts:; }"}

@@ -1,73 +1,25 @@
 """No text shows words of another language, and all that users read has a text."""
 
 import ast
-import re
-import string
 
 import pytest
 
 from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
 from netdesign.site.columns.fields import normalise
-from netdesign.words.catalogue import LANGUAGES, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import dump, restore, say
 from tests.sources import walk_package
-from tests.words.english import find_words
 
 GUARDS = ("require_positive", "require_count", "require_within", "require_one_of")
-# What a program's own tests of itself say, and the checks of the report's numbers.
-OF_DEVELOPERS = ("evidence", "report", "bench.py")
-OF_TERRAIN = ("terrain",)  # English only
 
 
 # Titles of documents stay in their language.
 QUOTING = ("profile_source.",)
 
 
-def list_words(text):
-    """Words of a text without its gaps, but with what joins the parts of a list."""
-    for literal, _, joint, _ in string.Formatter().parse(text):
-        yield f"{literal} {joint or ''}"
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_no_text_shows_words_of_another_language(language):
-    others = [one for one in LANGUAGES if one != language]
-    mixed = {}
-    for key, text in load_texts(language).items():
-        if key.startswith(QUOTING):
-            continue
-        plain = re.sub(r"--[a-z-]+", " ", " ".join(list_words(text)))  # options
-        found = find_words(plain, others)
-        if found and not key.startswith("profile_source."):  # quotes titles
-            mixed[key] = found
-    assert mixed == {}
-
-
-def list_raised():
-    """Every ``raise SomeError(argument)`` of the program with its first arguments."""
-    for module, node in walk_package():
-        if set(module.split("/")) & {*OF_DEVELOPERS, *OF_TERRAIN}:
-            continue
-        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
-            name = ast.unparse(node.exc.func)
-            yield f"{module}:{node.lineno}", name, node.exc.args
-
-
 # Told to nobody: what code does wrong, or what a caller catches and words itself.
 OWN = ("ValueError", "TypeError", "KeyError", "RuntimeError", "SingularError")
 OWN += ("AttributeError", "SystemExit")  # of Python itself
-
-
-def test_nothing_is_raised_with_a_text():
-    wrong = [
-        place
-        for place, name, arguments in list_raised()
-        if name not in OWN
-        for one in arguments
-        if isinstance(one, ast.JoinedStr)
-        or (isinstance(one, ast.Constant) and isinstance(one.value, str))
-    ]
-    assert wrong == []
 
 
 def list_guarded():
@@ -114,10 +66,3 @@ def test_a_message_is_stored_and_comes_back():
     assert plain["arguments"]["lines"][1] == "site.xlsx"
     assert restore(plain) == message
     assert str(restore(plain)) == "3 cases\nsite.xlsx\n3 cases"
-
-
-def test_a_sentence_inside_of_another_has_no_full_stop():
-    reason = say("outcome.diverged")
-    told = str(say("history.no_start", reason=reason))
-    assert str(reason).endswith("residual.")
-    assert "residual): choose" in told

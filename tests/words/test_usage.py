@@ -11,7 +11,6 @@ from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import say
 from tests.each import each
 
-NO_BREAK = "\u00a0"
 GAP = re.compile(r"\{[^{}]*\}")
 # Typed, or of another language: times, clauses, addresses, paths, options' forms.
 AS_TYPED = re.compile(
@@ -33,25 +32,6 @@ def find(language, pattern, *, but=()):
         if not key.startswith(but)
     }
     return {key: ones for key, ones in found.items() if ones}
-
-
-def test_french_has_a_no_break_space_before_double_signs():
-    quoting = ("profile_source.", "profile_title.")
-    assert find("fr", r"[^\s\u00a0](?:[;?!»]|:(?!\w))|«(?!\u00a0)", but=quoting) == {}
-
-
-@pytest.mark.parametrize("language", ["fr", "de"])
-def test_a_space_stands_before_per_cent(language):
-    assert find(language, r"[^\s\u00a0\[(/]%(?!\w)") == {}
-
-
-@pytest.mark.parametrize("language", ["fr", "de"])
-def test_a_share_that_is_rounded_has_the_space_too(language):
-    suction = say("balance.suction", share=0.753, accepted=0.01)
-    text = render(suction, language)
-    assert f"75{NO_BREAK}%" in text
-    assert f"1{NO_BREAK}%" in text
-    assert "75%" in render(suction, "en")
 
 
 # What readers of the language stumbled over, or a second term for the same thing.
@@ -94,41 +74,4 @@ def test_a_count_brings_its_noun_along(language, count, told):
     assert render(say("map.missing", count=count), language).startswith(told)
 
 
-@pytest.mark.parametrize(
-    ("language", "told"),
-    [
-        ("en", "2017-12-01, 2018-02-17"),
-        ("fr", "1er décembre 2017, 17 février 2018"),
-        ("de", "01.12.2017, 17.02.2018"),
-    ],
-)
-def test_days_in_sentences_are_written_as_the_language_has_them(language, told):
-    days = say("winter_sheet.days", days=("2017-12-01", "2018-02-17"))
-    assert render(days, language).replace(NO_BREAK, " ") == told
-
-
-def test_what_is_no_day_stays():
-    days = say("winter_sheet.days", days=("2017-13-45", "-"))
-    assert render(days, "de") == "2017-13-45, -"
-
-
-# Formulas in words and numbers, quotations, and a list of syllables.
-NO_SENTENCES = (
-    *("derivation.", "post_bending.", "bending.", "formula.", "column.slip_of_table"),
-    *("profile_", "resistance_source", "reference.", "page.breaks"),
-)
 WORD = re.compile(r"[^\W\d_]{2,}")
-MOST_WORDS = 25
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_no_sentence_is_longer_than_one_breath(language):
-    """Words of a sentence, or of a part between colons and semicolons."""
-    found = {
-        key: part
-        for key, text in load_texts(language).items()
-        if not key.startswith(NO_SENTENCES)
-        for part in re.split(r"(?<=[.;:?!])\s", GAP.sub("0", text))
-        if len(WORD.findall(part)) > MOST_WORDS
-    }
-    assert found == {}

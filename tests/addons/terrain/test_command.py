@@ -10,8 +10,6 @@ from netdesign.addons.terrain.grid import read_grid
 from netdesign.site.template.workbook import write_site_workbook
 from tests.addons.terrain.map_files import write_rows as write_layer
 from tests.addons.terrain.map_files import write_tif
-from tests.report.accessible import list_violations
-from tests.report.printing import PHONE_PX
 
 LEFT_OUT = "not among the drawn rows, left out"
 EAST, NORTH = 2_700_300.0, 1_180_200.0
@@ -168,17 +166,6 @@ def test_a_grid_and_rows_in_two_systems_are_refused(other_files, tmp_path, call)
     )
 
 
-def test_json_is_printed_and_nothing_written(slope, tmp_path, call, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    ended = call("terrain", slope / "slope.asc", slope / "rows.json", "--json")
-    told = json.loads(ended.out)
-    assert told["schema"] == "netdesign.addons.terrain/1"
-    assert [one["id"] for one in told["rows"]] == ["A", "B", "C"]
-    assert 0.0 < told["uncovered_m2"] < told["zone_m2"]
-    assert 0.03 < told["noise_m"] < 0.05
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_faults_are_told_all_at_once_and_nothing_is_written(slope, tmp_path, call):
     rows = write_rows()
     rows["features"][0]["geometry"]["coordinates"][0][0] -= 500.0
@@ -194,49 +181,6 @@ def test_faults_are_told_all_at_once_and_nothing_is_written(slope, tmp_path, cal
     assert "row A leaves the grid" in ended.err
     assert "row B bends by" in ended.err
     assert not out.exists()
-
-
-def test_what_is_there_is_not_overwritten(slope, tmp_path, call):
-    (tmp_path / "rows.geojson").write_text("mine")
-    out = tmp_path / "site.xlsx"
-    ended = call("terrain", slope / "slope.asc", slope / "rows.json", "--out", out)
-    assert ended.code == 2
-    assert (tmp_path / "rows.geojson").read_text() == "mine"
-    assert not out.exists()
-
-
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (("--out", "site.ods"), "xlsx"),
-        (("--standard", "nf-p-95-304-style"), "--standard"),
-    ],
-)
-def test_what_cannot_be_done_is_refused(slope, call, options, said):
-    ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
-    assert ended.code == 2
-    assert said in ended.err
-
-
-def test_the_example_is_measured_and_lacks_nothing(tmp_path, call):
-    out = tmp_path / "site.xlsx"
-    assert call("terrain", "--example", "--out", out).code == 0
-    names = {one.name for one in tmp_path.iterdir()}
-    assert names == {
-        *("site.xlsx", "rows.geojson", "terrain.html"),
-        *("starting-zone.asc", "rows-drawn.geojson", "types.xlsx"),
-    }
-    ended = call("check", out, "--dry-run")
-    assert ended.code == 0
-    assert "8 net rows" in ended.out
-    assert "(sheet Ends)" not in ended.out
-    again = call("terrain", "--example", "--out", out)
-    assert again.code == 2
-
-
-@pytest.mark.parametrize("arguments", [(), ("grid.asc",), ("--example", "--json")])
-def test_a_grid_without_rows_or_an_example_without_files_is_refused(call, arguments):
-    assert call("terrain", *arguments).code == 2
 
 
 def test_a_row_on_flat_ground_gets_no_length(slope, tmp_path, call):
@@ -268,22 +212,6 @@ def test_ends_of_the_rows_come_with_the_types(slope, tmp_path, call):
     assert told == ["note: types.xlsx, sheet Ends: R3, R4, R5, R7 " + LEFT_OUT]
 
 
-@pytest.mark.parametrize("width", [1100, PHONE_PX])
-def test_axe_finds_no_violation(slope, tmp_path, call, width):
-    out = tmp_path / "site.xlsx"
-    places = (slope / "slope.asc", slope / "rows.json", "--out", out)
-    assert call("terrain", *places).code == 0
-    page = (tmp_path / "terrain.html").read_text(encoding="utf-8")
-    assert list_violations(page, tmp_path, width) == []
-
-
-def test_progress_is_told_unless_quiet(slope, tmp_path, call):
-    places = (slope / "slope.asc", slope / "rows.json", "--out", tmp_path / "a.xlsx")
-    assert "3 of 3 net rows" in call("terrain", *places).err
-    again = call("terrain", *places, "--quiet", "--force")
-    assert again.err == ""
-
-
 def test_a_map_without_a_row_of_the_site_is_refused_before_anything_is_solved(
     slope, tmp_path, call
 ):
@@ -301,18 +229,3 @@ def test_a_map_without_a_row_of_the_site_is_refused_before_anything_is_solved(
     assert ended.code == 3
     assert "lacks net rows of the site: B" in ended.err
     assert not (tmp_path / "netdesign-out").exists()
-
-
-def test_a_map_that_no_report_shows_is_refused(slope, call):
-    ended = call("check", "--example", "--no-html", "--rows-map", slope / "rows.json")
-    assert ended.code == 2
-    assert "--rows-map" in ended.err
-
-
-def test_without_the_extra_it_is_said_what_to_install(slope, call, monkeypatch):
-    from netdesign.addons.terrain import command as terrain
-
-    monkeypatch.setattr(terrain, "find_spec", lambda _: None)
-    ended = call("terrain", slope / "slope.asc", slope / "rows.json", "--json")
-    assert ended.code == 3
-    assert 'pip install "netdesign[terrain]"' in ended.err

@@ -35,17 +35,6 @@ def test_a_row_holds_its_bays_up_to_its_reach(turned):
     assert found.share == pytest.approx(1.0 - held / 3600.0, abs=0.02)
 
 
-def test_flat_ground_and_no_zone_leave_nothing_open():
-    grid = build_grid(plane(math.radians(24.0)), size=160.0)
-    row = draw_line([(-15.0, -20.0), (15.0, -20.0)])
-    zone = ring((-30, -30), (30, -30), (30, 30), (-30, 30))
-    for zones in ((zone,), ()):
-        plan = plan_of(row, zones=zones)
-        surface, rows = measure_plan(grid, plan, most=100.0)
-        found = find_coverage(surface, plan, rows, {"R1": 25.0})
-        assert (found.area, found.uncovered, found.share) == (0.0, 0.0, 0.0)
-
-
 def test_gap_of_rows_beside_and_above():
     grid = build_grid(plane(PSI), size=160.0)
     lines = (

@@ -5,7 +5,6 @@ import math
 import struct
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,7 +12,6 @@ from rasterio.transform import Affine
 
 from netdesign.addons.terrain.grid import Grid, read_grid
 from netdesign.addons.terrain.measure import measure_plan
-from netdesign.addons.terrain.reading import keep_quiet
 from netdesign.outcome import TerrainError
 from tests.addons.terrain.map_files import (
     GIVEN,
@@ -115,24 +113,6 @@ def test_whole_numbers_with_scale_and_offset_are_heights(parse_geotiff):
     assert found.heights == pytest.approx(1500.0 + centimetres[::-1] / 100.0)
 
 
-def test_of_several_bands_the_first_is_taken(parse_geotiff):
-    grid = parse_geotiff(write_tif(GRID, count=3))
-    assert grid.heights == pytest.approx(HEIGHTS, abs=0.0)
-    assert grid.bands == 3
-
-
-@pytest.mark.parametrize("crs", [None, 'LOCAL_CS["site",UNIT["metre",1]]'])
-def test_a_grid_without_a_known_system_is_one_of_metres(parse_geotiff, crs):
-    grid = parse_geotiff(write_tif(GRID, crs=crs))
-    assert (grid.west, grid.crs) == (GRID.west, "")
-
-
-def holed(value):
-    heights = HEIGHTS.copy()
-    heights[1, 2] = value
-    return write_raw(GRID, heights)
-
-
 HALF, NORTH = 0.5, find_north(GRID) + 0.25
 REFUSED = {
     "is no map plane": {"crs": "EPSG:4326"},
@@ -160,15 +140,6 @@ def test_what_is_not_in_metres_on_a_plane_is_refused(parse_geotiff, said):
     with pytest.raises(TerrainError) as caught:
         parse_geotiff(write_tif(GRID, **special))
     assert said in str(caught.value)
-
-
-@pytest.mark.parametrize(
-    ("value", "said"), [(-32768.0, "-32768"), (1e308, "1e+308"), (-math.inf, "-inf")]
-)
-def test_heights_that_no_ground_has_are_refused(parse_geotiff, value, said):
-    with pytest.raises(TerrainError, match="a height of") as caught:
-        parse_geotiff(holed(value))
-    assert f"height of {said} m" in str(caught.value)
 
 
 # --- hostile files --------------------------------------------------------------------
@@ -285,32 +256,3 @@ def test_a_damaged_grid_is_one_refusal(tmp_path, call):
     assert len(ended.err.splitlines()) == 1
     for alien in ("GDAL", "TIFF directory", "rasterio", "Errno"):
         assert alien not in ended.err
-
-
-def test_a_name_is_a_file_and_no_address(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    for name in ("/vsicurl/http://127.0.0.1:9/g.tif", "http://127.0.0.1:9/g.tif"):
-        with pytest.raises(TerrainError, match="No such file or directory"):
-            read_grid(Path(name))
-
-
-def test_nothing_is_written_beside_and_nothing_beside_is_read(tmp_path):
-    path = tmp_path / "g.tif"
-    path.write_bytes(write_tif(GRID))
-    path.with_suffix(".tfw").write_text("9\n0\n0\n-9\n0\n0\n")
-    (tmp_path / "g.tif.aux.xml").write_text("<PAMDataset>")
-    assert read_grid(path).west == GRID.west
-    assert {one.name for one in tmp_path.iterdir()} == {
-        *("g.tif", "g.tfw", "g.tif.aux.xml")
-    }
-
-
-def test_what_libraries_print_of_a_damaged_file_is_not_shown(capfd):
-    """A message that is no text makes Cython print a fault that nobody can catch."""
-    before = sys.excepthook, sys.unraisablehook
-    with contextlib.suppress(ValueError), keep_quiet():
-        sys.unraisablehook(None)
-        sys.excepthook(ValueError, ValueError(), None)
-        raise ValueError
-    assert (sys.excepthook, sys.unraisablehook) == before
-    assert capfd.readouterr() == ("", "")

@@ -31,17 +31,6 @@ def test_lines_go_from_north_to_south_and_corners_are_no_middles(parse_grid):
     assert (grid.west, grid.south, grid.cell) == (700.75, 200.5, 0.5)
 
 
-def test_middles_keys_in_capitals_and_crlf_are_read(parse_grid):
-    text = HEAD.replace(b"corner", b"center").upper().replace(b"\n", b"\r\n")
-    grid = parse_grid(text + CELLS.replace(b"\n", b"\r\n"))
-    assert (grid.west, grid.south) == (700.5, 200.25)
-
-
-def test_cells_without_data_are_not_known(parse_grid):
-    grid = parse_grid(HEAD + b"NODATA_value -32767\n" + CELLS.replace(b"5", b"-32767"))
-    assert np.argwhere(np.isnan(grid.heights)).tolist() == [[2, 1]]
-
-
 HOLED = HEAD + CELLS.replace(b"5", b"%s")
 
 

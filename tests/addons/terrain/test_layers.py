@@ -1,8 +1,6 @@
 """Rows of shapefiles and GeoPackages: those of GeoJSON; what is none is refused."""
 
 import contextlib
-import math
-import sqlite3
 import subprocess
 import sys
 
@@ -48,32 +46,6 @@ def test_rows_are_those_of_geojson(tmp_path, end, size):
     assert found.crs == SWISS
 
 
-@pytest.mark.parametrize("code", ["UTF-8", "ISO-8859-1", "CP850"])
-def test_umlauts_of_a_shapefile_are_read(tmp_path, code):
-    short = {"Werkreihe": "Bödeli-1", "Netzhöhe": 3.5, "post c/c": 3.2, "colour": "x"}
-    plan = read_plan(
-        write_rows(tmp_path / "rows.shp", draw_rows(**short), encoding=code)
-    )
-    assert [one.id for one in plan.lines] == ["Bödeli-10", "Bödeli-11", "Bödeli-12"]
-    assert plan.lines[1].net_height == pytest.approx(3.6)
-    assert plan.lines[2].post_spacing == pytest.approx(3.4)
-    assert plan.unread == ("'colour'",)
-
-
-def test_a_name_that_a_shapefile_cuts_is_told(tmp_path):
-    given = {"id": "A", "net height": 3.5, "post spacing": 3.0}
-    path = write_rows(tmp_path / "rows.shp", draw_rows(**given))
-    with pytest.raises(TerrainError, match="end after ten letters"):
-        read_plan(path)
-
-
-def test_parts_of_a_shapefile_in_capitals_are_found(tmp_path):
-    write_rows(tmp_path / "rows.shp", draw_rows())
-    for one in list(tmp_path.iterdir()):
-        one.rename(tmp_path / one.name.upper())
-    assert len(read_plan(tmp_path / "ROWS.SHP").lines) == 3
-
-
 def test_units_of_a_geopackage_are_read_and_all_its_layers(tmp_path):
     path = write_rows(tmp_path / "rows.gpkg", draw_rows(**GERMAN), layer="oben")
     write_rows(path, draw_rows(**{**GIVEN, "id": "B"}), layer="unten")
@@ -99,17 +71,6 @@ def test_faults_name_the_layer_and_come_all_at_once(tmp_path):
     assert all(one.startswith("rows.gpkg: layer two, feature ") for one in told)
 
 
-def test_an_empty_cell_is_none(tmp_path):
-    (first, given), *_ = draw_rows()
-    given = {"altitude [m]": 1850.0, "ground of the anchors": "till", **given}
-    empty = {"id": "B", "altitude [m]": math.nan, "ground of the anchors": None}
-    rows = [(first, given), (first, {**given, **empty})]
-    lines = read_plan(write_rows(tmp_path / "rows.gpkg", rows)).lines
-    assert (lines[0].cells["altitude"], lines[0].cells["ground"]) == (1850.0, "till")
-    assert "altitude" not in lines[1].cells
-    assert "ground" not in lines[1].cells
-
-
 # --- reference systems ----------------------------------------------------------------
 
 
@@ -127,12 +88,6 @@ def test_rows_that_are_not_in_metres_on_a_plane_are_refused(tmp_path, end, crs, 
     with pytest.raises(TerrainError, match=said) as caught:
         read_plan(path)
     assert str(caught.value).startswith(path.name)
-
-
-@pytest.mark.parametrize("end", [".gpkg", ".shp"])
-def test_rows_without_a_system_are_taken_as_metres(tmp_path, end):
-    path = write_rows(tmp_path / f"rows{end}", draw_rows(), crs=None)
-    assert read_plan(path).crs == ""
 
 
 def test_the_system_of_a_shapefile_is_that_of_its_grid(tmp_path):
@@ -257,31 +212,3 @@ def test_counts_that_lie_are_refused_without_their_memory(tmp_path):
     assert sum(" read " not in one for one in told) >= 4, told
     assert int(megabytes) < 500
     assert ended.stderr == ""
-
-
-def test_a_dxf_is_no_file_of_rows(tmp_path):
-    (tmp_path / "rows.dxf").write_text("0\nSECTION\n")
-    with pytest.raises(TerrainError, match="no GeoJSON"):
-        read_plan(tmp_path / "rows.dxf")
-
-
-@pytest.mark.parametrize("lacking", [".shx", ".dbf"])
-def test_a_shapefile_without_its_parts_is_refused(tmp_path, lacking):
-    path = write_rows(tmp_path / "rows.shp", draw_rows())
-    path.with_suffix(lacking).unlink()
-    with pytest.raises(TerrainError, match=r"rows\.shp"):
-        read_plan(path)
-
-
-def test_a_geopackage_that_is_open_elsewhere_is_read_with_its_last_rows(tmp_path):
-    """Its rows of today may stand in a file beside it."""
-    path = write_rows(tmp_path / "rows.gpkg", draw_rows())
-    with contextlib.closing(sqlite3.connect(path)) as base:
-        base.execute("PRAGMA journal_mode=WAL")
-        for (name,) in base.execute(
-            "SELECT name FROM sqlite_master WHERE type = 'trigger'"
-        ).fetchall():
-            base.execute(f"DROP TRIGGER {name}")
-        base.execute("UPDATE rows SET id = 'Z' WHERE id = 'A1'")
-        base.commit()
-        assert [one.id for one in read_plan(path).lines] == ["A0", "Z", "A2"]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.terrain.measure import describe_steep_above, measure_rows
+from netdesign.addons.terrain.measure import measure_rows
 from netdesign.addons.terrain.site_lines import derive_cells
 from netdesign.addons.terrain.surface import choose_window
 from netdesign.outcome import TerrainError
@@ -195,22 +195,6 @@ def test_a_hole_ends_the_snow_and_says_so():
         measure(holed, on_hole)
 
 
-def test_direction_of_a_line_and_order_of_rows_change_nothing():
-    def hill(x, y):
-        return 0.75 * y + 0.004 * x**2
-
-    grid = build_grid(hill, size=160.0)
-    points = [(-12.0, -20.0), (0.0, -21.0), (12.0, -20.0)]
-    upper = draw_line([(-30.0, 5.0), (30.0, 5.0)], name="R2")
-    one = measure(grid, draw_line(points), upper)
-    back = measure(grid, upper, draw_line(points[::-1]), at=1)
-    assert one.slope.value == pytest.approx(back.slope.value, rel=1e-9)
-    assert one.slopes == pytest.approx(back.slopes[::-1], rel=1e-9)
-    assert one.aspect == pytest.approx(back.aspect, abs=1e-9)
-    assert one.length == pytest.approx(back.length)
-    assert len(one.posts) == len(back.posts)
-
-
 def test_a_row_that_bends_too_much_is_refused_and_a_kink_is_named():
     grid = build_grid(plane(PSI), size=160.0)
     bent = [(-9.0, -20.0), (0.0, -20.0), (9.0, -20.0 + 9.0 * math.tan(0.15))]
@@ -249,22 +233,3 @@ def test_snow_is_as_deep_as_on_the_flattest_ground_of_a_post(turned):
     typed = draw_line(points, turned=turned, snow_height=3.3, snow_thickness=2.0)
     row = measure(grid, typed)
     assert "snow_thickness" not in {one.key for one in derive_cells(row, [row], "g")}
-
-
-def test_steep_ground_beyond_a_zone_is_told():
-    grid = build_grid(plane(PSI), size=160.0)
-    zone = np.array([(-40.0, -30.0), (40.0, -30.0), (40.0, -4.0), (-40.0, -4.0)])
-    row = measure(grid, draw_line(ALONG_CONTOUR), zones=(zone,))
-    told = describe_steep_above(row)
-    beyond = row.ends[0].steep - row.upslope.length.value
-    assert f" {beyond:.0f} m " in told
-    assert beyond > 20.0
-    assert describe_steep_above(measure(grid, draw_line(ALONG_CONTOUR))) == ""
-
-
-def test_a_row_below_a_zone_has_its_snow_and_one_beside_it_none():
-    grid = build_grid(plane(PSI), size=160.0)
-    zone = np.array([(-40.0, -10.0), (6.0, -10.0), (6.0, 4.0), (-40.0, 4.0)])
-    row = measure(grid, draw_line(ALONG_CONTOUR), zones=(zone,))
-    lengths = {round(one.length.value, 6) for one in row.ends}
-    assert lengths == {0.0, round(24.0 / math.cos(PSI), 6)}

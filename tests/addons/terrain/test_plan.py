@@ -129,10 +129,6 @@ def test_what_is_no_geojson_is_refused_in_words(tmp_path, text):
         read_plan(path)
 
 
-def test_written_rows_are_read_again(read):
-    assert read(collect(feature(LINE, **GIVEN))).lines[0].id == "A"
-
-
 def test_degrees_are_refused_and_a_byte_order_mark_is_none(tmp_path):
     path = tmp_path / "rows.geojson"
     degrees = [[9.81, 46.81], [9.82, 46.81]]

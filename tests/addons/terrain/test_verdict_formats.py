@@ -11,7 +11,6 @@ import pytest
 from netdesign.addons.terrain.verdict_map import write_verdicts
 
 VERDICTS = ("pass", "fail", "not_proven", "declared")
-EVIL = "A|1;\n0\nSECTION %%u <>/"
 
 
 def draw_features(seed=3, name="R1"):
@@ -92,17 +91,6 @@ def test_a_drawing_has_posts_heads_and_axes_in_metres(tmp_path, language, layers
         "R1-1 Foot anchor, B40, 123.4 kN",
     ]
     assert len(labels) == len(features)
-
-
-def test_names_that_would_break_a_drawing_do_not(tmp_path):
-    features = draw_features(name=EVIL)
-    for one in features[1:]:
-        one["properties"]["part"] = EVIL
-    drawing = ezdxf.readfile(write(tmp_path, "m.dxf", features))
-    assert not drawing.audit().has_errors
-    assert len(drawing.modelspace().query("POINT")) == len(features) - 1
-    texts = [one.dxf.text for one in drawing.modelspace().query("TEXT")]
-    assert all("SECTION" in one and "%%" not in one for one in texts)
 
 
 def test_geojson_is_written_with_all_that_the_rows_had_and_read_again(tmp_path):

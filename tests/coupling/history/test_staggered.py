@@ -15,9 +15,8 @@ from netdesign.coupling.history.settings import (
 )
 from netdesign.coupling.history.staggered import run_exchange, solve_staggered
 from netdesign.coupling.history.transient import run_history
-from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.outcome import ModelError, Outcome, SolveError
-from tests.each import each
+from netdesign.coupling.solution import FailedSolution
+from netdesign.outcome import Outcome, SolveError
 
 SETTINGS = StaggeredSettings(base_drag=0.1, horizon=0.02)
 
@@ -68,14 +67,6 @@ def test_exchange_ends_near_the_implicit_history(a_scene):
     )
 
 
-def test_solution_says_its_method_and_its_error(a_scene):
-    solution = solve_staggered(a_scene(), SETTINGS)
-    assert isinstance(solution, Solution)
-    assert solution.method == "staggered"
-    assert solution.history.start == "straight"
-    assert 0.0 < solution.foot.error < 0.1 * solution.foot.size
-
-
 def test_increments_without_a_solution_fail_with_a_reason(a_scene, monkeypatch):
     def without(*arguments, **options):
         increment = advance_increment(*arguments, **options)
@@ -89,11 +80,6 @@ def test_increments_without_a_solution_fail_with_a_reason(a_scene, monkeypatch):
         solve_staggered(a_scene(), SETTINGS, on_failure="raise")
 
 
-def test_ground_without_slip_is_refused(a_scene):
-    with pytest.raises(ModelError, match="own base drag"):
-        solve_staggered(a_scene(ground="no-slip"))
-
-
 SETTINGS_REFUSED = [
     ({"base_drag": 0.0}, "base drag"),
     ({"base_drag": math.nan}, "base drag"),
@@ -105,31 +91,3 @@ SETTINGS_REFUSED = [
     ({"stress_tolerance": 1e-3}, "stress tolerance"),
     ({"max_iterations": 0}, "iterations"),
 ]
-
-
-@each("changes, name", SETTINGS_REFUSED)
-def test_settings_are_refused(changes, name):
-    with pytest.raises(ModelError, match=name):
-        StaggeredSettings(**changes)
-
-
-@pytest.mark.parametrize("start", ["straight", "sagged", "steady"])
-def test_head_above_the_snow_keeps_its_free_segment(a_scene, start):
-    """Version 0.1.0 put the snow's upper corner on the head: no length was left."""
-    scene = a_scene(height_m=4.63, slack=0.03)
-    settings = replace(SETTINGS, start=start, horizon=2e-3)
-    run = run_exchange(scene, settings)
-    assert run.state.top == "on-net"
-    gap = np.hypot(*np.diff(run.instant.points[:, -2:]).T[0])
-    assert gap == pytest.approx(0.63 / 4.0, rel=0.2)
-
-
-def test_a_failure_of_the_result_is_an_outcome_too(a_scene, monkeypatch):
-    def fail(*_, **__):
-        raise SolveError(Outcome.BALANCE_VIOLATED, "the net would have to push.")
-
-    monkeypatch.setattr(staggered, "build_solution", fail)
-    result = solve_staggered(a_scene(), replace(SETTINGS, horizon=1e-3))
-    assert isinstance(result, FailedSolution)
-    assert result.outcome is Outcome.BALANCE_VIOLATED
-    assert "would have to push; the method transient" in str(result.reason)

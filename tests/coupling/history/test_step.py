@@ -12,7 +12,6 @@ from netdesign.coupling.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.history.snow import PlainSnow, SnowIterate, take_linear
 from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.history.step import assemble_step, condense_step
-from netdesign.outcome import SolveError
 from netdesign.snow import forms
 from netdesign.snow.law import linearise_creep
 from netdesign.snow.mesh import build_template
@@ -142,26 +141,3 @@ def test_forces_at_the_net_change_the_answer_as_their_derivative_says(a_scene, c
     again = condense_step(equations, rest, more).answer(none.ravel())
     size = np.abs(again.unknowns).max()
     np.testing.assert_allclose(there.unknowns, again.unknowns, atol=1e-11 * size)
-
-
-def test_velocities_that_deform_nothing_leave_no_rounding_in_the_balance(a_scene, core):
-    """The iteration is one of changes: the next one mends what large numbers lose."""
-    problem, state = begin(a_scene())
-    equations = assemble_step(problem, state, STEP)
-    iterate = SnowIterate(np.zeros(2 * state.velocity.shape[1]), None, None)
-    none = np.zeros((2, state.carried.size))
-    left = []
-    for _ in range(12):
-        iterate = condense_step(equations, iterate, none).answer(none.ravel())
-        left.append(np.abs(iterate.imbalance[equations.load.inner]).max())
-    assert iterate.change < 1e-8
-    assert left[-1] < 1e-11
-
-
-def test_snow_without_a_sound_mesh_is_refused(a_scene, core):
-    problem, state = begin(a_scene())
-    vertices = state.body.vertices.copy()
-    vertices[0, state.body.topology.net] -= 20.0
-    wrong = replace(state, body=replace(state.body, vertices=vertices))
-    with pytest.raises(SolveError, match="folds over"):
-        assemble_step(problem, wrong, STEP)

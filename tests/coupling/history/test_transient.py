@@ -10,8 +10,8 @@ from netdesign.coupling.history import transient
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.moments import select_counted
-from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.outcome import ModelError, Outcome, SolveError
+from netdesign.coupling.solution import Solution
+from netdesign.outcome import Outcome, SolveError
 from tests.each import each
 
 COARSE = TRANSIENT_LEVELS[0]
@@ -48,31 +48,6 @@ def test_mass_is_kept(a_scene, densifies):
     )
     np.testing.assert_allclose(masses, masses[0], rtol=1e-4)
     assert masses[-1] / (1.0 - history.fallen) == pytest.approx(masses[0], rel=1e-12)
-
-
-def test_snow_densifies_and_never_beyond_ice(a_scene):
-    history = run(a_scene(), horizon=1.0)
-    densest = np.array([m.max_relative_density for m in history.moments])
-    assert densest[0] == pytest.approx(0.4, rel=1e-3)
-    assert (np.diff(densest) > -1e-12).all()
-    assert 0.41 < densest[-1] < 1.0
-
-
-def test_density_of_snow_that_does_not_densify_still_follows_its_mass(a_scene):
-    """The flag decides what the creep law sees, not what the mass does."""
-    with_, without = (
-        run(a_scene(), densifies=densifies).moments[-1].max_relative_density
-        for densifies in (True, False)
-    )
-    assert with_ > 0.4
-    assert without > 0.4
-
-
-def test_straight_net_takes_up_its_tension(a_scene):
-    history = run(a_scene(), start="straight")
-    foot = sizes(history.moments, "foot")
-    assert foot[0] < 0.5 * foot.max()
-    assert foot[-1] > 0.9 * foot.max()
 
 
 @each("inclination_deg", [0.0, 30.0])
@@ -114,21 +89,6 @@ def test_stated_error_holds_on_a_finer_mesh_with_finer_steps(a_scene, friction_d
         assert pull.error < 0.04 * pull.size
         true = sizes(fine.moments, end).max() * scene.force_scale
         assert abs(pull.size - true) < pull.error
-
-
-def test_time_ends_at_the_horizon(a_scene):
-    history = run(a_scene())
-    times = np.array([moment.time for moment in history.moments])
-    assert (np.diff(times) > 0.0).all()
-    assert times[-1] == pytest.approx(SHORT, rel=1e-12)
-    assert history.ended is None
-
-
-def test_run_may_stop_at_its_plateau(a_scene):
-    history = run(a_scene(), horizon=5.0, stops_at_plateau=True)
-    assert history.plateau.reached
-    assert history.moments[-1].time < 5.0
-    assert history.plateau.time <= history.moments[-1].time
 
 
 @pytest.mark.parametrize("start", ["straight", "sagged"])
@@ -186,25 +146,6 @@ def test_solution_keeps_the_largest_pull_and_the_plateau(a_scene):
     assert solution.balance.relative_residual < 1e-8
 
 
-def test_too_few_steps_are_said(a_scene):
-    solution = solve(a_scene(), max_steps=5)
-    assert "5 steps were not enough" in str(solution.history.ended)
-    assert not solution.history.plateau.reached
-
-
-def test_first_step_that_fails_is_a_failure(a_scene, monkeypatch):
-    def fail(*_, **__):
-        raise SolveError(Outcome.NO_EQUILIBRIUM, "nothing holds")
-
-    monkeypatch.setattr(transient, "advance", fail)
-    result = solve_transient(a_scene())
-    assert isinstance(result, FailedSolution)
-    assert result.outcome is Outcome.NO_EQUILIBRIUM
-    assert str(result.reason).startswith("first step: ")
-    with pytest.raises(SolveError, match="nothing holds"):
-        solve_transient(a_scene(), on_failure="raise")
-
-
 def test_step_that_fails_later_ends_the_history_there(a_scene, monkeypatch):
     """The last good moment stands, and the plateau is not claimed."""
     taken = []
@@ -234,9 +175,3 @@ SETTINGS_REFUSED = [
     ({"max_iterations": 0}, "iterations"),
     ({"levels": TRANSIENT_LEVELS[:1]}, "two mesh levels"),
 ]
-
-
-@each("changes, name", SETTINGS_REFUSED)
-def test_settings_are_refused(changes, name):
-    with pytest.raises(ModelError, match=name):
-        TransientSettings(**changes)

@@ -8,7 +8,6 @@ import pytest
 from netdesign.coupling.steady import correction
 from netdesign.coupling.steady.correction import carry_tangent, correct_round
 from netdesign.coupling.steady.round import RoundResult
-from netdesign.snow.linear import SingularError
 
 CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
 
@@ -53,39 +52,6 @@ def test_a_round_that_made_things_worse_is_half_taken_back(monkeypatch):
     better = a_round(first.target, first.target + 0.002)
     third = correct_round(PROBLEM, better, first)
     np.testing.assert_allclose(third.target, first.target + 0.002, atol=1e-15)
-
-
-def test_a_step_is_not_halved_for_ever(monkeypatch):
-    monkeypatch.setattr(
-        correction, "linearise_round", lambda *_: np.zeros((2, 3, 2, 3))
-    )
-    found = correct_round(PROBLEM, a_round(CURVE, CURVE + 0.01), None)
-    for _ in range(20):
-        if not found.may_halve:
-            break
-        found = correct_round(PROBLEM, a_round(CURVE, CURVE + 1.0), found)
-    assert not found.may_halve
-    on = correct_round(PROBLEM, a_round(CURVE + 0.5, CURVE + 1.0), found)
-    np.testing.assert_array_equal(on.curve, CURVE + 0.5)
-
-
-def test_without_a_derivative_the_step_is_a_damped_round(monkeypatch):
-    def fail(*_):
-        raise SingularError("nothing holds the snow")
-
-    monkeypatch.setattr(correction, "linearise_round", fail)
-    found = correct_round(PROBLEM, a_round(CURVE, CURVE + 0.01), None)
-    np.testing.assert_allclose(found.target, CURVE + 0.005, atol=1e-15)
-
-
-def test_a_carried_derivative_takes_the_step_without_another(monkeypatch):
-    monkeypatch.setattr(correction, "linearise_round", None)
-    matrix = np.random.default_rng(8).normal(0.0, 2.0, (2, 3, 2, 3))
-    miss = np.array([[0.0, 0.013, 0.007], [0.0, -0.004, 0.011]])
-    found = correct_round(PROBLEM, a_round(CURVE, CURVE + miss), None, matrix)
-    left = found.step - np.tensordot(matrix, found.step, 2)
-    np.testing.assert_allclose(left, miss, atol=1e-14)
-    assert found.tangent is matrix
 
 
 def test_a_derivative_is_carried_as_what_it_does_to_straight_pieces():

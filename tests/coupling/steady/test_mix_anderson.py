@@ -22,19 +22,6 @@ def iterate(image_of, rounds: int, depth: int = 12, damping: float = 1.0):
     return point
 
 
-def test_first_round_is_the_plain_step():
-    points, images = [np.zeros(3)], [SHIFT]
-    np.testing.assert_array_equal(mix_anderson(points, images), SHIFT)
-
-
-def test_depth_one_is_the_plain_iteration():
-    matrix = np.diag([0.5, -0.3, 0.1])
-    point = np.zeros(3)
-    for _ in range(6):
-        point = affine_map(matrix)(point)
-    np.testing.assert_allclose(iterate(affine_map(matrix), 6, depth=1), point)
-
-
 @pytest.mark.parametrize("factor", [0.9, 3.0])
 @pytest.mark.parametrize("damping", [0.5, 1.0])
 def test_affine_map_ends_in_one_round_more_than_unknowns(factor, damping):
@@ -57,15 +44,6 @@ def test_secant_of_a_scalar():
         [np.array([x0]), np.array([x1])], [np.array([g0]), np.array([g1])]
     )
     assert mixed[0] == pytest.approx(expected, rel=1e-14)
-
-
-def test_history_beyond_the_depth_is_forgotten():
-    rng = np.random.default_rng(5)
-    points, images = list(rng.normal(size=(2, 6, 3)))
-    short = mix_anderson(list(points[-3:]), list(images[-3:]), depth=3)
-    np.testing.assert_array_equal(
-        mix_anderson(list(points), list(images), depth=3), short
-    )
 
 
 def test_two_equal_iterates_do_not_break_it():

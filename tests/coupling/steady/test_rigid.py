@@ -9,10 +9,8 @@ import pytest
 from netdesign.coupling import interface
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, WallSolution
-from netdesign.coupling.steady import rigid
-from netdesign.coupling.steady.rigid import measure_glide_factor, solve_rigid
-from netdesign.outcome import Outcome, SolveError
-from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.outcome import Outcome
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
 
@@ -55,15 +53,6 @@ def test_friction_is_within_its_limit(a_scene, friction_angle, inclination):
     assert (np.abs(shear) <= limit + 1e-8 * scale).all()
 
 
-def test_more_friction_ends_in_adhesion(a_scene):
-    """The settling snow hangs on the wall the more, the rougher it is."""
-    hanging = [
-        -press(a_scene, angle, **PRESSED).force.y for angle in (0.0, 0.1, 0.3, None)
-    ]
-    assert hanging == sorted(hanging)
-    assert hanging[-1] > hanging[0]
-
-
 def test_pressure_tips_the_upper_edge_downslope(a_scene):
     """A lone downslope force at height y has the moment + y F."""
     solution = press(a_scene, 0.0, **PRESSED)
@@ -72,23 +61,6 @@ def test_pressure_tips_the_upper_edge_downslope(a_scene):
     # without shear or lean only X-forces turn it
     moment = (solution.wall_nodes[1] * solution.wall_forces[0]).sum()
     assert solution.moment_about_foot == pytest.approx(moment, rel=1e-12)
-
-
-def test_pressure_turns_an_inclined_wall_by_its_distance_along_it(a_scene):
-    """Smooth: forces normal to the wall, arms measured along it from the foot."""
-    solution = press(a_scene, 0.0, 0.5, **PRESSED)
-    x, y = solution.wall_nodes[:, 1:]
-    normal = np.array([math.cos(0.5), -math.sin(0.5)])
-    pressure = normal @ solution.wall_forces[:, 1:]
-    moment = (np.hypot(x, y) * pressure).sum()
-    assert solution.moment_about_foot == pytest.approx(moment, rel=1e-9)
-
-
-def test_resultant_is_that_of_the_nodes(a_scene):
-    solution = press(a_scene, **PRESSED)
-    total = solution.wall_forces.sum(axis=1)
-    np.testing.assert_allclose(total, [solution.force.x, solution.force.y], rtol=1e-12)
-    assert solution.balance.smallest_tension is None
 
 
 def test_wall_holds_layered_snow(a_scene):
@@ -123,13 +95,6 @@ def test_stated_error_holds(a_scene):
     assert apart <= coarse.force.error
 
 
-def test_too_few_newton_steps(a_scene):
-    result = solve_rigid(walled(a_scene, **PRESSED), replace(COARSE, max_iterations=2))
-    assert isinstance(result, FailedSolution)
-    assert result.outcome is Outcome.MAX_ITERATIONS
-    assert "snow flow" in str(result.reason)
-
-
 def test_force_lost_on_the_ground(a_scene, monkeypatch):
     compute = interface.compute_support_forces
 
@@ -141,20 +106,3 @@ def test_force_lost_on_the_ground(a_scene, monkeypatch):
     result = solve_rigid(walled(a_scene, **PRESSED), COARSE)
     assert isinstance(result, FailedSolution)
     assert result.outcome is Outcome.BALANCE_VIOLATED
-
-
-@pytest.mark.long
-def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
-    recipe = measure_glide_factor(BOUTILLIER_2004, 31.5)
-    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 341.0)
-    longer = measure_glide_factor(BOUTILLIER_2004, 31.5)
-    assert longer == pytest.approx(recipe, rel=5e-4)
-    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 61.0)  # too short: 20 thicknesses
-    assert measure_glide_factor(BOUTILLIER_2004, 31.5) < 0.99 * recipe
-
-
-def test_glide_factor_without_a_solution_raises(monkeypatch):
-    monkeypatch.setattr(rigid, "_FINE", replace(COARSE, max_iterations=1))
-    with pytest.raises(SolveError, match="snow flow") as raised:
-        measure_glide_factor(BOUTILLIER_2004, 1.0)
-    assert raised.value.outcome is Outcome.MAX_ITERATIONS

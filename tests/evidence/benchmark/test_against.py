@@ -16,8 +16,6 @@ from netdesign.evidence.benchmark.against import (
     list_figures,
     write_sites,
 )
-from netdesign.evidence.table import show_document
-from netdesign.words.catalogue import load_texts
 
 THIS, OTHER = Path(sys.executable), Path("other-python")
 SIZE = Size(repeats=3, scenes=("paper-0",), rows=1)
@@ -67,52 +65,3 @@ def test_a_changed_site_differs_in_one_cell(tmp_path):
         cells = (re.split(r"[,\n]", one[other]) for one in (site, changed))
         (different,) = ((a, b) for a, b in zip(*cells, strict=True) if a != b)
         assert different[1] == text
-
-
-def test_medians_and_their_ratio(runs):
-    rows = compare_versions(OTHER, SIZE)["rows"]
-    by_cpu, by_wall = (one for one in rows if one["what"] == "row")
-    assert (by_cpu["this_s"], by_cpu["this_between_s"]) == (2.0, [2.0, 2.0])
-    assert (by_cpu["other_s"], by_cpu["other_between_s"]) == (4.0, [3.0, 5.0])
-    assert by_cpu["times_faster"] == by_wall["times_faster"] == 2.0
-    assert (by_wall["other_s"], by_wall["failure"]) == (8.0, "")
-
-
-def test_a_failure_of_the_other_is_told_and_not_raised(runs):
-    document = compare_versions(OTHER, SIZE)
-    failed = document["rows"][0]
-    assert (failed["what"], failed["failure"]) == ("solve", "of its own (3)")
-    assert (failed["this_s"], failed["other_s"]) == (2.0, None)
-    assert failed["times_faster"] is None
-    assert document["pass"]  # of this version
-
-
-def test_every_key_that_is_shown_has_a_name(runs):
-    document = compare_versions(OTHER, SIZE)
-    shown = document.keys() - {"schema", "machine", "size"}
-    for key in shown | document["rows"][0].keys():
-        assert f"bench_value.{key}" in load_texts("en"), key
-    for row in document["rows"]:
-        assert f"bench_word.{row['what']}" in load_texts("en")
-
-
-def test_a_failure_of_this_version_fails(runs, monkeypatch):
-    monkeypatch.setattr(against, "time_figure", lambda *_: "both")
-    document = compare_versions(OTHER, SIZE)
-    assert {row["failure"] for row in document["rows"]} == {"both; both"}
-    assert not document["pass"]
-
-
-def test_table(runs, capsys):
-    from rich.console import Console
-
-    document = compare_versions(OTHER, SIZE)
-    show_document(document, Console(width=200))
-    lines = capsys.readouterr().out.splitlines()
-    (row,) = (
-        line
-        for line in lines
-        if "one row, three ranges" in line and "processor" in line
-    )
-    assert row.index(" 2 ") < row.index(" 4 ") < row.rindex(" 2 ")
-    assert sum("of its own" in line for line in lines) == 6  # three figures, two clocks

@@ -10,8 +10,6 @@ from netdesign.evidence.benchmark import attempts
 from netdesign.evidence.benchmark.attempts import (
     Attempt,
     attempt_scene,
-    attempt_scenes,
-    generalise,
     list_accepted,
     write_stress,
 )
@@ -72,32 +70,6 @@ def test_a_poor_balance_is_a_failure(monkeypatch, solved, balance, kind):
     assert attempt_with(monkeypatch, lambda *_: Poor()).kind == kind
 
 
-def test_refused_before_solving(monkeypatch):
-    monkeypatch.setattr(attempts, "solve_steady", lambda *_: pytest.fail("was solved"))
-    accepted = set()
-    for number in list_accepted(SEED):
-        accepted.add(number)
-        if number > 20:
-            break
-    refused = set(range(20)) - accepted
-    assert refused
-    for number in refused:
-        attempt = attempt_scene(number, seed=SEED)
-        assert attempt.kind == "refused before"
-        assert attempt.reason
-
-
-def test_processes_give_what_one_gives():
-    alone = attempt_scenes(4, SEED, accuracy=0.05)
-    shared = attempt_scenes(4, SEED, accuracy=0.05, jobs=2)
-    assert [describe(one) for one in shared] == [describe(one) for one in alone]
-    assert [one.number for one in shared] == [0, 1, 2, 3]
-
-
-def describe(one: Attempt) -> tuple[object, ...]:
-    return one.number, one.kind, one.reason, one.linear_solves, repr(one.balance)
-
-
 ATTEMPTS = [
     Attempt(number=0, kind="converged", cpu_s=0.5, linear_solves=20, balance=1e-10,
             stated_error=0.004),
@@ -110,24 +82,6 @@ ATTEMPTS = [
 ]  # fmt: skip
 
 
-def test_report():
-    document = write_stress(ATTEMPTS, 7, 0.005)
-    assert document["schema"] == "netdesign.stress/1"
-    assert document["scenes"] == 5
-    assert document["converged"] == 2
-    assert document["refused"] == [
-        {"reason": "net height = ... m is low", "when": "before", "count": 2},
-        {"reason": "out_of_validity: ... pull", "when": "while solving", "count": 1},
-    ]
-    assert document["failures"] == []
-    assert document["pass"] is True
-    assert document["worst_balance"] == 3e-9
-    assert document["most_linear_solves"] == 30
-    assert document["accuracy_missed"] == 1
-    assert document["slowest_s"] == 2.0
-    assert [one["scene"] for one in document["slowest"]] == [4, 0, 1]
-
-
 def test_one_failure_fails_the_whole():
     failed = Attempt(number=5, kind="failed", reason="diverged", tables={"slope": {}})
     document = write_stress([*ATTEMPTS, failed], 7)
@@ -135,10 +89,3 @@ def test_one_failure_fails_the_whole():
     assert document["failures"] == [
         {"scene": 5, "reason": "diverged", "tables": {"slope": {}}}
     ]
-
-
-def test_reasons_are_counted_without_their_numbers():
-    assert (
-        generalise("zwinger-2007: -1.5e-3 of 4 is 7%")
-        == "zwinger-2007: ... of ... is ..."
-    )

@@ -1,20 +1,15 @@
 """Errors against a finer mesh."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.benchmark import truth as truths
 from netdesign.evidence.benchmark.truth import (
     HALVINGS,
     Truth,
-    build_truth,
-    find_level,
     refine_size,
     solve_fine,
     solve_truth,
@@ -54,12 +49,6 @@ def test_stated_error_is_that_of_the_worse_end(solved):
     assert shares[0] != shares[1]
 
 
-@pytest.mark.parametrize("level", [1, 2])
-def test_level_of_a_solution(solved, level):
-    solution = solved(first_level=level - 1)
-    assert find_level(solution, MESH_LEVELS) == MESH_LEVELS[level + 1]
-
-
 def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
     truth = solve_truth(a_scene(), MESH_LEVELS[3], SolverSettings())
     coarse, fine = solved(), solved(first_level=2)
@@ -67,12 +56,6 @@ def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
     # FACTS.md, section 6: two independent codes
     assert np.hypot(*truth.foot) == pytest.approx(309.67e3, rel=3e-4)
     assert 2**HALVINGS == 4
-
-
-def test_no_truth_without_convergence():
-    failed = FailedSolution(outcome=Outcome.DIVERGED, reason="why")
-    with pytest.raises(SolveError, match="why"):
-        build_truth(failed)
 
 
 def test_suction_just_beyond_the_limit_keeps_a_truth(a_scene, solved, monkeypatch):
@@ -106,13 +89,3 @@ def test_coarse_mesh_leads_to_a_truth_that_is_not_found_at_once(a_scene, monkeyp
     found = solve_fine(scene, settings)
     np.testing.assert_allclose(found.foot, at_once.foot, rtol=5e-3)
     assert not np.array_equal(found.foot, at_once.foot)
-
-
-def test_result_of_a_coarser_mesh_is_no_truth(a_scene, solved, monkeypatch):
-    coarse = solved(first_level=0)
-    monkeypatch.setattr(truths, "solve_steady", lambda *_, **__: coarse)
-    levels = MESH_LEVELS[1:3]
-    settings = SolverSettings(levels=levels)
-    assert solve_fine(a_scene(), settings).compare(coarse) == 0.0
-    with pytest.raises(SolveError):
-        solve_fine(a_scene(), replace(settings, levels=MESH_LEVELS[2:4]))

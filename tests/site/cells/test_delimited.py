@@ -85,14 +85,6 @@ def test_decimal_commas_between_commas_are_refused(tmp_path):
     assert "has no heading above it" in refusal_of(path, text_format)
 
 
-def test_cells_are_named_as_a_spreadsheet_would(tmp_path):
-    nets = NETS.replace("38,5", "3B")
-    ranges = RANGES.replace("friction angle [deg];15", "x [deg];1")
-    message = refusal_of(write_both(tmp_path / "site", nets, ranges))
-    assert 'Nets.csv › Nets › B2: "3B" is not a number' in message
-    assert 'Ranges.csv › Ranges › A3: "x [deg]" is no known quantity' in message
-
-
 def test_a_folder_of_files_is_a_workbook(tmp_path):
     folder = tmp_path / "site"
     folder.mkdir()
@@ -138,25 +130,3 @@ def test_what_cannot_be_read_is_one_clear_finding(tmp_path, content, rule):
     message = refusal_of(path)
     assert rule in message
     assert message.count("\n") == 0
-
-
-def test_a_folder_without_csv_files_is_refused(tmp_path):
-    assert "is a folder without csv files" in refusal_of(tmp_path)
-
-
-def test_text_that_looks_like_a_formula_is_no_number(tmp_path):
-    text = NETS.replace("R1;38,5", "R1;=38+1")
-    assert '"=38+1" is not a number' in refusal_of(write(tmp_path / "site.csv", text))
-
-
-@pytest.mark.parametrize(
-    ("cell", "told"),
-    [
-        ('"37,2', "line 2: a quote is not closed, or is followed by more text"),
-        ('"37"x', "line 2: a quote is not closed, or is followed by more text"),
-        ("7" * 140_000, "line 2: a cell of more than 131072 characters"),
-    ],
-)
-def test_text_that_is_no_csv_is_told_by_its_line(tmp_path, cell, told):
-    path = write(tmp_path / "site.csv", NETS.replace("38,5", cell))
-    assert told in refusal_of(path, TextFormat(delimiter=";"))

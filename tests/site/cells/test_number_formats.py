@@ -2,7 +2,6 @@
 
 import random
 
-import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
@@ -181,21 +180,3 @@ def test_a_percent_slope_below_percent_is_read_whatever_shows_it(save, sheets):
         rows = read_site(path).rows
         assert rows[0].slope_angle == rows[1].slope_angle
     assert convert_unit(65.7, "%", "deg") == pytest.approx(33.305, abs=1e-3)
-
-
-def test_a_format_on_an_empty_cell_or_a_name_says_nothing(save, sheets):
-    def edit(workbook):
-        for address in ("A2", "D2", "L2"):
-            workbook["Nets"][address].number_format = '0"%"'
-
-    assert len(read_site(save(sheets, edit)).rows) == 2
-
-
-def test_the_template_s_own_formats_agree_with_its_headings(tmp_path):
-    from netdesign.site.template.workbook import write_site_workbook
-
-    for language in ("en", "fr", "de"):
-        path = tmp_path / f"{language}.xlsx"
-        write_site_workbook(path, example=True, language=language)
-        assert read_site(path).rows
-        openpyxl.load_workbook(path).close()

@@ -9,7 +9,6 @@ import xlsxwriter
 from netdesign.outcome import NetDesignError, SiteDataError
 from netdesign.site.cells import cells as limits
 from netdesign.site.cells import spreadsheet
-from netdesign.site.cells.cells import name_column
 from netdesign.site.cells.spreadsheet import read_workbook
 
 
@@ -63,18 +62,6 @@ def test_an_ods_file_is_saved_as_xlsx_first(tmp_path):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("content.xml", "<x/>")
     assert "is an OpenDocument workbook (.ods): save it as .xlsx" in refusal_of(path)
-
-
-def test_only_wanted_sheets_are_read(small):
-    workbook = read_workbook(small, lambda name: name == "Other")
-    assert workbook.sheets == ()
-    assert workbook.unread == ("One",)
-
-
-def test_columns_are_named_as_in_a_spreadsheet():
-    assert [name_column(n) for n in (1, 26, 27, 702, 703)] == [
-        *("A", "Z", "AA", "ZZ", "AAA")
-    ]
 
 
 def test_formulas_keep_their_text_beside_their_stored_result(tmp_path):
@@ -133,11 +120,6 @@ def test_a_declared_size_of_the_sheet_is_not_trusted(small):
     assert sheet.cell(4, 3).text == "text"
 
 
-def test_a_missing_file_is_one_clear_finding(tmp_path):
-    path = tmp_path / "none.xlsx"
-    assert f"none.xlsx: the file does not exist at {path}" in refusal_of(path)
-
-
 @pytest.mark.parametrize(
     ("content", "message"),
     [
@@ -152,17 +134,6 @@ def test_what_is_no_workbook_is_one_clear_finding(tmp_path, content, message):
     finding = refusal_of(path)
     assert message in finding
     assert "saved as .xlsx" in finding
-
-
-def test_text_under_the_name_of_a_workbook_is_told_apart(tmp_path):
-    path = tmp_path / "site.xlsx"
-    path.write_bytes(b"id;slope\nR1;40\n")
-    assert "is a text file; accepted: the ending .csv" in refusal_of(path)
-
-
-def test_a_truncated_workbook_is_refused(small):
-    small.write_bytes(small.read_bytes()[:-200])
-    assert "cannot be read as a workbook" in refusal_of(small)
 
 
 def test_an_archive_without_workbook_is_refused(tmp_path):

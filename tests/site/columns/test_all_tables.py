@@ -83,25 +83,3 @@ def test_si_values():
     assert to_si(2.0, "kN") == 2000.0
     assert to_si(2.0, "kN/m") == 2000.0
     assert to_si(2.0, "m") == 2.0
-
-
-@pytest.mark.parametrize(
-    ("sheet", "key", "heading"),
-    [
-        ("Links", "working_limit", "Tragfähigkeit"),
-        ("Links", "working_limit", "WLL"),
-        ("Monitoring", "tension", "Zugkraft"),
-        ("Uncertainty", "mean_ratio", "Mittelwert durch Eingabe"),
-        ("Uncertainty", "mean_ratio", "moyenne sur la valeur saisie"),
-        ("Nets", "net_cut", "coupe du filet"),
-    ],
-)
-def test_a_heading_is_known_by_the_name_it_had(sheet, key, heading):
-    (field,) = (
-        one
-        for plan in SHEETS
-        if plan.name == sheet
-        for one in plan.fields
-        if one.key == key
-    )
-    assert normalise(heading) in field.names

@@ -2,13 +2,12 @@
 
 import unicodedata
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from netdesign.site.columns.all_tables import RANGES, READ_LANGUAGES, SHEETS, load_file
-from netdesign.site.columns.fields import normalise, normalise_unit
-from netdesign.site.columns.lexicon import Lexicon, is_allowable
+from netdesign.site.columns.all_tables import RANGES, SHEETS
+from netdesign.site.columns.fields import normalise
+from netdesign.site.columns.lexicon import Lexicon
 from netdesign.site.guesses import guess
 from tests.each import each
 
@@ -76,32 +75,6 @@ def test_no_heading_is_sure_and_unclear_at_once(table):
     assert not lexicon.names.keys() & {k for k, keys in lexicon.unclear.items() if keys}
 
 
-@pytest.mark.parametrize("language", READ_LANGUAGES)
-def test_headings_are_of_fields_that_there_are(language):
-    keys = {name: {field.key for field in fields} for name, fields in FIELDS.items()}
-    keys["sheets"] = {plan.name for plan in SHEETS}
-    tables = load_file(f"headings/{language}")
-    for table, entries in tables.items():
-        if table in keys:
-            assert set(entries) <= keys[table]
-    for plan in SHEETS:
-        known = keys[plan.name] | {field.key for field in plan.items}
-        assert set(tables["unclear"].get(plan.name, {})) <= known
-
-
-def test_no_sheet_name_stands_for_two_sheets():
-    owners = {}
-    for plan in SHEETS:
-        for name in plan.raw_names:
-            owners.setdefault(normalise(name), set()).add(plan.name)
-    assert {name: plans for name, plans in owners.items() if len(plans) > 1} == {}
-
-
-def test_no_name_of_a_resistance_speaks_of_an_allowable_value():
-    allowable = {(table, key) for table, key, name in NAMES if is_allowable(name)}
-    assert allowable <= {("Links", "working_limit")}
-
-
 @st.composite
 def written(draw):
     """A known heading as somebody else writes it."""
@@ -162,22 +135,3 @@ def test_without_its_own_name_a_heading_is_never_taken_for_an_allowable_one(one)
     table, _, name = one
     assert guess(f"zul. {name}", "", FIELDS[table]).field is None
     assert guess(f"{name} admissible", "", FIELDS[table]).field is None
-
-
-@each("unit", ["m ü. M.", "m ü.A.", "m NGF", "m a.s.l.", "m s.l.m.", "m asl", "müM"])
-def test_metres_above_the_sea_are_metres(unit):
-    assert normalise_unit(unit) == "m"
-
-
-def test_millinewtons_stay_what_nobody_guesses():
-    assert normalise_unit("mN") == "mN"
-    assert normalise_unit("mN/m") == "mN/m"
-
-
-@each(
-    "name", ["Nets A", "Nets 2", "Nets North", "Filets Ouest", "Netze Süd", "Nets III"]
-)
-def test_a_sheet_for_each_structure_holds_net_rows(name):
-    nets = next(one for one in SHEETS if one.name == "Nets")
-    assert nets.is_structure(name)
-    assert not nets.is_structure("Nets old")

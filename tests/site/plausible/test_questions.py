@@ -9,7 +9,6 @@ from netdesign.site.template import workbook as template
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
-from tests.checks.given_pulls import write_row
 from tests.each import each
 from tests.site.plausible.slips import PLANS
 from tests.site_lines import write_lines
@@ -70,14 +69,6 @@ def test_a_slip_is_asked_for_with_its_cell_and_its_rows(
     (question,) = site.questions
     assert told in str(question)
     assert f"= {typed}" in str(question)
-
-
-def test_a_single_test_is_asked_for_with_the_rows_of_its_type(tmp_path):
-    strong = {"tendon resistance [kN]": 500}
-    path = write_row(tmp_path, anchor=strong, tests=[(3210, "held", None)])
-    site, places = asked(path)
-    assert (places, rows_in_question(site)) == (["Tests!C2"], ["R"])
-    assert "10 to 2000 kN" in str(site.questions[0])
 
 
 def declare(path, tmp_path, line, **cells):
@@ -153,14 +144,6 @@ def test_bounds_are_wider_than_what_is_usual():
         least, most = field.bounds
         assert least <= field.usual.least < field.usual.most <= most, place
         assert str(say(f"plausible.source_{field.usual.source}"))
-
-
-def test_what_is_usual_beside_other_columns_is_a_span_above_zero():
-    rules = [one for field in FIELDS.values() for one in field.beside]
-    assert len(rules) > 15
-    for one in rules:
-        assert 0.0 < one.least < one.most
-        assert one.powers
 
 
 MOST_FALSE_ALARMS = 0.01
