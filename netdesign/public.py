@@ -18,6 +18,7 @@ from netdesign.coupling.history.settings import TransientSettings as TransientSe
 from netdesign.coupling.history.transient import solve_transient as solve_transient
 from netdesign.coupling.scene import Scene as Scene
 from netdesign.coupling.scene import SolverSettings as SolverSettings
+from netdesign.coupling.scene import Wall as Wall
 from netdesign.coupling.solution import FailedSolution as FailedSolution
 from netdesign.coupling.solution import Solution as Solution
 from netdesign.coupling.solution import WallSolution as WallSolution
@@ -46,7 +47,6 @@ from netdesign.snow.ground import (
 from netdesign.snow.snowpack import Layer as Layer
 from netdesign.snow.snowpack import Snowpack as Snowpack
 from netdesign.snow.snowpack import build_layered_snowpack as build_layered_snowpack
-from netdesign.snow.wall import Wall as Wall
 from netdesign.snowpack.follow import follow_heights as follow_heights
 from netdesign.solving.runner import Runner as Runner
 from netdesign.structure.anchors import AnchorForces as AnchorForces

@@ -4,8 +4,7 @@ import math
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.resistance.connection import Link
-from netdesign.resistance.corrosion import Wear
+from netdesign.resistance.steel import Link, Wear
 from netdesign.site.model import (
     CONNECTED,
     DEPENDENT_MODES,

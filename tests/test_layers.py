@@ -127,7 +127,7 @@ THIRD_PARTY = {
         "coupling.solution",  # plots itself
     ),
     "pandas": ("study.records",),
-    "rapidfuzz": ("site.guesses",),
+    "rapidfuzz": ("site.questions",),
     "click": ("cli", "commands.*", "addons.*.command"),
     "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),
 }

@@ -298,7 +298,7 @@ def apply(operation: str, *operands: Operand) -> Quantity:
         dimension = known.dimension(*(one.dimension for one in of))
     if dimension is None:
         units = ", ".join(name_dimension(one.dimension) for one in of)
-        raise ModelError(say("calculation.quantity", operation=operation, units=units))
+        raise ModelError(say("calculation.units", operation=operation, units=units))
     lacks = tuple(dict.fromkeys(lack for one in of for lack in one.lacks))
     if not lacks:
         lack = _find_lack(operation, of)

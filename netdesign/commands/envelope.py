@@ -126,8 +126,7 @@ def _list_phases(given: dict[str, GivenRange]) -> list[Phase]:
 
 
 def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
-    from netdesign.envelope.parameters import PARAMETERS
-    from netdesign.envelope.ranges import Interval, Ranges
+    from netdesign.envelope.ranges import PARAMETERS, Interval, Ranges
 
     return Ranges(
         intervals=tuple(

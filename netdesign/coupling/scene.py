@@ -31,11 +31,44 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.law import FlowLayer, FlowProblem, Sides
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import Layer, Snowpack
-from netdesign.snow.wall import Wall
 from netdesign.words.message import say
 
-if TYPE_CHECKING:  # a workbook is read, and refused, without a solver
+if TYPE_CHECKING:
     from netdesign.snow.flow_step import Step
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wall:
+    """A plane rigid surface from the origin upwards.
+
+    Attributes
+    ----------
+    height_normal : float
+        Normal to the slope [m].
+    inclination : float
+        From the slope normal, upper edge downslope positive [rad].
+    friction_angle : float or None
+        Of snow on the wall [rad]; None where the snow adheres (no velocity).
+    """
+
+    height_normal: float
+    inclination: float = 0.0
+    friction_angle: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse values that no wall has."""
+        require_positive("wall height", self.height_normal, "m")
+        require_within("wall inclination", self.inclination, 0.0, math.radians(80.0))
+        if self.friction_angle is not None:
+            limit = math.radians(60.0)
+            require_within("friction angle", self.friction_angle, 0.0, limit, "rad")
+
+    @property
+    def friction(self) -> float:
+        """Tan phi [-]; infinite for adhesion."""
+        angle = self.friction_angle
+        return math.inf if angle is None else math.tan(angle)
+
 
 # Snow may stand above the head by this share of the net's height before the scene
 # is refused: rounding of a height that was meant to be equal.

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
 
+from netdesign.coupling.interface import Estimate
 from netdesign.coupling.moments import History
-from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Fault, Outcome, OutputError, SolveError

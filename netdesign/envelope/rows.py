@@ -14,8 +14,7 @@ from netdesign.envelope.extremes import (
     find_extremes,
 )
 from netdesign.envelope.lift import POST_PULLS
-from netdesign.envelope.parameters import place_scene
-from netdesign.envelope.ranges import Case, Ranges, build_case
+from netdesign.envelope.ranges import Case, Ranges, build_case, place_scene
 from netdesign.envelope.run import CaseResult, CaseTask, build_task
 from netdesign.panel.inputs import Panel
 from netdesign.search.maxima import Maxima, SearchSettings

@@ -10,9 +10,13 @@ from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
-from netdesign.envelope.panel_forces import PanelForces, resolve_panels
+from netdesign.envelope.panel_forces import (
+    PanelForces,
+    resolve_panels,
+    resolve_pulls,
+    spread_out,
+)
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.support_bands import resolve_pulls, spread_out
 from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel

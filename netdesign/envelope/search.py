@@ -10,8 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import islice
 
 from netdesign.edge.progress import Wave
-from netdesign.envelope.cases import Cases, FirstCases
-from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.cases import Cases, FirstCases, FrictionSkip
 from netdesign.envelope.lift import bound_lifted
 from netdesign.envelope.result_reader import ResultReader
 from netdesign.envelope.rows import (

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import Scene, SolverSettings, Wall
 from netdesign.coupling.solution import Solution, WallSolution, require_solved
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
@@ -17,7 +17,6 @@ from netdesign.snow.snowpack import (
     Snowpack,
     compute_mean_density,
 )
-from netdesign.snow.wall import Wall
 
 FREE = GroundLaw(kind="free")
 

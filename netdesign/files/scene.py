@@ -16,7 +16,7 @@ from netdesign.coupling.history.settings import (
     StaggeredSettings,
     TransientSettings,
 )
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import Scene, SolverSettings, Wall
 from netdesign.coupling.solution import Method
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_toml
@@ -46,7 +46,6 @@ from netdesign.snow.snowpack import (
     compute_mean_density,
     compute_thickness,
 )
-from netdesign.snow.wall import Wall
 from netdesign.solving.solve import Settings
 from netdesign.units import (
     fluidity_from_mpa_year,

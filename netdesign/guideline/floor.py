@@ -27,8 +27,8 @@ from netdesign.structure.anchors import (
     AnchorForces,
     ManyForces,
     compute_many_forces,
+    measure_pull,
 )
-from netdesign.structure.axis import measure_pull
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.message import Message, say
 

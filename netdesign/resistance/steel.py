@@ -1,11 +1,17 @@
-"""Steel of anchors and guys: bars, wire ropes and their ends."""
+"""Steel of anchors and guys: bars, wire ropes, their ends and links, and what it loses.
+
+Of the links between a rope and its anchor the weakest bears the force. In the ground
+steel is lost over the design life.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-from netdesign.outcome import require_within
+from netdesign.outcome import ModelError, require_within
+from netdesign.resistance.catalogue import Datum, interpolate, load_catalogue, pick
+from netdesign.words.message import say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,3 +190,176 @@ def compute_rope_resistance(
     require_within("breaking factor", breaking_factor, 0.1, 0.7)
     require_within("termination factor", termination, 0.1, 1.0)
     return breaking_factor * diameter**2 * grade * termination
+
+
+SHACKLE = "shackle"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Link:
+    """One link of a chain, such as a shackle, or several that share the force.
+
+    Attributes
+    ----------
+    kind : str
+        As in sheet Links.
+    breaking : float or None
+        Characteristic strength, the least that breaks it [N]; None beside a ``limit``.
+    limit : float or None
+        Working load limit [N]; None beside ``breaking``.
+    count : int
+        How many of them share the force.
+    angle : float or None
+        Of the force to the line of a shackle, where it is given [rad]; it counts where
+        no pull tells it.
+    source : str
+        Cell of its strength.
+    """
+
+    kind: str
+    breaking: float | None
+    limit: float | None
+    count: int
+    angle: float | None
+    source: str
+
+
+def find_direction_factor(angle: float) -> Datum:
+    """Share of its strength that a shackle has under a force beside its line [-].
+
+    Linear between the angles of the catalogue; resistance/THEORY.md, (R17).
+
+    Parameters
+    ----------
+    angle : float
+        0 in line, at most a right angle [rad]; beyond as at a right angle.
+
+    Verified by
+    -----------
+    tests/verification/test_connection.py
+    """
+    table = load_catalogue()["shackle"]
+    angles, factors = table["angle_deg"], table["factor"]
+    factor = interpolate(angles, factors, min(math.degrees(abs(angle)), angles[-1]))
+    source = say("resistance_source.shackle")
+    return Datum(value=factor, status=table["status"], source=source)
+
+
+def find_angle(link: Link, pulled: float | None) -> float:
+    """Angle of the force to the line of a link: of the pull, else as given, else right.
+
+    Parameters
+    ----------
+    link : Link
+        One of a chain.
+    pulled : float or None
+        Angle of the pull to its line, where that is known [rad].
+    """
+    if pulled is not None:
+        return pulled
+    return math.pi / 2 if link.angle is None else link.angle
+
+
+def resist_link(
+    link: Link, *, pulled: float | None, on_action: float, on_resistance: float
+) -> float:
+    """Characteristic resistance of a link, R_k [N]; resistance/THEORY.md, (R17).
+
+    A working load limit is met by the characteristic force: both partial factors are
+    in what stands for it.
+
+    Parameters
+    ----------
+    link : Link
+        One of a chain.
+    pulled : float or None
+        Angle of the pull to its line, where that is known [rad].
+    on_action, on_resistance : float
+        Partial factors by which the check goes [-].
+
+    Verified by
+    -----------
+    tests/verification/test_connection.py
+    """
+    strength = link.count * (link.breaking or 0.0)
+    if link.limit is not None:
+        strength = link.count * link.limit * on_action * on_resistance
+    if link.kind != SHACKLE:
+        return strength
+    return find_direction_factor(find_angle(link, pulled)).value * strength
+
+
+# Protections under which the steel itself corrodes, and is counted with what is left.
+BARE = ("none", "sacrificial")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wear:
+    """Statements of an anchor type or rope type about its corrosion.
+
+    Attributes
+    ----------
+    kind : str
+        "bar", "micropile", "rope anchor", "rope", or "" where none is given.
+    protection : str
+        As in sheet Anchors; "" where none is given, and of a rope.
+    soil : str
+        Class of the ground by its corrosion; "" where none is given.
+    protected_years : int or None
+        Years for which somebody declares the protection; None where nobody does.
+    outer, inner : float or None
+        Diameters of bar or tube [m]; None where they are not given.
+    """
+
+    kind: str
+    protection: str = ""
+    soil: str = ""
+    protected_years: int | None = None
+    outer: float | None = None
+    inner: float | None = None
+
+    @property
+    def is_bare(self) -> bool:
+        """The steel itself corrodes, and there is a thickness to lose."""
+        return self.protection in BARE and self.kind in ("bar", "micropile")
+
+
+def find_loss(soil: str, years: int) -> Datum:
+    """Loss of each exposed face, r_e, after some years [mm].
+
+    Linear between the years of the table; resistance/THEORY.md, (R16).
+
+    Raises
+    ------
+    ModelError
+        If the table has no such ground, or ends before.
+
+    Verified by
+    -----------
+    tests/verification/test_corrosion.py
+    """
+    table = load_catalogue()["corrosion"]
+    losses = pick(say("catalogue.soil"), soil, table["loss_mm"])
+    if not 0 <= years <= table["years"][-1]:
+        raise ModelError(say("corrosion.beyond", years=years, most=table["years"][-1]))
+    loss = interpolate([0, *table["years"]], [0.0, *losses], years)
+    source = say("resistance_source.corrosion")
+    return Datum(value=loss, status=table["status"], source=source)
+
+
+def leave_area(outer: float, inner: float, loss: float) -> float:
+    """Share of the steel's area that is left, A_eff / A [-]; 0 where none is.
+
+    Parameters
+    ----------
+    outer, inner : float
+        Diameters as built [m]; 0 for the inner one of a bar.
+    loss : float
+        r_e, of the outer face alone [m].
+
+    Verified by
+    -----------
+    tests/verification/test_corrosion.py
+    """
+    left = max(outer - 2.0 * loss, inner)
+    return (left**2 - inner**2) / (outer**2 - inner**2)

@@ -9,14 +9,13 @@ from pathlib import Path
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import ENDS, NETS, RANGES, SHEETS
+from netdesign.site.columns.all_tables import ENDS, NETS, RANGES, SHEETS, Lexicon
 from netdesign.site.columns.fields import (
     convert_unit,
     normalise,
     normalise_unit,
     split_heading,
 )
-from netdesign.site.columns.lexicon import Lexicon
 from netdesign.site.headings import Table
 from netdesign.site.lines import ALL_ROWS
 from netdesign.site.reader import read_cells

@@ -8,6 +8,7 @@ from itertools import islice
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, Severity, quote
+from netdesign.site.columns.all_tables import Lexicon, Meaning, has_no_part, says_sag
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
@@ -16,7 +17,6 @@ from netdesign.site.columns.fields import (
     normalise,
     split_heading,
 )
-from netdesign.site.columns.lexicon import Lexicon, Meaning, has_no_part, says_sag
 from netdesign.site.readings import refuse_stored
 from netdesign.site.titles import (
     explain,

@@ -13,10 +13,8 @@ from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
-from netdesign.resistance.connection import Link
-from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
-from netdesign.resistance.steel import RoundSection
+from netdesign.resistance.steel import Link, RoundSection, Wear
 from netdesign.resistance.wedge import Soil
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding

@@ -9,8 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as of_dataclass
 
-from netdesign.envelope.parameters import ONE_QUANTITY
-from netdesign.envelope.ranges import MOST_GRID_CASES, Interval, Ranges
+from netdesign.envelope.ranges import MOST_GRID_CASES, ONE_QUANTITY, Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding, quote
@@ -19,7 +18,9 @@ from netdesign.site.columns.all_tables import (
     FURTHER_QUANTITIES,
     NETS,
     RANGES,
+    UNANSWERED,
     USUAL_QUANTITIES,
+    Meaning,
 )
 from netdesign.site.columns.fields import (
     UNCLEAR_UNITS,
@@ -28,7 +29,6 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     split_heading,
 )
-from netdesign.site.columns.lexicon import UNANSWERED, Meaning
 from netdesign.site.headings import Table, refuse_unused_answers
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, explain_unit, read_cell, refuse

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from netdesign.checks import list_standards
 from netdesign.edge.given_files import is_there
 from netdesign.outcome import SiteDataError
-from netdesign.resistance.connection import Link
+from netdesign.resistance.steel import Link
 from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.numbers import split_range
@@ -30,12 +30,12 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     SNOW,
     TESTS,
+    UNANSWERED,
     UNCERTAINTY,
     WINTER,
     is_heading,
 )
 from netdesign.site.columns.fields import SheetPlan, find_item
-from netdesign.site.columns.lexicon import UNANSWERED
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
 from netdesign.panel.inputs import CUTS, Ends, Panel, find_stiffness, list_panels
-from netdesign.resistance.connection import Link
+from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan

@@ -11,9 +11,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from netdesign.outcome import ModelError
-from netdesign.resistance.corrosion import Wear
 from netdesign.resistance.post import PostSection
-from netdesign.resistance.steel import RoundSection
+from netdesign.resistance.steel import RoundSection, Wear
 from netdesign.resistance.wedge import Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import (

@@ -9,19 +9,19 @@ from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import NETS
+from netdesign.site.columns.all_tables import (
+    IGNORE,
+    NETS,
+    UNANSWERED,
+    UNKNOWN,
+    Lexicon,
+    Meaning,
+)
 from netdesign.site.columns.fields import (
     Field,
     SheetPlan,
     find_item,
     normalise,
-)
-from netdesign.site.columns.lexicon import (
-    IGNORE,
-    UNANSWERED,
-    UNKNOWN,
-    Lexicon,
-    Meaning,
 )
 from netdesign.site.headings import Table, find_cover, find_headings
 from netdesign.site.readings import (

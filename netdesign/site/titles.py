@@ -38,7 +38,15 @@ from netdesign.site.cells.findings import (
     refuse_file,
 )
 from netdesign.site.cells.numbers import parse_number, read_grade
-from netdesign.site.columns.all_tables import NETS, RANGES, SHEETS
+from netdesign.site.columns.all_tables import (
+    IGNORE,
+    NETS,
+    RANGES,
+    SHEETS,
+    UNANSWERED,
+    Lexicon,
+    Meaning,
+)
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     Field,
@@ -47,12 +55,6 @@ from netdesign.site.columns.fields import (
     normalise,
     normalise_unit,
     split_heading,
-)
-from netdesign.site.columns.lexicon import (
-    IGNORE,
-    UNANSWERED,
-    Lexicon,
-    Meaning,
 )
 from netdesign.site.readings import IN_CELLS, explain_unit
 from netdesign.words.message import Message, say

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from statistics import fmean
 
-from netdesign.resistance.connection import Link
 from netdesign.resistance.pull_out import SingleTest
+from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.lines import Types, refuse_unknown_ids
 from netdesign.site.readings import Reading, Row, choose_given, refuse, refuse_beside

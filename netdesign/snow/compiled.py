@@ -22,11 +22,10 @@ from netdesign.core.arguments import (
 )
 from netdesign.core.library import TOO_LARGE, require_sound
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.element import reference_element
+from netdesign.snow.element import find_once, reference_element
 from netdesign.snow.law import FlowProblem, Material
 from netdesign.snow.mesh import MeshTemplate, edge_triples
 from netdesign.snow.placed_mesh import EDGE_TANGENT
-from netdesign.snow.shared_mesh import find_once
 
 Words = NDArray[np.int32]
 

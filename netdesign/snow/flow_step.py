@@ -19,6 +19,8 @@ from netdesign.snow.contact import (
     friction_shares,
 )
 from netdesign.snow.kernel import (
+    Matrix,
+    SingularError,
     assemble_base_force,
     assemble_base_stiffness,
     assemble_body_force,
@@ -27,6 +29,7 @@ from netdesign.snow.kernel import (
     assemble_stress,
     compute_base_velocity,
     compute_strain,
+    solve_matrix,
 )
 from netdesign.snow.law import (
     FlowProblem,
@@ -38,7 +41,6 @@ from netdesign.snow.law import (
     sample_material,
     total_stress,
 )
-from netdesign.snow.linear import Matrix, SingularError, solve_matrix
 from netdesign.snow.placed_mesh import PlacedMesh
 
 

@@ -17,12 +17,12 @@ from netdesign.snow.element import (
     Element,
     add_pressure_rows,
     build_strain_operator,
+    find_once,
     list_dofs,
     map_gradients,
     reference_element,
 )
 from netdesign.snow.mesh import MeshTemplate, edge_triples
-from netdesign.snow.shared_mesh import find_once
 
 _EDGE_POINTS, EDGE_WEIGHTS = np.polynomial.legendre.leggauss(4)
 # Quadratic shape functions (n_points, 3) of an edge's start, middle and end, and their

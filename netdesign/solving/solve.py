@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import Scene, SolverSettings, Wall
 from netdesign.coupling.solution import FailedSolution, Method, Solution, WallSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.snow.wall import Wall
 from netdesign.units import degree_from_radian
 
 Settings = SolverSettings | TransientSettings | StaggeredSettings

@@ -13,14 +13,14 @@ from netdesign.checks.schema import ANCHOR_DISTANCE
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
-from netdesign.structure.anchor_distance import (
+from netdesign.structure.layout import SupportPoints
+from netdesign.structure.members import EndMember, Member
+from netdesign.structure.row_position import (
     Bore,
     find_distance_to_row_above,
     find_least_distance,
     measure_distance,
 )
-from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import EndMember, Member
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import ANCHORS, find_pull, lack_sharing
 from netdesign.study.sideways import place_row

@@ -35,23 +35,24 @@ from netdesign.guideline.load_model import (
 )
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import Datum
-from netdesign.resistance.connection import (
-    SHACKLE,
-    Link,
-    find_angle,
-    find_direction_factor,
-    resist_link,
-)
-from netdesign.resistance.corrosion import BARE, Wear, find_loss, leave_area
 from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,
     compute_post_moment,
 )
 from netdesign.resistance.steel import (
+    BARE,
+    SHACKLE,
     BentBar,
+    Link,
     RoundSection,
+    Wear,
     compute_bent_bar_resistance,
+    find_angle,
+    find_direction_factor,
+    find_loss,
+    leave_area,
+    resist_link,
 )
 from netdesign.resistance.wedge import Soil, compute_wedge_resistance
 from netdesign.site.model import (

@@ -156,7 +156,7 @@ def list_row_notes(known: RowForces) -> list[Message]:
     if row.panel_lack is not None:
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
     if row.panel_assumed and row.solved_panels:
-        notes.append(say("panel.inputs", names=row.panel_assumed))
+        notes.append(say("panel.assumed", names=row.panel_assumed))
     return [*notes, *_list_pull_notes(known.pulls)]
 
 

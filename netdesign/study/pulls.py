@@ -11,7 +11,7 @@ from netdesign.checks.schema import ROPE_ANGLE
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.axis import (
+from netdesign.structure.anchors import (
     PullRange,
     find_dip,
     find_pull_range,

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.parameters import PARAMETERS
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import PARAMETERS, Case, Ranges
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.search.maxima import RESOLVED_SHARE

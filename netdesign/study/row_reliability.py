@@ -13,8 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from netdesign.envelope.parameters import PARAMETERS
-from netdesign.envelope.ranges import Case
+from netdesign.envelope.ranges import PARAMETERS, Case
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
 from netdesign.reliability.form import (

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from netdesign.envelope.parameters import PARAMETERS
+from netdesign.envelope.ranges import PARAMETERS
 from netdesign.outcome import ModelError
 from netdesign.reliability.assumed import load_assumed
 from netdesign.reliability.limit_state import (

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from netdesign.edge.json_text import Items
-from netdesign.structure.axis import PullRange
+from netdesign.structure.anchors import PullRange
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
 from netdesign.study.case_records import CasePoint, ExtremeRecord

@@ -15,9 +15,9 @@ import numpy as np
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
+from netdesign.envelope.panel_forces import spread_out
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
-from netdesign.envelope.support_bands import spread_out
 from netdesign.outcome import ModelError, require_within
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.snow.snowpack import Layer, build_layered_snowpack

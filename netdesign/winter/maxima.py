@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from netdesign.envelope.support_bands import spread_out
+from netdesign.envelope.panel_forces import spread_out
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snowpack.pack import DayPack
 from netdesign.winter.day import LEAST_DENSITY, DaySolver, RowDay

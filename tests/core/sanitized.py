@@ -28,8 +28,8 @@ from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solve import _solve_compiled, solve_panel
 from netdesign.panel.strips import take_strip
 from netdesign.snow.compiled import build_plan
-from netdesign.snow.linear import SingularError
-from netdesign.snow.shared_mesh import share_template
+from netdesign.snow.element import share_template
+from netdesign.snow.kernel import SingularError
 
 
 def spoil(values, rng):

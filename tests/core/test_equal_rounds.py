@@ -21,7 +21,7 @@ from netdesign.coupling.steady.net import (
 from netdesign.coupling.steady.round import OffMeshError, take_round
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError, SolveError
-from netdesign.snow.shared_mesh import share_template
+from netdesign.snow.element import share_template
 from tests.each import each
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")

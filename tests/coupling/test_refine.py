@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from netdesign.coupling.refine import STEADY_ERROR as MODEL
-from netdesign.coupling.refine import ErrorModel, Looseness, refine
+from netdesign.coupling.interface import STEADY_ERROR as MODEL
+from netdesign.coupling.interface import ErrorModel, Looseness, refine
 from netdesign.coupling.scene import MESH_LEVELS
 
 DIRECTION = np.array([0.6, -0.8])

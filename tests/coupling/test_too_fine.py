@@ -6,13 +6,12 @@ import pytest
 
 from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.history.transient import solve_transient
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize
-from netdesign.snow.wall import Wall
 
 TOO_FINE = MeshSize(net_spacing=0.04, corner=1e-7, sectors=12, upslope_spacing=0.2)
 

@@ -8,13 +8,15 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution
-from netdesign.envelope.cases import FirstCases
-from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.cases import FirstCases, FrictionSkip
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.envelope.result_reader import ResultReader
+from netdesign.envelope.result_reader import (
+    ResultReader,
+    read_signed,
+    read_signed_errors,
+)
 from netdesign.envelope.rows import RowTask, build_point_task
 from netdesign.envelope.search import search_rows
-from netdesign.envelope.signed import read_signed, read_signed_errors
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner

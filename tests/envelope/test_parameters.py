@@ -3,8 +3,15 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.envelope.parameters import PARAMETERS, place_scene
-from netdesign.envelope.ranges import Case, Interval, Ranges, build_case, require_valid
+from netdesign.envelope.ranges import (
+    PARAMETERS,
+    Case,
+    Interval,
+    Ranges,
+    build_case,
+    place_scene,
+    require_valid,
+)
 from netdesign.outcome import ModelError
 from netdesign.snow.ground import GROUND_KINDS, GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack

@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from netdesign.envelope.signed import choose_watched, name_sources
+from netdesign.envelope.result_reader import choose_watched, name_sources
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport, resolve_signed
 from netdesign.structure.layout import SupportLayout, place_support

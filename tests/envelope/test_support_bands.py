@@ -6,7 +6,7 @@ import random
 import pytest
 
 from netdesign.coupling.solution import EndPull
-from netdesign.envelope.support_bands import resolve_pulls
+from netdesign.envelope.panel_forces import resolve_pulls
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support

@@ -13,7 +13,7 @@ import pytest
 
 from netdesign.coupling.history.settings import TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope import support_bands
+from netdesign.envelope import panel_forces
 from netdesign.outcome import SENTENCE, ModelError
 from netdesign.solving import solve as solve_module
 from netdesign.solving import workers as workers_module
@@ -130,7 +130,7 @@ def test_a_fault_in_the_statics_of_a_support_is_told_alike(spoil, check, monkeyp
     """What follows from a solve in this process spares the other rows, too."""
     spoil()
     _, sound, _ = check()
-    calls, solve = [], support_bands.compute_anchor_forces
+    calls, solve = [], panel_forces.compute_anchor_forces
 
     def fail_in_one(*args, **values):
         calls.append(args)
@@ -138,7 +138,7 @@ def test_a_fault_in_the_statics_of_a_support_is_told_alike(spoil, check, monkeyp
             raise TypeError("spoilt 3 times")
         return solve(*args, **values)
 
-    monkeypatch.setattr(support_bands, "compute_anchor_forces", fail_in_one)
+    monkeypatch.setattr(panel_forces, "compute_anchor_forces", fail_in_one)
     code, rows, told = check()
     assert code == 5
     assert require_told(rows, sound, told, TypeError) == {"R1"}

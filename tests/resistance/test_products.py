@@ -11,9 +11,14 @@ from itertools import pairwise
 import pytest
 
 from netdesign.resistance.catalogue import load_catalogue
-from netdesign.resistance.product_data import join, list_constructions, load_products
+from netdesign.resistance.product_data import (
+    compute_box,
+    compute_tube,
+    join,
+    list_constructions,
+    load_products,
+)
 from netdesign.resistance.products import find_product
-from netdesign.resistance.sections import compute_box, compute_tube
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.each import each
 

@@ -7,9 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, Workbook, group_by_row
-from netdesign.site.columns.all_tables import NETS
+from netdesign.site.columns.all_tables import NETS, Lexicon
 from netdesign.site.columns.fields import convert_unit
-from netdesign.site.columns.lexicon import Lexicon
 from netdesign.site.tables import find_table, read_rows
 
 LEXICON = Lexicon.of(NETS.fields, NETS)

@@ -6,8 +6,14 @@ from scipy.sparse.linalg import splu
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow.element import list_dofs
-from netdesign.snow.kernel import assemble_base_stiffness, assemble_stiffness
-from netdesign.snow.linear import SingularError, find_order, solve_matrix, sum_blocks
+from netdesign.snow.kernel import (
+    SingularError,
+    assemble_base_stiffness,
+    assemble_stiffness,
+    find_order,
+    solve_matrix,
+    sum_blocks,
+)
 from netdesign.snow.mesh import build_template
 from tests.each import each
 

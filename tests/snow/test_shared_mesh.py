@@ -8,10 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow.element import list_dofs
+from netdesign.snow.element import find_once, find_preferred, list_dofs, share_template
 from netdesign.snow.mesh import BESIDE, build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
-from netdesign.snow.shared_mesh import find_once, find_preferred, share_template
 
 ASPECTS = st.floats(math.log(0.25), math.log(200.0)).map(math.exp)
 TOPS = st.sampled_from([(), (0.317,), (0.274, 0.617), (0.131, 0.402, 0.871)])

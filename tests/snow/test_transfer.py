@@ -5,13 +5,12 @@ import pytest
 from scipy.spatial import cKDTree
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow import transfer
+from netdesign.snow import flow
 from netdesign.snow.contact import Contact, FlowState, start_contact
-from netdesign.snow.element import interpolate_reference
+from netdesign.snow.element import interpolate_reference, share_template
+from netdesign.snow.flow import transfer_state
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
-from netdesign.snow.shared_mesh import share_template
-from netdesign.snow.transfer import transfer_state
 
 TOPS = (0.317, 0.574)
 
@@ -48,13 +47,13 @@ def test_stress_stays_in_its_layer(old, new):
 @pytest.mark.parametrize("at_once", [256, 7])
 def test_nearest_points_are_those_of_a_tree(monkeypatch, tops, at_once):
     """Also where two are as near: any of them is right."""
-    monkeypatch.setattr(transfer, "_AT_ONCE", at_once)
-    transfer._nearest_points.cache_clear()
+    monkeypatch.setattr(flow, "_AT_ONCE", at_once)
+    flow._nearest_points.cache_clear()
     source, target = (
         build_template(7.31, MESH_LEVELS[level], tops) for level in (0, 1)
     )
-    known, wanted = map(transfer._list_points, (source, target))
-    near = known[transfer._nearest_points(source, target)]
+    known, wanted = map(flow._list_points, (source, target))
+    near = known[flow._nearest_points(source, target)]
     distance, _ = cKDTree(known).query(wanted)
     np.testing.assert_allclose(np.hypot(*(near - wanted).T), distance, atol=1e-12)
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.structure.axis import (
+from netdesign.structure.anchors import (
     PullRange,
     find_pull_range,
     measure_pull,

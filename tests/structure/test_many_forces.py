@@ -6,8 +6,11 @@ import random
 import numpy as np
 import pytest
 
-from netdesign.structure.anchors import compute_anchor_forces, compute_many_forces
-from netdesign.structure.axis import measure_pull
+from netdesign.structure.anchors import (
+    compute_anchor_forces,
+    compute_many_forces,
+    measure_pull,
+)
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.structure.members import CARRYING_MEMBERS, Member

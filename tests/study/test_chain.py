@@ -9,7 +9,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
-from netdesign.resistance.corrosion import find_loss, leave_area
+from netdesign.resistance.steel import find_loss, leave_area
 from netdesign.resistance.wedge import Soil, compute_wedge_resistance
 from netdesign.site.model import AnchorType, Resistance
 from netdesign.site.reader import read_site

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.structure.axis import find_dip
+from netdesign.structure.anchors import find_dip
 from netdesign.structure.members import Member
 
 ANGLES = st.floats(math.radians(-30.0), math.radians(90.0))

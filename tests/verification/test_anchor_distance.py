@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from netdesign.structure.anchor_distance import (
+from netdesign.structure.row_position import (
     Bore,
     find_distance_to_row_above,
     find_least_distance,

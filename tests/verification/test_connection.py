@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.resistance.connection import Link, find_direction_factor, resist_link
+from netdesign.resistance.steel import Link, find_direction_factor, resist_link
 
 FACTORS = {"on_action": 1.5, "on_resistance": 1.35}
 

@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.outcome import ModelError
-from netdesign.resistance.corrosion import find_loss, leave_area
-from netdesign.resistance.steel import RoundSection
+from netdesign.resistance.steel import RoundSection, find_loss, leave_area
 
 # The table as printed, by ground: loss of a face in mm after so many years.
 YEARS = (5, 25, 50, 75, 100)

@@ -10,13 +10,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow import snowpack
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.snow.wall import Wall
 from tests.each import each
 
 COARSE = SolverSettings(

@@ -5,9 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.scene import SolverSettings, Wall
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.snow.wall import Wall
 from tests.each import each
 
 SETTINGS = SolverSettings(accuracy=0.02)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import netdesign.evidence.verification
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import Scene, SolverSettings, Wall
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.evidence.verification.slab import (
     Slab,
@@ -22,7 +22,6 @@ from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import GRAVITY, Snowpack
-from netdesign.snow.wall import Wall
 
 PAGE = (
     Path(netdesign.evidence.verification.__file__)

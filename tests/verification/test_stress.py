@@ -12,9 +12,9 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.benchmark.scenes import SCENES, build_tables
-from netdesign.snow import shared_mesh
+from netdesign.snow import element
+from netdesign.snow.element import share_template
 from netdesign.snow.mesh import MeshTemplate, build_template
-from netdesign.snow.shared_mesh import share_template
 from tests.each import each
 
 # The order of summation and of elimination changes, the iterations take the same
@@ -70,7 +70,7 @@ def test_numbering_of_nodes_does_not_matter(monkeypatch, name):
             shuffled[arguments] = renumber(build_template(*arguments), seed=7)
         return shuffled[arguments]
 
-    monkeypatch.setattr(shared_mesh, "build_template", build_shuffled)
+    monkeypatch.setattr(element, "build_template", build_shuffled)
     share_template.cache_clear()
     found = solve(SCENES[name], TIGHT)
     share_template.cache_clear()

@@ -16,9 +16,9 @@ from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.files.rows_map import Feature, MeasuredPlace
 from netdesign.outcome import StudyError, merge_verdicts
 from netdesign.site.model import NetRow, Site
-from netdesign.structure.anchor_distance import Bore
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import Bore
 from netdesign.study.bores import place_anchors, place_end_anchors
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.sideways import place_row

@@ -31,7 +31,7 @@ from netdesign.snow.compiled import (
     describe_placement,
     describe_template,
 )
-from netdesign.snow.linear import SingularError
+from netdesign.snow.kernel import SingularError
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import EDGE_SHAPE, EDGE_WEIGHTS
 

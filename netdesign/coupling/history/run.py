@@ -12,6 +12,7 @@ from netdesign.coupling.balance import check_balance, negative_share
 from netdesign.coupling.history.instant import Instant
 from netdesign.coupling.history.settings import Start
 from netdesign.coupling.history.state import TransientProblem, TransientState
+from netdesign.coupling.interface import Estimate
 from netdesign.coupling.moments import (
     History,
     HistoryPoint,
@@ -19,7 +20,6 @@ from netdesign.coupling.moments import (
     largest_pull,
     select_counted,
 )
-from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
 from netdesign.numerics.arrays import Floats, Mask

@@ -15,12 +15,14 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.kernel import (
+    Matrix,
     assemble_base_force,
     assemble_base_stiffness,
     assemble_stiffness,
     assemble_stress,
     compute_base_velocity,
     compute_strain,
+    solve_matrix,
 )
 from netdesign.snow.law import (
     FlowProblem,
@@ -33,7 +35,6 @@ from netdesign.snow.law import (
     squared_invariant,
     total_stress,
 )
-from netdesign.snow.linear import Matrix, solve_matrix
 from netdesign.snow.placed_mesh import PlacedMesh
 
 

@@ -40,8 +40,8 @@ from netdesign.coupling.history.state import (
     TransientState,
     build_problem,
 )
+from netdesign.coupling.interface import ErrorModel
 from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
-from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
     FailedSolution,

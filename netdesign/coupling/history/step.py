@@ -25,7 +25,7 @@ from netdesign.numerics.arrays import Floats, Ints, Mask, freeze, gather
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.body import SnowBody, build_material
 from netdesign.snow.element import reference_element
-from netdesign.snow.linear import SingularError
+from netdesign.snow.kernel import SingularError
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.words.message import say

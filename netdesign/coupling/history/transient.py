@@ -29,13 +29,13 @@ from netdesign.coupling.history.state import (
     TransientState,
     build_problem,
 )
+from netdesign.coupling.interface import ErrorModel, refine
 from netdesign.coupling.moments import (
     HistoryPoint,
     Plateau,
     find_plateau,
     judge_plateau,
 )
-from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
     FailedSolution,

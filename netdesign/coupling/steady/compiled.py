@@ -39,7 +39,7 @@ from netdesign.snow.compiled import (
     describe_template,
 )
 from netdesign.snow.contact import Contact, FlowState, may_lift
-from netdesign.snow.element import list_dofs
+from netdesign.snow.element import find_once, list_dofs
 from netdesign.snow.flow import (
     FIELD_WEIGHT,
     LINEAR_PART,
@@ -47,12 +47,10 @@ from netdesign.snow.flow import (
     SQUARE_FACTOR,
     make_linear,
 )
-from netdesign.snow.kernel import share_end_load
+from netdesign.snow.kernel import SingularError, share_end_load
 from netdesign.snow.law import FlowProblem, sample_material
-from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshTemplate, follow_net
 from netdesign.snow.placed_mesh import EDGE_SHAPE, EDGE_WEIGHTS, PlacedMesh
-from netdesign.snow.shared_mesh import find_once
 from netdesign.words.message import say
 
 _Arrays = tuple[np.ndarray[Any, Any], ...]

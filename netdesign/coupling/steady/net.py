@@ -23,9 +23,9 @@ from netdesign.cable.funicular import (
 from netdesign.cable.net import compute_parabola_sag
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
+from netdesign.snow.element import find_once
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
-from netdesign.snow.shared_mesh import find_once
 from netdesign.words.message import say
 
 

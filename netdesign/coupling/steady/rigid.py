@@ -10,12 +10,14 @@ import numpy as np
 
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import (
+    STEADY_ERROR,
+    Estimate,
     SupportForces,
     find_support_forces,
     measure_looseness,
+    refine,
 )
-from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import Scene, SolverSettings, Wall
 from netdesign.coupling.solution import (
     Balance,
     Cost,
@@ -36,7 +38,6 @@ from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.snow.snowpack import Snowpack
-from netdesign.snow.wall import Wall
 from netdesign.words.message import say
 
 # The recipe: snow adhering to a rigid wall normal to the slope, as high as the snow.

@@ -17,11 +17,6 @@ import numpy as np
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.compiled import prepare_rounds
-from netdesign.coupling.steady.correction import (
-    Correction,
-    carry_tangent,
-    correct_round,
-)
 from netdesign.coupling.steady.net import (
     Hang,
     NetEquilibrium,
@@ -31,8 +26,11 @@ from netdesign.coupling.steady.net import (
     start_net,
 )
 from netdesign.coupling.steady.round import (
+    Correction,
     RoundResult,
     Take,
+    carry_tangent,
+    correct_round,
     explain_failure,
     take_near,
     take_round,
@@ -41,8 +39,8 @@ from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.contact import FlowState
+from netdesign.snow.flow import transfer_state
 from netdesign.snow.mesh import MeshTemplate
-from netdesign.snow.transfer import transfer_state
 from netdesign.words.message import say
 
 

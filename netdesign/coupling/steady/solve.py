@@ -22,12 +22,14 @@ from netdesign.coupling.balance import (
     measure_suction,
 )
 from netdesign.coupling.interface import (
+    STEADY_ERROR,
+    Estimate,
     SupportForces,
     find_support_forces,
     is_balanced,
     measure_looseness,
+    refine,
 )
-from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
     Cost,
@@ -43,8 +45,8 @@ from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, hang_ne
 from netdesign.coupling.steady.rounds import CoupledState, couple
 from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.contact import FlowState
+from netdesign.snow.element import share_template
 from netdesign.snow.mesh import MeshSize, MeshTemplate
-from netdesign.snow.shared_mesh import share_template
 from netdesign.words.message import say
 
 # Share of suction, over the largest accepted, that no finer mesh takes back.

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.coupling.balance import SuctionError
-from netdesign.coupling.refine import STEADY_ERROR
+from netdesign.coupling.interface import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import (
     EndPull,
@@ -18,8 +18,8 @@ from netdesign.coupling.solution import (
 )
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome, SolveError
+from netdesign.snow.element import share_template
 from netdesign.snow.mesh import MeshSize
-from netdesign.snow.shared_mesh import share_template
 
 HALVINGS = 2  # of every side: a truth is four times finer
 # Rounding in the balance grows with the mesh; a truth is not handed out as a result.

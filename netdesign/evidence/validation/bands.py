@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 
 from netdesign.evidence.validation.structure import MemberBand, Validation
-from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -15,6 +14,7 @@ from netdesign.report.drawing.plain_svg import (
     WIDTH,
     Chart,
     Frame,
+    measure_words,
 )
 from netdesign.report.words import ENGLISH, show_member
 from netdesign.words.catalogue import load_texts

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -21,6 +20,7 @@ from netdesign.report.drawing.plain_svg import (
     WIDTH,
     Chart,
     Frame,
+    measure_words,
 )
 from netdesign.report.words import Words, show_member, show_verdict
 from netdesign.study.case_records import GuidelineRecord

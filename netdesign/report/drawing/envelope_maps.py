@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 from netdesign.report.drawing.label_board import LINE_PT
-from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -22,6 +21,7 @@ from netdesign.report.drawing.plain_svg import (
     drop_straight,
     list_ticks,
     shade,
+    wrap_words,
 )
 from netdesign.report.words import (
     ENGLISH,

@@ -11,8 +11,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import GREY, INK, TEXT_PT, Chart, Point
+from netdesign.report.drawing.plain_svg import (
+    GREY,
+    INK,
+    TEXT_PT,
+    Chart,
+    Point,
+    measure_words,
+)
 
 LINE_PT = 1.3 * TEXT_PT  # from one line of a label to the next
 _AIR = 1.5  # between two labels [pt]

@@ -16,7 +16,6 @@ from netdesign.report.drawing.label_board import (
     LabelBoard,
     write_label,
 )
-from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -25,6 +24,7 @@ from netdesign.report.drawing.plain_svg import (
     TEXT_PT,
     Chart,
     Point,
+    wrap_words,
 )
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord

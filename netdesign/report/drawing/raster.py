@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
-from netdesign.report.drawing.letters import measure_words
+from netdesign.report.drawing.plain_svg import measure_words
 
 if TYPE_CHECKING:
     from matplotlib.path import Path

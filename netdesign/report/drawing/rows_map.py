@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from netdesign.files.rows_map import MeasuredPlace, RowsMap
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.label_board import LINE_PT, Label, LabelBoard
-from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -19,6 +18,7 @@ from netdesign.report.drawing.plain_svg import (
     Chart,
     Frame,
     Point,
+    measure_words,
 )
 from netdesign.report.words import VERDICTS, Words
 

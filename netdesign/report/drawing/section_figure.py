@@ -7,7 +7,6 @@ from itertools import pairwise
 
 from netdesign.numerics.curve import trace_curve
 from netdesign.report.drawing.label_board import Box, Label, LabelBoard
-from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
@@ -20,6 +19,7 @@ from netdesign.report.drawing.plain_svg import (
     Frame,
     Point,
     drop_straight,
+    measure_words,
 )
 from netdesign.report.drawing.section_measures import (
     LONGEST_ARROW,

@@ -23,7 +23,7 @@ from netdesign.report.blocks import (
     section,
     text_cell,
 )
-from netdesign.report.drawing.share_bars import draw_shares
+from netdesign.report.drawing.charts import draw_shares
 from netdesign.report.words import (
     MISSING,
     Words,

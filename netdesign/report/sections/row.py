@@ -388,4 +388,4 @@ class RowSections:
                 yield text
         if row.panel and row.panel.assumed:
             names = tuple(map(t.show, row.panel.assumed))
-            yield t("panel.inputs", names=names)
+            yield t("panel.assumed", names=names)

@@ -10,7 +10,7 @@ import pytest
 
 from netdesign.addons.terrain.verdict_map import turn_to_map
 from netdesign.files.rows_map import MeasuredPlace
-from netdesign.structure.anchor_distance import Bore
+from netdesign.structure.row_position import Bore
 
 SLOPE = math.radians(37.0)
 

@@ -4,13 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.scene import SolverSettings, Wall
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve as steady_solve
 from netdesign.coupling.steady.solve import bound_by_less_slack, solve_steady
 from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError, Outcome
-from netdesign.snow.wall import Wall
 
 ROUGH = SolverSettings(accuracy=0.05)
 

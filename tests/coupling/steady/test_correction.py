@@ -5,9 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from netdesign.coupling.steady import correction
-from netdesign.coupling.steady.correction import carry_tangent, correct_round
-from netdesign.coupling.steady.round import RoundResult
+from netdesign.coupling.steady import round as rounded
+from netdesign.coupling.steady.round import RoundResult, carry_tangent, correct_round
 
 CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
 
@@ -34,7 +33,7 @@ def test_the_step_ends_where_a_linear_round_stays(monkeypatch, seed):
     rng = np.random.default_rng(seed)
     matrix, still = rng.normal(0.0, 2.0, (6, 6)), rng.normal(size=6)
     monkeypatch.setattr(
-        correction, "linearise_round", lambda *_: matrix.reshape(2, 3, 2, 3)
+        rounded, "linearise_round", lambda *_: matrix.reshape(2, 3, 2, 3)
     )
     image = (still + matrix @ (CURVE.ravel() - still)).reshape(2, 3)
     found = correct_round(PROBLEM, a_round(CURVE, image), None)
@@ -42,9 +41,7 @@ def test_the_step_ends_where_a_linear_round_stays(monkeypatch, seed):
 
 
 def test_a_round_that_made_things_worse_is_half_taken_back(monkeypatch):
-    monkeypatch.setattr(
-        correction, "linearise_round", lambda *_: np.zeros((2, 3, 2, 3))
-    )
+    monkeypatch.setattr(rounded, "linearise_round", lambda *_: np.zeros((2, 3, 2, 3)))
     first = correct_round(PROBLEM, a_round(CURVE, CURVE + 0.01), None)
     worse = a_round(first.target, first.target + 0.03)
     second = correct_round(PROBLEM, worse, first)

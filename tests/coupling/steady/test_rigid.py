@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 from netdesign.coupling import interface
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
 from netdesign.coupling.solution import FailedSolution, WallSolution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.outcome import Outcome
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
-from netdesign.snow.wall import Wall
 
 COARSE = SolverSettings(
     accuracy=0.1,

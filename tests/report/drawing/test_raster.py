@@ -5,8 +5,7 @@ import io
 import pytest
 from PIL import Image
 
-from netdesign.report.drawing.letters import measure_words
-from netdesign.report.drawing.plain_svg import TEXT_PT, Chart
+from netdesign.report.drawing.plain_svg import TEXT_PT, Chart, measure_words
 from netdesign.report.drawing.raster import (
     DOTS_PER_INCH,
     read_size,

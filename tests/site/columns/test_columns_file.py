@@ -11,7 +11,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import Kind
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.structure.axis import LEAST_AXIS, MOST_AXIS
+from netdesign.structure.anchors import LEAST_AXIS, MOST_AXIS
 from netdesign.structure.splay import LEAST_SPLAY, MOST_SPLAY
 from tests.each import each
 

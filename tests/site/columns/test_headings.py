@@ -5,10 +5,9 @@ import unicodedata
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from netdesign.site.columns.all_tables import RANGES, SHEETS
+from netdesign.site.columns.all_tables import RANGES, SHEETS, Lexicon
 from netdesign.site.columns.fields import normalise
-from netdesign.site.columns.lexicon import Lexicon
-from netdesign.site.guesses import guess
+from netdesign.site.questions import guess
 from tests.each import each
 
 LEXICA = {plan.name: Lexicon.of(plan.fields, plan) for plan in SHEETS}
