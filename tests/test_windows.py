@@ -11,11 +11,8 @@ import pytest
 from netdesign.edge import locks
 from netdesign.edge.locks import _RemovedError, _require_there
 from netdesign.edge.output import require_free, write_files
-from netdesign.edge.streams import _spell_sign
 from netdesign.outcome import OutputError, SiteDataError
 from netdesign.site.reader import read_site
-from netdesign.words.catalogue import LANGUAGES, load_texts
-from tests.each import each
 from tests.tiny_site import write_site
 
 POSIX = {
@@ -122,14 +119,3 @@ def test_a_sharing_violation_is_an_open_file():
     error = PermissionError(errno.EACCES, "in use")
     error.winerror = 32
     assert locks.is_held(error, Path("report.xlsx"))
-
-
-@each("page", ["cp850", "cp437", "cp1252"])
-@each("language", LANGUAGES)
-def test_code_pages_show_every_text_without_a_question_mark(page, language):
-    for key, text in load_texts(language).items():
-        for sign in set(text):
-            try:
-                sign.encode(page)
-            except UnicodeEncodeError:
-                assert "?" not in _spell_sign(sign), (key, sign)

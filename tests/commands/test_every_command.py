@@ -13,6 +13,7 @@ import pytest
 from tests.commands.every_command import COMMANDS, read_texts, run_all
 from tests.words.english import list_vocabulary, list_words
 
+pytestmark = pytest.mark.long
 NAMES = re.compile(
     r"netdesign \w+|--[a-z-]+|\S*\w[._/\\]\w\S*|\b[A-Z_]{3,}\b"  # commands, files, keys
     r"|\b[\w]+(-[\w]+)*-\d{4,5}(-style)?\b|\bnf-p-95-304-style\b"  # profiles
@@ -40,7 +41,6 @@ def told(request, tmp_path_factory):
     return texts, english
 
 
-@pytest.mark.long
 def test_no_command_tells_english(told):
     texts, english = told
     found = {

@@ -6,8 +6,7 @@ The suite tries a few hundred inputs, the same in every run. The long form tries
     python -m pytest -m fuzz -s tests/fuzz
     NETDESIGN_FUZZ_SEED=7 NETDESIGN_FUZZ_EXAMPLES=20000 python -m pytest -m fuzz -s ...
 
-Each find becomes a test beside the module that it broke. `fuzz_importer.py` tries the
-importer guided by its coverage.
+Each find becomes a test beside the module that it broke.
 """
 
 import os
