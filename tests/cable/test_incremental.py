@@ -188,3 +188,10 @@ def test_start_of_the_paper_a_straight_net_without_tension():
     step = advance(build_cable_state(lengths, lengths, STIFFNESS), points)
     assert step.outcome is Outcome.CONVERGED
     assert step.state.tensions.min() > 0.0
+
+
+def test_limit_of_rounds_is_an_outcome():
+    state = initial_state()
+    step = advance(state, net_points(0.2), max_rounds=1)
+    assert step.outcome is Outcome.MAX_ITERATIONS
+    assert step.state is state

@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from netdesign.cable import response
 from netdesign.cable.response import hold_net, measure_arcs, respond
+from netdesign.outcome import Outcome, SolveError
 from tests.each import each
 
 STIFFNESS = 50.0
@@ -129,3 +131,17 @@ def test_slack_segment_draws_net_in_from_its_neighbours():
     net = respond(points, lengths, friction=0.1, stiffness=STIFFNESS)
     assert net.sliding.tensions.min() > 0.0
     assert net.sliding.lengths.sum() == pytest.approx(lengths.sum(), rel=1e-13)
+
+
+def test_unsolved_friction_is_an_error_and_no_force(monkeypatch):
+    points = arc_points(3)
+    solve = response.solve_sliding
+    monkeypatch.setattr(
+        response,
+        "solve_sliding",
+        lambda *given, **named: solve(*given, **named, max_iterations=0),
+    )
+    lengths = strained(points, 0.02, spread=0.9)
+    with pytest.raises(SolveError, match="friction of the net") as failure:
+        respond(points, lengths, friction=0.05, stiffness=STIFFNESS)
+    assert failure.value.outcome is Outcome.MAX_ITERATIONS

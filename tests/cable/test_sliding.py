@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from netdesign.cable import sliding
 from netdesign.cable.net import (
     compute_ratio_bounds,
     compute_segment_lengths,
@@ -225,3 +226,17 @@ REFUSED = [
     ("at least 0", {"bounds": [-0.1]}),
     ("at least 0", {"bounds": [math.nan]}),
 ]
+
+
+STEPS_HALVED = [848, 1334, 1531]
+
+
+def test_iteration_limit_is_an_outcome():
+    step = random_case(4).solve(max_iterations=1)
+    assert step.outcome is Outcome.MAX_ITERATIONS
+    assert step.tensions.min() >= 0.0
+
+
+def test_no_descent_is_an_outcome(monkeypatch):
+    monkeypatch.setattr(sliding, "_SHORTEST_STEP", 2.0)
+    assert random_case(4).solve().outcome is Outcome.DIVERGED

@@ -11,7 +11,7 @@ from netdesign.cable import yielding
 from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.cable.response import measure_arcs, respond
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
-from netdesign.outcome import SolveError
+from netdesign.outcome import Outcome, SolveError
 from tests.each import each
 
 STIFFNESS = 300.0
@@ -178,3 +178,18 @@ def test_slack_segment_draws_net_in():
     lengths[4] *= 1.1
     response, _ = settle(yielding_nodes(place, 1e-4), place, lengths, 0.1)
     assert response.sliding.tensions.min() > 0.0
+
+
+def test_iterations_that_do_not_suffice_are_an_error(monkeypatch):
+    monkeypatch.setattr(yielding, "_MOST_ITERATIONS", 1)
+    place = bulge(5)
+    with pytest.raises(SolveError, match="friction of the net") as failure:
+        settle(yielding_nodes(place, 1e-3), place, lengths_of(place), 0.2)
+    assert failure.value.outcome is Outcome.MAX_ITERATIONS
+
+
+def test_rounds_that_do_not_suffice_are_an_error(monkeypatch):
+    monkeypatch.setattr(yielding, "_MOST_ROUNDS", 0)
+    place = bulge(5)
+    with pytest.raises(SolveError, match="friction of the net"):
+        settle(yielding_nodes(place, 1e-3), place, lengths_of(place), 0.2)

@@ -16,6 +16,8 @@ from netdesign.coupling.steady import round
 from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.compiled import CompiledRounds
 from netdesign.coupling.steady.solve import solve_steady
+from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.scenes import draw_scene as draw_any_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.ground import GroundLaw
@@ -290,3 +292,32 @@ def test_pulls_are_those_of_rounds_without_end_to_a_tenth_of_their_error(build):
         own, other = getattr(quick, end), getattr(tight, end)
         apart = math.hypot(own.x - other.x, own.y - other.y)
         assert apart <= 0.1 * own.error
+
+
+@pytest.mark.parametrize(
+    ("number", "cause"),
+    [(847, "steady.much_slack"), (478, "steady.layers_contrast")],
+)
+def test_a_net_that_does_not_come_to_rest_has_its_cause_told(number, cause):
+    """Scenes of ``netdesign bench --stress 2000 --seed 1``."""
+    failed = solve_steady(build_tables(draw_any_scene(1, number)))
+    assert failed.outcome is Outcome.NO_EQUILIBRIUM
+    assert cause in [one.key for one in failed.reason.arguments["causes"]]
+
+
+@pytest.mark.parametrize("friction_deg", [0.0, 1.37])
+def test_near_the_limit_errors_reach_to_the_net_that_holds_on(friction_deg):
+    """From one contact to the other pulls would jump by more than their errors."""
+    tables = draw_any_scene(3, 203)
+    tables["net"]["friction_deg"] = friction_deg
+    scene = build_tables(tables)
+    rough = SolverSettings(accuracy=0.02)
+    solution = solve_steady(scene, rough, on_failure="raise")
+    asked = solve_steady(
+        replace(scene, net_contact="one-sided"), rough, on_failure="raise"
+    )
+    assert solution.is_released
+    for end in ("foot", "head"):
+        own, alone = getattr(solution, end), getattr(asked, end)
+        assert (own.x, own.y) == (alone.x, alone.y)
+        assert own.error > alone.error + 1e-4 * alone.size

@@ -11,7 +11,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import EndPull
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.outcome import Outcome, SolveError
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.strips import (
     build_stations,
@@ -153,3 +153,9 @@ def test_pulls_of_a_polygon_follow_from_its_shape(seed):
     assert doubt == pytest.approx(0.02, rel=1e-6)
     stretch = np.hypot(*np.diff(places)) / (1.0 + np.hypot(*tensions) / 2e7)
     np.testing.assert_allclose(strip.shares, stretch / stretch.sum(), rtol=1e-9)
+
+
+def test_only_a_net_at_rest_has_strips(solved):
+    history = replace(solved(inclination_deg=30.0), method="transient")
+    with pytest.raises(ModelError, match="steady state of a net, not on a history"):
+        take_strip(history)

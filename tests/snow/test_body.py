@@ -296,3 +296,27 @@ def test_snow_that_turns_a_triangle_over_is_refused(a_flow_problem):
     with pytest.raises(SolveError, match="the mesh of the snow folds over") as failure:
         move_body(body, displaced, net, net[:, -1])
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_start_that_folds_over_is_refused(a_flow_problem):
+    with pytest.raises(SolveError, match="the start's mesh folds over") as failure:
+        a_body(a_flow_problem(), sag=-8.0)
+    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_snow_that_flows_over_the_head_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[0])
+    displaced = body.vertices.copy()
+    displaced[1] *= 1.0 + 2.0 * body.topology.template.nodes[0, : displaced.shape[1]]
+    net = on_net(body)
+    with pytest.raises(SolveError, match="flows over the net's head") as failure:
+        move_body(body, displaced, net, net[:, -1])
+    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_a_net_that_leaves_no_room_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem())
+    net = on_net(body)
+    net[0, 1:-1] -= 4.0
+    with pytest.raises(SolveError, match="cannot be repaired"):
+        move_body(body, body.vertices, net, net[:, -1])

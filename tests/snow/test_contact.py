@@ -7,6 +7,7 @@ import pytest
 
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
+    change_some,
     free_unknowns,
     may_lift,
     net_components,
@@ -136,3 +137,19 @@ def test_contact_that_never_pulls_is_the_two_sided_one(inclined, a_flow_problem)
 
 
 # --- some of the changes ------------------------------------------------------
+
+
+def changed(contact, **places):
+    """The contact with other entries at places of its arrays."""
+    arrays = {}
+    for name, (where, value) in places.items():
+        arrays[name] = getattr(contact, name).copy()
+        arrays[name][where] = value
+    return replace(contact, **arrays)
+
+
+def test_the_first_half_of_each_row_changes(inclined):
+    before = start_contact(inclined)
+    wanted = changed(before, sign=([0, 1, 2, 3, 7, 8], 1))
+    after = change_some(before, wanted, only_first=False)
+    assert np.flatnonzero(after.sign).tolist() == [0, 1, 7]

@@ -357,3 +357,27 @@ def test_last_correction_gives_the_balance_back(
 
     assert lost(rounded) > 1e-10
     assert lost(remove_rounding(law, mesh, rounded)) < 1e-13
+
+
+def test_iteration_cap(inclined, a_flow_problem):
+    result = solve_flow(a_flow_problem(), inclined, tolerance=TIGHT, max_iterations=3)
+    assert result.outcome is Outcome.MAX_ITERATIONS
+    assert result.linear_solves == 4  # the start and three steps
+    assert result.change > TIGHT
+
+
+def test_nonfinite_step(inclined, a_flow_problem):
+    start = solve(a_flow_problem(), inclined)
+    spoilt = replace(start, reaction=np.full(inclined.n_dofs, np.nan))
+    result = solve_flow(
+        a_flow_problem(), inclined, start, tolerance=TIGHT, step=lambda *_: spoilt
+    )
+    assert (result.outcome, result.linear_solves) == (Outcome.NONFINITE, 1)
+
+
+@pytest.mark.parametrize("fault", [np.nan, np.inf])
+def test_nonfinite_load(inclined, a_flow_problem, fault):
+    law = replace(a_flow_problem(), gravity=(fault, -1.0))
+    with np.errstate(invalid="ignore"):
+        result = solve_flow(law, inclined, tolerance=TIGHT)
+    assert result.outcome is Outcome.NONFINITE

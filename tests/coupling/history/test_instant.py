@@ -15,7 +15,7 @@ from netdesign.coupling.history.net_start import build_start
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.coupling.history.state import build_problem
 from netdesign.coupling.history.transient import run_history
-from netdesign.outcome import SolveError
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
 from tests.each import each
 
@@ -216,3 +216,19 @@ def test_given_forces_and_base_drag_are_in_balance(a_scene):
     weight = state.body.mass.sum() * math.sin(math.radians(40.0))
     pulled = instant.foot_pull[0] + instant.head_pull[0]
     assert pulled + dragged == pytest.approx(weight, rel=1e-9)
+
+
+def test_too_few_iterations_are_an_error(a_scene):
+    problem, state = begin(a_scene())
+    few = {**TIGHT, "max_iterations": 2}
+    with pytest.raises(SolveError, match="a step of snow and net") as failure:
+        advance(problem, state, STEP, **few)
+    assert failure.value.outcome is Outcome.MAX_ITERATIONS
+
+
+def test_exchange_with_too_few_iterations_is_an_error(a_scene):
+    problem, state = begin(a_scene(), base_drag=0.05)
+    few = {**EXCHANGE, "max_iterations": 2}
+    with pytest.raises(SolveError, match="under the net's forces") as failure:
+        advance_under(problem, state, 1e-5, held(problem, state), **few)
+    assert failure.value.outcome is Outcome.MAX_ITERATIONS

@@ -10,7 +10,7 @@ from netdesign.coupling.history import transient
 from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.coupling.history.transient import run_history, solve_transient
 from netdesign.coupling.moments import select_counted
-from netdesign.coupling.solution import Solution
+from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.outcome import Outcome, SolveError
 from tests.each import each
 
@@ -175,3 +175,22 @@ SETTINGS_REFUSED = [
     ({"max_iterations": 0}, "iterations"),
     ({"levels": TRANSIENT_LEVELS[:1]}, "two mesh levels"),
 ]
+
+
+def test_too_few_steps_are_said(a_scene):
+    solution = solve(a_scene(), max_steps=5)
+    assert "5 steps were not enough" in str(solution.history.ended)
+    assert not solution.history.plateau.reached
+
+
+def test_first_step_that_fails_is_a_failure(a_scene, monkeypatch):
+    def fail(*_, **__):
+        raise SolveError(Outcome.NO_EQUILIBRIUM, "nothing holds")
+
+    monkeypatch.setattr(transient, "advance", fail)
+    result = solve_transient(a_scene())
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is Outcome.NO_EQUILIBRIUM
+    assert str(result.reason).startswith("first step: ")
+    with pytest.raises(SolveError, match="nothing holds"):
+        solve_transient(a_scene(), on_failure="raise")

@@ -9,8 +9,10 @@ import pytest
 from netdesign.coupling import interface
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
 from netdesign.coupling.solution import FailedSolution, WallSolution
-from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.coupling.steady import rigid
+from netdesign.coupling.steady.rigid import measure_glide_factor, solve_rigid
 from netdesign.outcome import Outcome
+from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 
 COARSE = SolverSettings(
@@ -105,3 +107,20 @@ def test_force_lost_on_the_ground(a_scene, monkeypatch):
     result = solve_rigid(walled(a_scene, **PRESSED), COARSE)
     assert isinstance(result, FailedSolution)
     assert result.outcome is Outcome.BALANCE_VIOLATED
+
+
+def test_too_few_newton_steps(a_scene):
+    result = solve_rigid(walled(a_scene, **PRESSED), replace(COARSE, max_iterations=2))
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is Outcome.MAX_ITERATIONS
+    assert "snow flow" in str(result.reason)
+
+
+@pytest.mark.long
+def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
+    recipe = measure_glide_factor(BOUTILLIER_2004, 31.5)
+    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 341.0)
+    longer = measure_glide_factor(BOUTILLIER_2004, 31.5)
+    assert longer == pytest.approx(recipe, rel=5e-4)
+    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 61.0)  # too short: 20 thicknesses
+    assert measure_glide_factor(BOUTILLIER_2004, 31.5) < 0.99 * recipe

@@ -288,3 +288,24 @@ def test_snow_that_the_ground_holds_or_that_is_near_is_not_cut(a_scene, changes)
         == scene.snowpack.upslope_length / scene.snowpack.thickness
     )
     assert scene.steady_flow_problem.end_load == 0.0
+
+
+def test_too_few_rounds(a_scene):
+    result = solve_steady(a_scene(), replace(COARSE, max_rounds=2))
+    assert_fails(Outcome.MAX_ITERATIONS, result, "the net still moves by")
+    assert "after 2 rounds" in str(result.reason)
+
+
+def test_too_few_newton_steps(a_scene):
+    result = solve_steady(a_scene(), replace(COARSE, max_iterations=1))
+    assert_fails(Outcome.MAX_ITERATIONS, result, "snow flow")
+
+
+def test_failure_names_what_leaves_no_steady_state(a_scene):
+    """One-sided ground under snow that slips: too few rounds are not its only cause."""
+    scene = replace(
+        a_scene(inclination_deg=30.0, friction_deg=5.0), ground_contact="one-sided"
+    )
+    result = solve_steady(scene, replace(COARSE, max_rounds=2))
+    assert_fails(Outcome.NO_EQUILIBRIUM, result, "lifts off a one-sided support")
+    assert "the net still moves by" in str(result.reason)
