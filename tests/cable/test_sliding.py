@@ -228,9 +228,6 @@ REFUSED = [
 ]
 
 
-STEPS_HALVED = [848, 1334, 1531]
-
-
 def test_iteration_limit_is_an_outcome():
     step = random_case(4).solve(max_iterations=1)
     assert step.outcome is Outcome.MAX_ITERATIONS

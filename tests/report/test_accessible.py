@@ -43,13 +43,6 @@ def test_axe_finds_no_violation_anywhere(language, detail, width, tmp_path):
     assert list_violations(page, tmp_path, width) == []
 
 
-def test_axe_finds_what_is_wrong(tmp_path):
-    page = render_html(build_study(rows=1), "en", "summary")
-    pale = page.replace("--soft: #596069", "--soft: #a9b0b9").replace("h3", "h5")
-    rules = {one.split(":")[0] for one in list_violations(pale, tmp_path)}
-    assert {"color-contrast", "heading-order"} <= rules
-
-
 def test_words_in_drawings_have_contrast():
     rng = random.Random(5)
     drawings = [*draw_all(rng, Words("en")), *draw_grid(rng, Words("en"))]

@@ -33,10 +33,6 @@ def fill(key, argument):
     return Message(key, dict.fromkeys(list_gaps(load_texts("en")[key]), argument))
 
 
-def strip_gaps(text):
-    return re.sub(r"\{[^{}]*\}", "", text)
-
-
 @given(
     key=st.sampled_from(sorted(load_texts("en"))),
     number=NUMBER,
@@ -101,18 +97,6 @@ def test_shipped_profiles_are_translated(language):
     assert [text for text in texts if show_own(words, text) == text] == []
 
 
-def test_inputs_have_the_names_of_the_site_workbook():
-    study = build_study()
-    inputs = [*study.range_inputs, *study.rows[0].inputs]
-    shown = [Words("fr").show(echo.label) for echo in inputs]
-    assert shown[:3] == [
-        *("masse volumique, minimum", "masse volumique, maximum"),
-        "angle de frottement, minimum",
-    ]
-    assert "pente" in shown
-    assert "Remark" in shown  # the user's own
-
-
 @pytest.mark.parametrize("language", OTHERS)
 def test_the_same_study_is_told_with_the_same_numbers(language):
     study, shown = build_study(), []
@@ -128,12 +112,6 @@ def test_the_same_study_is_told_with_the_same_numbers(language):
     )
     assert english.word != other.word
     assert english.style == other.style
-
-
-def test_no_line_of_a_french_report_begins_with_a_sign():
-    shown = ("caption.", "show.", "check.", "geometry.", "drawing.")
-    texts = [text for key, text in load_texts("fr").items() if key.startswith(shown)]
-    assert [text for text in texts if re.search(" [:;?!%»]", strip_gaps(text))] == []
 
 
 def test_what_somebody_typed_is_never_translated():

@@ -10,10 +10,8 @@ import pytest
 from netdesign.report.document.word import render_document
 from netdesign.report.page.html import render_html
 from netdesign.words.catalogue import LANGUAGES
-from tests.report.accessible import list_violations
 from tests.report.build_study import build_study
 from tests.report.drawing.test_rows_map import draw_places
-from tests.report.printing import PHONE_PX
 
 EAST, NORTH, HEIGHT = 2_712_345.0, 1_167_890.0, 1987.0
 
@@ -40,13 +38,6 @@ def test_names_on_the_map_lead_to_the_pages_of_rows(study, language):
     assert "ab" * 32 in drawn
 
 
-def test_a_summary_has_the_map_without_links(study):
-    page = render_html(study, "en", "summary", build_places(study))
-    drawn = page.split('<section id="map"')[1].split("</section>")[0]
-    assert "<svg" in drawn
-    assert "<a " not in drawn
-
-
 def test_a_row_of_the_map_alone_is_named(study):
     page = render_html(study, "en", "full", build_places(study, more=["Z9"]))
     drawn = page.split('<section id="map"')[1].split("</section>")[0]
@@ -64,19 +55,3 @@ def test_no_report_holds_a_coordinate(study):
     for text in (page, *parts):
         for number in ("27123", "2 712", "11678", "1 167", f"{HEIGHT:.0f}"):
             assert number not in text, number
-
-
-def test_a_report_without_a_map_is_what_it_was(study):
-    page = render_html(study, "en", "full")
-    assert "#map" not in page
-    assert 'role="group"' not in page
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("language", "width"), [("en", 1100), ("fr", PHONE_PX), ("de", 1100)]
-)
-def test_axe_finds_no_violation(language, width, tmp_path):
-    study = build_study(rows=1)
-    page = render_html(study, language, "full", build_places(study, more=["Z9"]))
-    assert list_violations(page, tmp_path, width) == []

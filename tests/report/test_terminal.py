@@ -1,11 +1,9 @@
 import io
-import re
-from dataclasses import replace
 
 from rich.console import Console
 
 from netdesign.commands.check_run import _print_summaries
-from netdesign.report.terminal import list_rows, open_console, print_summary
+from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.governing import find_governing
 from tests.report.build_study import SCRIPT, build_study
@@ -32,47 +30,6 @@ def test_one_line_for_each_net_row_then_the_verdict_and_what_is_open():
     assert len(lines) == 7
 
 
-def test_a_summary_has_few_lines_and_explain_has_the_rest():
-    row = build_study().rows[2]
-    rows = [replace(row, id=f"N{number}") for number in range(6)]
-    study = replace(build_study(), rows=rows, verdict=row.verdict)
-    short, whole = (printed(study, explain=one).splitlines() for one in (False, True))
-    assert len(short) == len(list(list_rows(study, ENGLISH))) + 4
-    assert whole[: len(short) - 1] == short[:-1]
-    assert len(whole) > len(short) + 4
-
-
-def test_rows_that_say_the_same_without_a_number_are_one_line():
-    row = build_study().rows[2]
-    names = [f"N{number}" for number in range(6)]
-    rows = [replace(row, id=name) for name in names]
-    study = replace(build_study(), rows=rows, verdict=row.verdict)
-    shown = [line[0] for line in list_rows(study, ENGLISH)]
-    if find_governing(row.checks).utilisation is None:
-        assert shown == ["N0 … N5 (6)"]
-    else:
-        assert shown == names
-
-
-def test_summary_in_french_has_the_same_numbers():
-    stream = io.StringIO()
-    console = Console(file=stream, width=200)
-    print_summary(build_study(), console, "fr")
-    lines = stream.getvalue().splitlines()
-    assert lines[4].startswith("Verdict\u00a0: NON VÉRIFIÉ - ")
-    english = printed(build_study()).splitlines()
-    for number in range(1, 4):
-        numbers = re.findall(r"\d+\.\d+", english[number])
-        shown = re.findall(r"\d+,\d+", lines[number])
-        assert [one.replace(",", ".") for one in shown] == numbers
-        assert not re.search(r"\d\.\d", lines[number])
-
-
-def test_no_colour_where_the_console_has_none():
-    assert "\x1b" not in printed(build_study())
-    assert "\x1b" in printed(build_study(), force_terminal=True, no_color=False)
-
-
 def test_texts_of_the_site_are_not_markup():
     study = build_study(rows=1)
     object.__setattr__(study.rows[0], "id", "[red]A[/red]\x1b[31m")
@@ -89,13 +46,6 @@ def test_a_narrow_terminal_breaks_no_number_and_no_word():
         for part in (*show_check(ENGLISH, check).split(", end")[0].split(), used):
             assert part in text
     assert "Utilisation" in text
-
-
-def test_a_pipe_is_as_wide_as_the_table(monkeypatch):
-    monkeypatch.delenv("COLUMNS", raising=False)
-    assert open_console().width == 160
-    monkeypatch.setenv("COLUMNS", "70")
-    assert open_console().width == 70
 
 
 def test_of_several_studies_each_stands_below_its_profile(capsys):

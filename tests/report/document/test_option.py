@@ -19,16 +19,6 @@ def study_file(tmp_path, monkeypatch):
     return path
 
 
-def test_a_document_is_written_where_it_is_wanted(call, study_file, tmp_path):
-    ended = call("report", study_file, "--docx", *ONLY)
-    assert ended.code == 1  # the study fails
-    assert [one.name for one in (tmp_path / "netdesign-out").glob("[!.]*")] == [
-        "report.docx"
-    ]
-    call("report", study_file, "--out", "b", "--no-excel", "--detail", "summary")
-    assert [one.name for one in (tmp_path / "b").glob("[!.]*")] == ["report.html"]
-
-
 def test_a_template_is_a_wish_for_a_document(call, study_file, tmp_path):
     own = docx.Document()
     own.sections[0].footer.paragraphs[0].text = "ours"

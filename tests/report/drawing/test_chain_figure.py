@@ -10,7 +10,6 @@ from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.words import ENGLISH, Words
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
-from tests.report.build_study import build_row
 from tests.report.drawing.drawn import MODES, build_chains
 
 TEXT = re.compile(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>([^<]*)</text>')
@@ -41,20 +40,6 @@ def test_every_check_of_a_force_is_a_link_inside_the_picture(seed, language):
     )
     right = [float(x) for x in re.findall(r"([\d.]+),[\d.]+ [\d.]+,", svg)]
     assert max(right) <= WIDTH
-
-
-@each("seed", SEEDS)
-def test_the_weakest_link_of_the_row_alone_has_a_thick_border(seed):
-    draw = random.Random(seed)
-    row = build_chains(draw)
-    used = [draw.uniform(0.01, 1.4) for _ in row.checks]
-    row = use(row, used)
-    checks = [replace(one, verdict=Verdict.PASS) for one in row.checks]
-    svg = draw_chains(replace(row, checks=checks), ENGLISH)
-    assert svg.count('stroke-width="1.8"') == 1
-    bold = list_bold(svg)
-    largest = ENGLISH.show_number("utilisation", max(used))
-    assert sum(text.endswith(largest) for text in bold) >= 1
 
 
 def test_of_two_places_the_larger_utilisation_counts():
@@ -92,10 +77,6 @@ def test_a_proof_elsewhere_and_nothing_that_resists_are_shown():
     svg = draw_chains(replace(row, checks=[declared, gone]), ENGLISH)
     assert "†" in svg
     assert "∞" in svg
-
-
-def test_a_row_without_forces_has_no_chain():
-    assert draw_chains(replace(build_row("A", 3, scale=1.0), checks=[]), ENGLISH) == ""
 
 
 def test_a_check_that_is_not_proven_shows_its_number_behind_a_mark():

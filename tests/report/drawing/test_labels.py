@@ -31,13 +31,3 @@ def test_no_label_meets_another_or_leaves_its_drawing(language, tmp_path):
     drawings.append(draw_section(without_pressure(build_section(rng)), "o", words))
     assert all(drawings)
     assert list_meeting(drawings, tmp_path) == []
-
-
-def test_labels_that_meet_are_found(tmp_path):
-    """The measurement itself: one text over another, one beyond the edge."""
-    svg = (
-        '<svg role="img" aria-label="x" width="300" height="60" viewBox="0 0 300 60">'
-        '<text x="20" y="30">one word</text><text x="30" y="32">other</text>'
-        '<text x="280" y="50">too far</text></svg>'
-    )
-    assert list_meeting([svg], tmp_path) == ["other / one word: x", "too far: x"]

@@ -3,12 +3,8 @@
 from datetime import datetime, timedelta
 from xml.etree import ElementTree
 
-import pytest
-
 from netdesign.report.drawing.measured_figure import (
     draw_measured,
-    find_detail,
-    find_span,
 )
 from netdesign.report.words import Words
 
@@ -53,26 +49,3 @@ def test_figure_has_readings_chain_band_and_air():
     assert "23/01" in shown
     bare = draw_measured(an_entry(60, 12), {}, words)
     assert words("winter_measured.air") not in bare
-
-
-def test_long_series_name_months_and_draw_no_dots():
-    few, many = (draw_measured(an_entry(n, 8), {}, Words()) for n in (140, 400))
-    assert few.count("<rect") == 140
-    assert many.count("<rect") == 0
-    assert "04/2003" in many
-    first, last = find_span(an_entry(400, 8))
-    assert (last - first) / timedelta(days=1) == pytest.approx(399 / 3 + 2)
-
-
-def test_detail_holds_the_largest_range():
-    entry = an_entry(400, 6, jump=240)
-    span = find_detail(entry)
-    jump = BEGIN + timedelta(hours=6 * 240)
-    assert span[1] - span[0] == timedelta(days=10)
-    assert span[0] < jump < span[1]
-    assert "<svg" in draw_measured(entry, {}, Words(), span)
-
-
-@pytest.mark.parametrize(("count", "hours"), [(400, 12), (40, 6)])
-def test_thin_or_short_series_have_no_detail(count, hours):
-    assert find_detail(an_entry(count, hours)) is None

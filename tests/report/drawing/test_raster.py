@@ -5,11 +5,9 @@ import io
 import pytest
 from PIL import Image
 
-from netdesign.report.drawing.plain_svg import TEXT_PT, Chart, measure_words
+from netdesign.report.drawing.plain_svg import Chart
 from netdesign.report.drawing.raster import (
     DOTS_PER_INCH,
-    read_size,
-    read_title,
     render_png,
 )
 
@@ -49,37 +47,6 @@ def test_an_area_bounds_loose_lines():
     picture = draw(sketch)
     assert look(picture, 40, 36.2) == (0x1B, 0x1E, 0x22)
     assert look(picture, 100, 36.2) == (255, 255, 255)
-
-
-@pytest.mark.parametrize(
-    ("anchor", "left"), [("start", 72), ("middle", 50), ("end", 20)]
-)
-def test_words_are_set_by_their_anchor(anchor, left):
-    """A sign that the font lacks is a question mark, and no warning."""
-    sketch = Chart()
-    sketch.text(72.0, 40.0, "MMMMM$_{\u4e2d", anchor=anchor, bold=True)
-    picture = draw(sketch).convert("L").point(lambda level: 255 * (level < 128))
-    found = picture.getbbox()[0] * 72.0 / DOTS_PER_INCH
-    assert found == pytest.approx(left, abs=8.0)
-
-
-@pytest.mark.parametrize("is_bold", [True, False])
-def test_no_line_of_text_is_longer_than_the_drawing_reckons(is_bold):
-    """The font is wider than those of a page: labels side by side would meet."""
-    words = "wwwwww mass \u03b8 = 27.5\u00b0"
-    sketch = Chart()
-    sketch.text(3.0, 40.0, words, bold=is_bold)
-    dark = draw(sketch).convert("L").point(lambda level: 255 * (level < 128))
-    left, _, right, _ = dark.getbbox()
-    most = measure_words(words, TEXT_PT)
-    assert 0.8 * most < (right - left) * 72.0 / DOTS_PER_INCH <= most + 1.0
-
-
-def test_bytes_words_and_size_of_a_drawing():
-    svg = Chart().write(72.0, "A <title>", width=144.0)
-    assert render_png(svg) == render_png(svg)
-    assert read_title(svg) == "A <title>"
-    assert read_size(svg) == (144.0, 72.0)
 
 
 @pytest.mark.parametrize("shape", ['<image x="1"/>', '<path d="M0 0Q1 1 2 2"/>'])

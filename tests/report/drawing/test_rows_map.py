@@ -9,7 +9,6 @@ import pytest
 
 from netdesign.files.rows_map import MeasuredPlace, RowsMap
 from netdesign.outcome import Verdict
-from netdesign.report.drawing.raster import render_png
 from netdesign.report.drawing.rows_map import MappedRow, draw_rows_map
 from netdesign.report.words import Words
 
@@ -84,16 +83,3 @@ def test_names_stand_apart_and_inside():
         assert 0.0 < x < wide
         assert 0.0 < y < tall
         assert all(math.dist((x, y), one) > 8.0 for one in places[:number])
-
-
-@pytest.mark.parametrize(("link", "role"), [("row-7", "group"), ("", "img")])
-def test_names_lead_to_their_rows(link, role):
-    """A picture hides what is in it from a screen reader; links may not be hidden."""
-    root = ElementTree.fromstring(draw(5, link=link))
-    assert root.get("role") == role
-    found = [one.get("href") for one in root.iter(f"{SVG}a")]
-    assert found == (["#row-7"] * len(KINDS) if link else [])
-
-
-def test_a_document_can_show_it():
-    assert render_png(draw(6)).startswith(b"\x89PNG")

@@ -25,13 +25,6 @@ def test_section_names_every_force(slope, tilt):
     assert f"ψ = {slope:.1f}°" in shown
 
 
-def test_stick_and_slip_differ_without_colour():
-    drawing = ROW.drawing
-    both = draw_section(drawing, "x")
-    stuck = draw_section(replace(drawing, sticks=[True] * 25), "x")
-    assert both.count("stroke-dasharray") > stuck.count("stroke-dasharray")
-
-
 def test_slack_anchor_keeps_its_place_in_the_section():
     arrows = [
         replace(a, force_x_kN=0.0, force_y_kN=0.0) for a in ROW.drawing.arrows[3:]
@@ -40,11 +33,3 @@ def test_slack_anchor_keeps_its_place_in_the_section():
     shown = texts(draw_section(replace(ROW.drawing, arrows=arrows), "x"))
     assert "Downhill anchor" in shown
     assert "0.00 kN" in shown
-
-
-def test_drawings_repeat_byte_for_byte_without_a_date():
-    svg = draw_section(ROW.drawing, "x")
-    assert svg == draw_section(ROW.drawing, "x")
-    assert "<metadata" not in svg
-    assert "<style" not in svg
-    assert "<script" not in svg
